@@ -1,0 +1,12 @@
+"""The only place where an angle is wrapped."""
+
+from __future__ import annotations
+
+import math
+
+TWO_PI = 2.0 * math.pi
+
+
+def wrap(angle: float) -> float:
+    """The same angle in [-pi, pi), rad. Works on NumPy arrays as well."""
+    return (angle + math.pi) % TWO_PI - math.pi

@@ -1,0 +1,23 @@
+"""Lets one formula serve a single number (with `math`, fast) and a NumPy array (vectorised)."""
+
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+_SCALAR: Any = SimpleNamespace(
+    sin=math.sin, cos=math.cos, tan=math.tan, tanh=math.tanh, atan=math.atan, atan2=math.atan2,
+    hypot=math.hypot, sqrt=math.sqrt, exp=math.exp,
+)  # fmt: skip
+_ARRAY: Any = SimpleNamespace(
+    sin=np.sin, cos=np.cos, tan=np.tan, tanh=np.tanh, atan=np.arctan, atan2=np.arctan2,
+    hypot=np.hypot, sqrt=np.sqrt, exp=np.exp,
+)  # fmt: skip
+
+
+def functions_of(value: Any) -> Any:
+    """The elementary functions that fit `value`: NumPy's for an array, `math`'s for a number."""
+    return _ARRAY if isinstance(value, np.ndarray) else _SCALAR

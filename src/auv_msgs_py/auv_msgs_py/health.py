@@ -1,0 +1,95 @@
+"""What a node tells about itself in /diagnostics."""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from collections.abc import Callable
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+
+from auv_msgs_py import qos, topics
+from auv_msgs_py.errors import MessageRefused
+
+_OK, _WARN, _ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
+#: How long a refused message keeps the status at WARN, s of wall time.
+_MEMORY = 5.0
+
+
+class Health:
+    """Counts what was refused, and publishes a status twice a second of wall time.
+
+    Wall time, because a health report must also come when the ROS clock stands still.
+
+    Args:
+        node: the node that reports.
+        values: called for each report; further key-value pairs.
+        waiting_for: called for each report; topics a step waits for ("" if none).
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        values: Callable[[], dict[str, Any]] = dict,
+        waiting_for: Callable[[], str] = str,
+        period: float = 0.5,
+    ) -> None:
+        self._node = node
+        self._values = values
+        self._waiting_for = waiting_for
+        self.refused: Counter[str] = Counter()
+        self._last_refusal = ""
+        self._last_refusal_at = float("-inf")
+        self._condition: dict[str, tuple[bytes, str]] = {}
+        self._publisher = node.create_publisher(
+            DiagnosticArray, topics.DIAGNOSTICS.name, qos.offered(topics.DIAGNOSTICS)
+        )
+        self._timer = node.create_timer(period, self.publish, clock=Clock(clock_type=ClockType.STEADY_TIME))
+
+    def refuse(self, error: MessageRefused) -> None:
+        """Count a refused message; its kind is logged once, its number is in every report."""
+        self.refused[error.topic] += 1
+        text = str(error)
+        if self.refused[error.topic] == 1 or text.split(":")[0] not in self._last_refusal:
+            self._node.get_logger().error(f"refused: {text}")
+        self._last_refusal, self._last_refusal_at = text, time.monotonic()
+
+    def warn(self, name: str, text: str) -> None:
+        """Set or (with an empty text) clear a lasting condition; a new one is logged."""
+        self._set(name, _WARN, text)
+
+    def error(self, name: str, text: str) -> None:
+        """As `warn`, one level higher."""
+        self._set(name, _ERROR, text)
+
+    def _set(self, name: str, level: bytes, text: str) -> None:
+        if not text:
+            self._condition.pop(name, None)
+            return
+        if name not in self._condition:
+            self._node.get_logger().warning(text)
+        self._condition[name] = (level, text)
+
+    def publish(self) -> None:
+        """Send one report."""
+        level, message = _OK, "ok"
+        if time.monotonic() - self._last_refusal_at < _MEMORY:
+            level, message = _WARN, f"refused: {self._last_refusal}"
+        for condition_level, text in self._condition.values():
+            if condition_level > level:
+                level, message = condition_level, text
+        values = {"waiting_for": self._waiting_for(), **self._values()}
+        values |= {f"refused {topic}": count for topic, count in self.refused.items()}
+        status = DiagnosticStatus(
+            level=level,
+            name=self._node.get_fully_qualified_name(),
+            message=message,
+            hardware_id=self._node.get_name(),
+            values=[KeyValue(key=key, value=str(value)) for key, value in values.items()],
+        )
+        array = DiagnosticArray(status=[status])
+        array.header.stamp = self._node.get_clock().now().to_msg()
+        self._publisher.publish(array)

@@ -1,0 +1,104 @@
+"""Settings classes as ROS parameters: declared with description, range and read-only flag, changed whole or not at all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
+from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.settings import SettingInfo, flattened, leaves, nested, validated
+
+T = TypeVar("T")
+_BUILT_IN = ("use_sim_time", "start_type_description_service", "qos_overrides")
+
+
+def declare(node: Node, cls: type[T], on_change: Callable[[T], None] | None = None) -> T:
+    """Declare every leaf of a settings class as a parameter of the node.
+
+    Args:
+        node: the node.
+        cls: its settings class; every leaf has a default.
+        on_change: called with the new settings after parameters marked `live` were changed.
+
+    Returns:
+        The settings with the node's overrides applied.
+
+    Raises:
+        ConfigurationError: an override is unknown, of the wrong type or out of range.
+    """
+    known = {leaf.name for leaf in leaves(cls)}
+    for name in node._parameter_overrides:  # rclpy offers no public way to list them
+        if name not in known and not name.startswith(_BUILT_IN):
+            raise ConfigurationError(f"{node.get_name()}: parameter {name}", "an unknown name", "a declared parameter")
+    flat: dict[str, Any] = {}
+    for leaf in leaves(cls):
+        override = node._parameter_overrides.get(leaf.name)
+        if isinstance(leaf.default, float) and override is not None and isinstance(override.value, int):
+            # `-p radius:=6` is meant as 6.0
+            node._parameter_overrides[leaf.name] = Parameter(leaf.name, value=float(override.value))
+        try:
+            flat[leaf.name] = node.declare_parameter(leaf.name, leaf.default, _descriptor(leaf)).value
+        except (InvalidParameterTypeException, InvalidParameterValueException):
+            found = override.value if override is not None else leaf.default
+            raise ConfigurationError(
+                f"{node.get_name()}: parameter {leaf.name}", repr(found), _expectation(leaf)
+            ) from None
+    current = validated(cls, nested(flat), f"{node.get_name()}: parameter")
+    _accept_changes(node, cls, current, on_change)
+    return current
+
+
+def _accept_changes(node: Node, cls: type[T], current: T, on_change: Callable[[T], None] | None) -> None:
+    names = {leaf.name for leaf in leaves(cls)}
+    pending: list[T] = [current]
+
+    def check(parameters: list[Parameter]) -> SetParametersResult:
+        # Always from what is set now: an earlier change may have been refused by somebody else.
+        flat = {name: node.get_parameter(name).value for name in names}
+        flat |= {parameter.name: parameter.value for parameter in parameters if parameter.name in names}
+        try:
+            pending[0] = validated(cls, nested(flat), f"{node.get_name()}: parameter")
+        except ConfigurationError as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        return SetParametersResult(successful=True)
+
+    def apply(parameters: list[Parameter]) -> None:
+        if on_change is not None and any(parameter.name in names for parameter in parameters):
+            on_change(pending[0])
+
+    node.add_on_set_parameters_callback(check)
+    node.add_post_set_parameters_callback(apply)
+
+
+def _descriptor(leaf: SettingInfo) -> ParameterDescriptor:
+    unit = f" [{leaf.unit}]" if leaf.unit else ""
+    descriptor = ParameterDescriptor(description=f"{leaf.doc}{unit}", read_only=not leaf.live)
+    if isinstance(leaf.default, float) and (leaf.minimum is not None or leaf.maximum is not None):
+        largest = 1.7e308
+        descriptor.floating_point_range = [
+            FloatingPointRange(
+                from_value=-largest if leaf.minimum is None else float(leaf.minimum),
+                to_value=largest if leaf.maximum is None else float(leaf.maximum),
+            )
+        ]
+    return descriptor
+
+
+def _expectation(leaf: SettingInfo) -> str:
+    kind = {bool: "true or false", float: "a number", int: "a whole number", str: "a text", list: "a list of texts"}
+    text = kind.get(type(leaf.default), "another type")
+    if leaf.minimum is not None:
+        text += f" from {leaf.minimum:g}"
+    if leaf.maximum is not None:
+        text += f" up to {leaf.maximum:g}"
+    return text
+
+
+def as_overrides(settings: Any) -> dict[str, Any]:
+    """A settings object as name -> value, to hand to a node."""
+    return {name: list(v) if isinstance(v, tuple) else v for name, v in flattened(settings).items()}

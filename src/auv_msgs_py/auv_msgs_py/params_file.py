@@ -1,0 +1,72 @@
+"""Parameter files in ROS 2's own format, checked against the nodes' settings classes.
+
+The same file serves `ros2 run ... --params-file`, the launcher and `closed_loop`:
+
+    /**/heading_autopilot:
+      ros__parameters:
+        nism: {k1: 0.8}
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from auv_msgs_py import yaml_file
+from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.settings import flattened, nested, validated
+
+
+def load(path: Path, classes: Mapping[str, type[Any]]) -> dict[str, Any]:
+    """Read a parameter file.
+
+    Args:
+        path: the YAML file.
+        classes: node name -> settings class that holds all of its parameters.
+
+    Returns:
+        node name -> settings object; nodes the file does not mention have their defaults.
+
+    Raises:
+        ConfigurationError: naming file and key, what was found and what was expected.
+    """
+    data = yaml_file.parse(path)
+    if not isinstance(data, dict):
+        raise ConfigurationError(str(path), repr(data), "a mapping of node names to ros__parameters")
+    values: dict[str, dict[str, Any]] = {name: {} for name in classes}
+    for pattern, body in data.items():
+        name = str(pattern).rsplit("/", 1)[-1]
+        if name not in classes:
+            known = ", ".join(f"/**/{known}" for known in classes)
+            raise ConfigurationError(f"{path}: {pattern}", "an unknown node", f"one of {known}")
+        if not isinstance(body, dict) or set(body) != {"ros__parameters"}:
+            raise ConfigurationError(f"{path}: {pattern}", repr(body), "one key, ros__parameters")
+        parameters = body["ros__parameters"]
+        if not isinstance(parameters, dict):
+            raise ConfigurationError(f"{path}: {pattern}.ros__parameters", repr(parameters), "a mapping")
+        values[name] |= nested(_undotted(parameters))
+    return {name: validated(cls, values[name], f"{path}: {name}") for name, cls in classes.items()}
+
+
+def _undotted(parameters: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """ROS takes `a.b: 1` and `a: {b: 1}` alike; so do we."""
+    flat: dict[str, Any] = {}
+    for key, value in parameters.items():
+        if isinstance(value, dict):
+            flat |= _undotted(value, f"{prefix}{key}.")
+        else:
+            flat[f"{prefix}{key}"] = value
+    return flat
+
+
+def as_ros(configurations: Mapping[str, Any]) -> dict[str, Any]:
+    """Settings objects as the contents of a parameter file: every value spelled out."""
+    return {
+        f"/**/{name}": {"ros__parameters": {key: _plain(value) for key, value in flattened(cfg).items()}}
+        for name, cfg in configurations.items()
+    }
+
+
+def _plain(value: Any) -> Any:
+    return list(value) if isinstance(value, tuple) else value

@@ -1,0 +1,194 @@
+"""The base of every node, and the loop that runs it."""
+
+from __future__ import annotations
+
+import signal
+import sys
+import time
+from collections.abc import Callable, Sequence
+from typing import Any, TypeVar
+
+import rclpy
+from rclpy.clock import Clock, ClockType
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.signals import SignalHandlerOptions
+
+from auv_msgs_py import params, qos
+from auv_msgs_py.errors import LockstepBroken, MessageRefused, SuiteError
+from auv_msgs_py.health import Health
+from auv_msgs_py.lockstep_gate import LockstepGate
+from auv_msgs_py.topics import Topic
+
+try:
+    from rclpy.experimental import EventsExecutor
+except ImportError:  # an rclpy without it: slower, otherwise the same
+    EventsExecutor = SingleThreadedExecutor
+
+T = TypeVar("T")
+#: Exit code for input that cannot be used; 1 is for everything else that went wrong.
+EXIT_BAD_INPUT = 2
+
+
+class SuiteNode(Node):  # type: ignore[misc]
+    """A node with declared settings, contract topics and health.
+
+    Args:
+        name: the node's name.
+        parameters: its settings class, which has `lockstep` and `recorded`.
+        arguments: handed on to `rclpy.node.Node` (namespace, cli_args, ...).
+    """
+
+    def __init__(self, name: str, parameters: type[Any], **arguments: Any) -> None:
+        super().__init__(name, **arguments)
+        self.parameters: Any = params.declare(self, parameters, self._changed)
+        self.publishers_by_topic: dict[Topic, Publisher] = {}
+        self.fault = ""
+        self.finished = False
+        self._gate: LockstepGate | None = None
+        self._kept: Callable[[], None] | None = None
+        self.health = Health(self, self.report, self.waiting_for)
+
+    def report(self) -> dict[str, Any]:
+        """Further values for /diagnostics."""
+        return {}
+
+    def waiting_for(self) -> str:
+        """The topic that the current step still lacks, for /diagnostics."""
+        return ""
+
+    def configure(self) -> None:
+        """Called after `self.parameters` was changed in flight."""
+
+    def _changed(self, parameters: Any) -> None:
+        self.parameters = parameters
+        self.configure()
+
+    def advertise(self, topic: Topic) -> Publisher:
+        """A publisher as the contract has it."""
+        publisher = self.create_publisher(qos.message_class(topic.type), topic.name, qos.offered(topic))
+        self.publishers_by_topic[topic] = publisher
+        return publisher
+
+    def listen(self, topic: Topic, callback: Callable[[Any], None]) -> None:
+        """A subscription as the contract has it; a refused message is counted and reported, never raised."""
+
+        def guarded(message: Any) -> None:
+            try:
+                callback(message)
+            except MessageRefused as error:
+                self.health.refuse(error)
+            except LockstepBroken as error:
+                self.fail(str(error))
+
+        self.create_subscription(
+            qos.message_class(topic.type), topic.name, guarded, qos.requested(topic, self.parameters.lockstep)
+        )
+
+    def now(self) -> float:
+        """ROS time, s."""
+        return float(self.get_clock().now().nanoseconds) * 1e-9
+
+    def close_gate(self) -> None:
+        """Lockstep: call once after the last `advertise`; from then on `answer` waits for all readers."""
+        if self.parameters.lockstep:
+            self._gate = LockstepGate(self, dict(self.publishers_by_topic), self.parameters.recorded)
+
+    def answer(self, publish: Callable[[], None]) -> None:
+        """Publish now, or in lockstep as soon as every reader is matched. One step is under way at a time."""
+        if self._gate is None:
+            publish()
+        elif not self._gate.waiting_for():
+            self._gate = None
+            publish()
+        elif self._kept is None:
+            self._kept = publish
+            self._retry = self.create_timer(0.005, self._answer_kept, clock=Clock(clock_type=ClockType.STEADY_TIME))
+        else:
+            raise LockstepBroken(f"{self.get_name()}: a second answer while {self._gate.waiting_for()} is awaited")
+
+    def _answer_kept(self) -> None:
+        if self._kept is None or (self._gate is not None and self._gate.waiting_for()):
+            return
+        self._gate = None
+        publish, self._kept = self._kept, None
+        self.destroy_timer(self._retry)
+        publish()
+
+    def gate_waits_for(self) -> str:
+        """Which reader is still missing, for /diagnostics; empty when all are matched."""
+        return self._gate.waiting_for() if self._gate is not None else ""
+
+    def busy(self) -> bool:
+        """Asked after a stop was requested: whether there is something left to take in."""
+        return False
+
+    def close(self) -> None:
+        """Called once before the node is destroyed, while ROS is still up."""
+
+    def fail(self, text: str) -> None:
+        """End this node with exit code 1 and one line."""
+        self.get_logger().fatal(text)
+        self.health.error("fault", text)
+        self.health.publish()
+        self.fault = text
+
+
+#: How long nodes may go on after a stop was requested, s of wall time.
+_GRACE = 5.0
+
+
+class _Stop:
+    """SIGINT and SIGTERM set a flag; ROS stays up, so that a node can finish what it does."""
+
+    def __init__(self) -> None:
+        self.requested = False
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, self._request)
+
+    def _request(self, *_: object) -> None:
+        self.requested = True
+
+
+def spin(nodes: Sequence[SuiteNode], stop: _Stop) -> int:
+    """Run nodes in this thread until a signal, a fault, or until one has finished; returns the exit code."""
+    executor = EventsExecutor()
+    for node in nodes:
+        executor.add_node(node)
+    # EventsExecutor.spin() and spin_once(None) deliver nothing in rclpy 7.1; bounded waits do, and they
+    # also let Python see the signal.
+    while not stop.requested and not any(node.fault or node.finished for node in nodes):
+        executor.spin_once(timeout_sec=0.1)
+    deadline = time.monotonic() + _GRACE
+    while any(node.busy() for node in nodes) and time.monotonic() < deadline:
+        executor.spin_once(timeout_sec=0.02)
+    for node in nodes:
+        if node.fault:
+            print(f"{node.get_fully_qualified_name()}: {node.fault}", file=sys.stderr)
+    return 1 if any(node.fault for node in nodes) else 0
+
+
+def run_nodes(factories: Sequence[Callable[[], SuiteNode]], args: Sequence[str] | None = None) -> int:
+    """The body of every executable: make the nodes, run them, leave nothing behind.
+
+    Returns:
+        0 after a signal or when a node has finished, 1 after a fault, 2 for input that cannot be used.
+    """
+    rclpy.init(
+        args=list(args) if args is not None else None, signal_handler_options=SignalHandlerOptions.NO
+    )
+    stop = _Stop()
+    nodes: list[SuiteNode] = []
+    try:
+        for factory in factories:
+            nodes.append(factory())
+        return spin(nodes, stop)
+    except SuiteError as error:
+        print(error, file=sys.stderr)
+        return EXIT_BAD_INPUT
+    finally:
+        for node in nodes:
+            node.close()
+            node.destroy_node()
+        rclpy.try_shutdown()

@@ -1,0 +1,64 @@
+"""The one table of topics: name, type, who publishes, who subscribes, which QoS. Names are relative."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+PLANT = "remus_plant"
+OBSERVER = "current_observer"
+GUIDANCE = "ailos_guidance"
+AUTOPILOT = "heading_autopilot"
+RECORDER = "recorder"
+
+
+class Topic(NamedTuple):
+    """One row of the wire contract.
+
+    `subscribers` are the suite's own nodes that take part in the control chain; anybody else may listen.
+    `latched` topics are transient local on both sides.
+    """
+
+    name: str
+    type: str
+    publisher: str
+    subscribers: tuple[str, ...] = ()
+    latched: bool = False
+
+
+CLOCK = Topic("/clock", "rosgraph_msgs/msg/Clock", PLANT)
+ODOM = Topic("odom", "nav_msgs/msg/Odometry", PLANT, (OBSERVER, GUIDANCE, AUTOPILOT))
+WATER_VELOCITY = Topic(
+    "velocity_through_water", "geometry_msgs/msg/TwistWithCovarianceStamped", PLANT, (OBSERVER, GUIDANCE)
+)
+RUDDER_STATE = Topic("rudder_state", "std_msgs/msg/Float64", PLANT)
+TRUE_CURRENT = Topic("true_current", "geometry_msgs/msg/Vector3Stamped", PLANT)
+CURRENT_ESTIMATE = Topic("current_estimate", "geometry_msgs/msg/Vector3Stamped", OBSERVER, (GUIDANCE,))
+DESIRED_YAW = Topic("desired_yaw", "std_msgs/msg/Float64", GUIDANCE, (AUTOPILOT,))
+DESIRED_YAW_RATE = Topic("desired_yaw_rate", "std_msgs/msg/Float64", GUIDANCE, (AUTOPILOT,))
+DESIRED_THRUST = Topic("desired_thrust", "std_msgs/msg/Float64", GUIDANCE, (AUTOPILOT,))
+VIRTUAL_POINT = Topic("virtual_point", "geometry_msgs/msg/PoseStamped", GUIDANCE)
+PATH_PARAMETER = Topic("path_parameter", "std_msgs/msg/Float64", GUIDANCE)
+PATH_ERROR = Topic("path_error", "geometry_msgs/msg/Vector3Stamped", GUIDANCE)
+DISTANCE_TO_GO = Topic("distance_to_go", "std_msgs/msg/Float64", GUIDANCE)
+PATH = Topic("path", "nav_msgs/msg/Path", GUIDANCE, latched=True)
+MISSION_STATE = Topic("mission_state", "std_msgs/msg/String", GUIDANCE, (PLANT,), latched=True)
+RUDDER_CMD = Topic("rudder_cmd", "std_msgs/msg/Float64", AUTOPILOT, (PLANT,))
+THRUST_CMD = Topic("thrust_cmd", "std_msgs/msg/Float64", AUTOPILOT, (PLANT,))
+DIAGNOSTICS = Topic("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", "every node")
+#: Extension of the contract, lockstep only: how many odometries the recorder has written, so that the
+#: simulator never outruns it.
+RECORDED_STEPS = Topic("recorded_steps", "std_msgs/msg/UInt64", RECORDER, (PLANT,))
+
+#: Published once per odometry while the mission runs: every one of them has one message a step.
+PER_STEP = (
+    ODOM, WATER_VELOCITY, RUDDER_STATE, TRUE_CURRENT, CURRENT_ESTIMATE, DESIRED_YAW, DESIRED_YAW_RATE,
+    DESIRED_THRUST, VIRTUAL_POINT, PATH_PARAMETER, PATH_ERROR, DISTANCE_TO_GO, RUDDER_CMD, THRUST_CMD,
+)  # fmt: skip
+CONTRACT = (CLOCK, *PER_STEP, PATH, MISSION_STATE, DIAGNOSTICS)
+
+START_SERVICE = "start"
+ABORT_SERVICE = "abort"
+RESET_SERVICE = "reset"
+
+#: The simulator's first stamp: zero reads as "unset" in ROS 2.
+FIRST_STAMP_NS = 1_000_000_000

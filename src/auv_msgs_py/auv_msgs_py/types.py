@@ -1,0 +1,54 @@
+"""The immutable values that pass between laws: all NED / FRD, SI units, radians.
+
+The paper's notation: x north, y east, psi clockwise from north, body x forward and y starboard.
+Named tuples, because they are made many thousand times a second.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Navigation(NamedTuple):
+    """Where the vehicle is: x, y in metres (north, east), psi in rad, r = d psi/dt in rad/s."""
+
+    x: float
+    y: float
+    psi: float
+    r: float
+
+
+class WaterVelocity(NamedTuple):
+    """Velocity through the water in the body frame, Eq. (16): ur forward, vr to starboard, m/s."""
+
+    ur: float
+    vr: float
+
+
+class Current(NamedTuple):
+    """Velocity of the water over ground: Vx north, Vy east, m/s."""
+
+    Vx: float
+    Vy: float
+
+
+class Reference(NamedTuple):
+    """What guidance asks for: psi_d (rad), r_d (its feed-forward rate, rad/s) and thrust XT (N).
+
+    Thrust is greater than 0 exactly while the mission is running, so one value says both.
+    """
+
+    psi_d: float
+    r_d: float
+    thrust: float
+
+
+class Command(NamedTuple):
+    """What the vehicle is told: rudder angle delta (rad, positive to port) and thrust XT (N)."""
+
+    rudder: float
+    thrust: float
+
+
+STOP = Command(0.0, 0.0)
+NO_CURRENT = Current(0.0, 0.0)
