@@ -1,0 +1,57 @@
+"""Nonlinear iterative sliding mode heading control, Eqs. (45), (46)."""
+
+from __future__ import annotations
+
+import math
+
+from auv_msgs_py.settings import setting, settings
+from auv_path_following.control.controller import ControllerOutput, HeadingInputs
+
+
+@settings
+class NismConfig:
+    """Table 4's gains. The rudder rate never exceeds kp + ks."""
+
+    k1: float = setting(0.8, "fastest decay of the heading error", unit="rad/s", gt=0.0, le=10.0, live=True)
+    k2: float = setting(1.5, "narrows the range of psi_e with exponential decay", unit="1/rad", gt=0.0, le=100.0, live=True)
+    k3: float = setting(0.8, "fastest decay of sigma_1", unit="rad/s^2", gt=0.0, le=10.0, live=True)
+    k4: float = setting(1.0, "narrows the range of sigma_1 with exponential decay", unit="s/rad", gt=0.0, le=100.0, live=True)
+    k5: float = setting(15.0, "narrows the range of sigma_2 with proportional rudder rate", unit="s^2/rad", gt=0.0, le=1000.0, live=True)
+    kp: float = setting(0.1745, "bound of the smooth part of the rudder rate", unit="rad/s", gt=0.0, le=10.0, live=True)
+    ks: float = setting(0.0, "switching part of the rudder rate, against varying disturbance", unit="rad/s", ge=0.0, le=10.0, live=True)
+
+
+class Nism:
+    """An incremental law: it moves the rudder, and needs no model of the hull.
+
+    Args:
+        config: gains.
+        max_rudder: where the integral of Eq. (46) is clamped, rad, so that it cannot wind up.
+    """
+
+    def __init__(self, config: NismConfig | None = None, max_rudder: float = math.radians(35.0)) -> None:
+        self.config = config or NismConfig()
+        self.max_rudder = max_rudder
+        self.reset()
+
+    def reset(self) -> None:
+        """Start again from a neutral rudder."""
+        self._rudder = 0.0
+
+    def update(self, inputs: HeadingInputs, dt: float) -> ControllerOutput:
+        """Eqs. (45), (46); `dt` is 0 on the first update, which then only reports the surfaces."""
+        g = self.config
+        psi_e = inputs.psi_e
+        psi_e_dot = inputs.r - inputs.r_d
+        psi_e_ddot = inputs.r_dot - inputs.r_d_dot
+
+        bend = math.tanh(g.k2 * psi_e)
+        sigma_1 = g.k1 * bend + psi_e_dot
+        # sech^2 = 1 - tanh^2
+        sigma_1_dot = g.k1 * g.k2 * (1.0 - bend * bend) * psi_e_dot + psi_e_ddot
+        sigma_2 = g.k3 * math.tanh(g.k4 * sigma_1) + sigma_1_dot
+
+        sign = (sigma_2 > 0.0) - (sigma_2 < 0.0)
+        rate = g.kp * math.tanh(g.k5 * sigma_2) + g.ks * sign
+        self._rudder = min(max(self._rudder + rate * dt, -self.max_rudder), self.max_rudder)
+        return ControllerOutput(self._rudder, sigma_1, sigma_2)

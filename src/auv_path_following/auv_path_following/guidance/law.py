@@ -1,0 +1,42 @@
+"""The protocol every guidance law follows: from the cross-track error to the desired heading."""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Protocol
+
+from auv_msgs_py.types import Current
+
+
+class LawInputs(NamedTuple):
+    """What a law may look at.
+
+    ye (m, starboard positive) and chi_p (rad) as in Eq. (20); Ur (m/s) and beta_r (rad) as in Eq. (17);
+    the current (m/s, NED) as the observer estimates it, zero if it is not to be compensated.
+    """
+
+    ye: float
+    chi_p: float
+    Ur: float
+    beta_r: float
+    current: Current
+
+
+class LawOutput(NamedTuple):
+    """psi_d and its parts: psi_d = chi_p + chi_r - beta_r, Eq. (24), rad; alpha in m; theta_n without unit."""
+
+    psi_d: float
+    chi_r: float
+    alpha: float
+    theta_n: float
+
+
+class GuidanceLaw(Protocol):
+    """One small stateful object per law."""
+
+    def update(self, inputs: LawInputs, dt: float) -> LawOutput:
+        """The desired heading for this instant; `dt` seconds have passed since the last update."""
+        ...
+
+    def reset(self) -> None:
+        """Forget all state."""
+        ...

@@ -1,0 +1,152 @@
+"""Guidance as a whole: virtual point, switching and a line-of-sight law in their order."""
+
+from __future__ import annotations
+
+import math
+from typing import Literal, NamedTuple
+
+from auv_msgs_py.angles import wrap
+from auv_msgs_py.settings import setting, settings
+from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
+from auv_path_following.guidance.ailos import Ailos, AilosConfig
+from auv_path_following.guidance.law import GuidanceLaw, LawInputs
+from auv_path_following.guidance.switching import CircleOfAcceptance, SwitchingConfig
+from auv_path_following.guidance.virtual_point import (
+    VirtualPoint,
+    VirtualPointConfig,
+    path_errors,
+    tangential_speed,
+)
+from auv_path_following.paths.composite import CompositePath
+
+
+@settings
+class PathFollowerConfig:
+    """Everything about guidance that is not the path."""
+
+    law: Literal["ailos"] = setting("ailos", "guidance law")
+    compensate_current: bool = setting(True, "use the estimated current in Eqs. (22) and (31)", live=True)
+    minimum_speed: float = setting(
+        0.2, "below this speed through water beta_r and alpha mean nothing and are taken as 0", unit="m/s", ge=0.0, live=True
+    )
+    ailos: AilosConfig = setting(factory=AilosConfig, doc="AILOS")
+    virtual_point: VirtualPointConfig = setting(factory=VirtualPointConfig, doc="virtual point")
+    switching: SwitchingConfig = setting(factory=SwitchingConfig, doc="subpath switching")
+
+
+class GuidanceOutput(NamedTuple):
+    """One update's result with every signal a plot wants (NED, m, rad, s)."""
+
+    psi_d: float
+    r_d: float
+    xe: float
+    ye: float
+    psi_e: float
+    s: float
+    i: int
+    x_p: float
+    y_p: float
+    chi_p: float
+    kappa: float
+    U_P: float
+    beta_r: float
+    chi_r: float
+    alpha: float
+    theta_n: float
+    distance_to_go: float
+    switched: bool
+    finished: bool
+
+
+class PathFollower:
+    """Follows one composite path from its beginning to its end.
+
+    Args:
+        path: the path.
+        config: laws and gains.
+    """
+
+    def __init__(self, path: CompositePath, config: PathFollowerConfig | None = None) -> None:
+        self.path = path
+        self.virtual_point = VirtualPoint(path)
+        self.circle = CircleOfAcceptance(path)
+        self.law: GuidanceLaw = Ailos()
+        self.configure(config or PathFollowerConfig())
+
+    def configure(self, config: PathFollowerConfig) -> None:
+        """Take new gains; the place on the path is kept."""
+        self.config = config
+        self.circle.config = config.switching
+        self.law = Ailos(config.ailos)
+
+    def reset(self) -> None:
+        """Back to the beginning of the path."""
+        self.virtual_point.reset()
+        self.law.reset()
+
+    def look(self, navigation: Navigation) -> GuidanceOutput:
+        """The errors as they stand while no mission runs: P rests, and the vehicle's own heading is desired."""
+        P = self.virtual_point
+        P.rest()
+        point = P.point()
+        xe, ye = path_errors(navigation, point, point.chi)
+        return GuidanceOutput(
+            psi_d=navigation.psi, r_d=0.0, xe=xe, ye=ye, psi_e=0.0, s=P.s, i=P.i, x_p=point.x, y_p=point.y,
+            chi_p=point.chi, kappa=point.kappa, U_P=0.0, beta_r=0.0, chi_r=0.0, alpha=0.0, theta_n=0.0,
+            distance_to_go=self.path.distance_to_go(P.i, P.t), switched=False, finished=P.finished,
+        )  # fmt: skip
+
+    def update(
+        self, navigation: Navigation, water: WaterVelocity, current: Current, dt: float
+    ) -> GuidanceOutput:
+        """One step of guidance.
+
+        Args:
+            navigation: measured pose, NED.
+            water: measured velocity through water, FRD.
+            current: the observer's estimate.
+            dt: seconds since the last update (0 on the first one).
+        """
+        config, P = self.config, self.virtual_point
+        x, y, psi, _ = navigation
+        if not config.compensate_current:
+            current = NO_CURRENT
+
+        switched = P.move(dt)
+        if not P.finished and self.circle.reached(x, y, P.i):
+            switched = P.go_on()
+        point = P.point()
+        chi_p = point.chi
+        xe, ye = path_errors(navigation, point, chi_p)
+
+        Ur = math.hypot(water.ur, water.vr)
+        beta_r = math.atan2(water.vr, water.ur)
+        if Ur < config.minimum_speed:
+            Ur = beta_r = 0.0
+        law = self.law.update(LawInputs(ye, chi_p, Ur, beta_r, current), dt)
+
+        wanted = tangential_speed(config.virtual_point.k, xe, psi, water, chi_p, current)
+        U_P = P.set_speed(wanted, point)
+        kappa = point.kappa
+        psi_d = wrap(law.psi_d)
+        return GuidanceOutput(
+            psi_d=psi_d,
+            r_d=kappa * U_P,  # Eq. (9)
+            xe=xe,
+            ye=ye,
+            psi_e=wrap(psi - psi_d),
+            s=P.s,
+            i=P.i,
+            x_p=point.x,
+            y_p=point.y,
+            chi_p=chi_p,
+            kappa=kappa,
+            U_P=U_P,
+            beta_r=beta_r,
+            chi_r=law.chi_r,
+            alpha=law.alpha,
+            theta_n=law.theta_n,
+            distance_to_go=self.path.distance_to_go(P.i, P.t),
+            switched=switched,
+            finished=P.finished,
+        )

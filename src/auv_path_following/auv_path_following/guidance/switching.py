@@ -1,0 +1,37 @@
+"""When the next subpath is followed: the end of the parameter, Eq. (43), or the circle of acceptance, Eq. (44)."""
+
+from __future__ import annotations
+
+import math
+from typing import Literal
+
+from auv_msgs_py.settings import setting, settings
+from auv_path_following.paths.composite import CompositePath
+
+SwitchingMode = Literal["off", "g0", "all"]
+
+
+@settings
+class SwitchingConfig:
+    """The circle of acceptance around a joint."""
+
+    mode: SwitchingMode = setting("g0", "joints with a circle of acceptance: off, g0 (corners only) or all", live=True)
+    radius: float = setting(6.0, "radius Rk of the circle, at most Delta", unit="m", ge=0.0, le=1000.0, live=True)
+
+
+class CircleOfAcceptance:
+    """Eq. (44) for a path whose joints are classified."""
+
+    def __init__(self, path: CompositePath, config: SwitchingConfig | None = None) -> None:
+        self.path = path
+        self.config = config or SwitchingConfig()
+
+    def reached(self, x: float, y: float, i: int) -> bool:
+        """Whether a vehicle at (x, y) that follows subpath `i` (from 0) may go on to the next one."""
+        mode = self.config.mode
+        if mode == "off" or i >= len(self.path.joints):
+            return False
+        joint = self.path.joints[i]
+        if mode == "g0" and joint.geometric != "G0":
+            return False
+        return math.hypot(joint.x - x, joint.y - y) <= self.config.radius

@@ -1,0 +1,1 @@
+"""The thin ROS 2 nodes: convert, update, publish."""

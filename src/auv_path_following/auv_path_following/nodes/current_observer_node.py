@@ -1,0 +1,61 @@
+"""current_observer: estimates the current from odometry and velocity through water."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from geometry_msgs.msg import Vector3Stamped
+
+from auv_msgs_py import topics
+from auv_msgs_py.conversions import fill_current
+from auv_msgs_py.runtime import SuiteNode, run_nodes
+from auv_path_following.guidance.current_observer import CurrentObserver
+from auv_path_following.nodes.navigation_input import Inputs, NavigationInput
+from auv_path_following.parameters import ObserverParameters
+
+
+class CurrentObserverNode(SuiteNode):
+    """Publishes `current_estimate` once per odometry that comes with a fresh velocity through water."""
+
+    def __init__(self, **arguments: Any) -> None:
+        super().__init__(topics.OBSERVER, ObserverParameters, **arguments)
+        self.observer = CurrentObserver(self.parameters.observer)
+        self._message = Vector3Stamped()
+        self._publisher = self.advertise(topics.CURRENT_ESTIMATE)
+        self.close_gate()
+        self._skipped = 0.0
+        self._input = NavigationInput(self, self._step, self.observer.reset)
+
+    def configure(self) -> None:
+        self.observer.config = self.parameters.observer
+
+    def waiting_for(self) -> str:
+        return self.gate_waits_for() or ", ".join(self._input.missing)
+
+    def report(self) -> dict[str, Any]:
+        current = self.observer.current
+        return {"north [m/s]": f"{current.Vx:.3f}", "east [m/s]": f"{current.Vy:.3f}"}
+
+    def _step(self, inputs: Inputs) -> None:
+        if inputs.water is None:
+            self._skipped += inputs.dt
+            self.health.warn("water", f"no fresh {topics.WATER_VELOCITY.name}: the estimate rests")
+            return
+        self.health.warn("water", "")
+        output = self.observer.update(inputs.navigation, inputs.water, inputs.dt + self._skipped)
+        self._skipped = 0.0
+        fill_current(self._message, output.current, inputs.stamp)
+        self.answer(self._publish)
+
+    def _publish(self) -> None:
+        self._publisher.publish(self._message)
+
+
+def main(args: Sequence[str] | None = None) -> int:
+    """The executable `current_observer`."""
+    return run_nodes([CurrentObserverNode], args)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

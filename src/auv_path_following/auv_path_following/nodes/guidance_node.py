@@ -1,0 +1,157 @@
+"""ailos_guidance: follows the mission's path with virtual point, subpath switching and AILOS."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from geometry_msgs.msg import PoseStamped, Vector3Stamped
+from std_msgs.msg import Float64, String
+from std_srvs.srv import Trigger
+
+from auv_msgs_py import topics
+from auv_msgs_py.conversions import PATH_FRAME, fill_pose, path_message, set_stamp
+from auv_msgs_py.frames import flip_yaw
+from auv_msgs_py.runtime import SuiteNode, run_nodes
+from auv_path_following.guidance.mission_state import MissionState, State
+from auv_path_following.guidance.path_follower import GuidanceOutput, PathFollower
+from auv_path_following.nodes.navigation_input import Inputs, NavigationInput
+from auv_path_following.parameters import GuidanceParameters
+from auv_path_following.paths import mission_file
+
+#: Distance between the poses of `path`, m.
+_PATH_SPACING = 1.0
+
+
+class GuidanceNode(SuiteNode):
+    """Answers every odometry with one set of references; keeps the mission's state."""
+
+    def __init__(self, **arguments: Any) -> None:
+        super().__init__(topics.GUIDANCE, GuidanceParameters, **arguments)
+        self.mission = mission_file.load(self.parameters.mission)
+        self.follower = PathFollower(self.mission.path, self.parameters.guidance)
+        self.state = MissionState(self.parameters.holding)
+        self._told: State | None = None
+        self._output: GuidanceOutput | None = None
+        self._last_usable: float | None = None
+        self._floats = {
+            topic: (self.advertise(topic), Float64())
+            for topic in (
+                topics.DESIRED_YAW, topics.DESIRED_YAW_RATE, topics.DESIRED_THRUST,
+                topics.PATH_PARAMETER, topics.DISTANCE_TO_GO,
+            )
+        }  # fmt: skip
+        self._virtual_point, self._pose = self.advertise(topics.VIRTUAL_POINT), PoseStamped()
+        self._path_error, self._error = self.advertise(topics.PATH_ERROR), Vector3Stamped()
+        self._error.header.frame_id = PATH_FRAME
+        self._mission_state = self.advertise(topics.MISSION_STATE)
+        self._path = self.advertise(topics.PATH)
+        self.close_gate()
+        self._input = NavigationInput(self, self._step, self._restart, with_current=True)
+        self.create_service(Trigger, topics.START_SERVICE, self._on_start)
+        self.create_service(Trigger, topics.ABORT_SERVICE, self._on_abort)
+        if not self.parameters.lockstep:
+            self.create_timer(0.1, self._watch)
+        points = (self.mission.path.at(float(s)) for s in self.mission.path.polyline(_PATH_SPACING)[2])
+        rows = [(point.x, point.y, point.chi) for point in points]
+        self._path.publish(path_message(rows, self.get_clock().now().nanoseconds))
+        self._tell()
+
+    def configure(self) -> None:
+        self.follower.configure(self.parameters.guidance)
+        self.state.config = self.parameters.holding
+
+    def waiting_for(self) -> str:
+        return self.gate_waits_for() or ", ".join(self._input.missing)
+
+    def report(self) -> dict[str, Any]:
+        values = {"mission_state": self.state.state.value, "reason": self.state.reason}
+        if self._output is not None:
+            values |= {"s": f"{self._output.s:.3f}", "ye [m]": f"{self._output.ye:.3f}"}
+        return values
+
+    def _on_start(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        response.success = self.state.start()
+        if response.success:
+            self._restart()
+        response.message = self.state.reason if response.success else f"already {self.state.state.value}"
+        self._tell()
+        return response
+
+    def _on_abort(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        self.state.abort("abort was called")
+        response.success = self.state.state is State.ABORTED
+        response.message = self.state.reason
+        self._tell()
+        return response
+
+    def _restart(self) -> None:
+        self.follower.reset()
+        self._last_usable = None
+
+    def _watch(self) -> None:
+        now = self.now()
+        if self._last_usable is None or now < self._last_usable:
+            self._last_usable = now
+        if now - self._last_usable > self.state.config.hold_after:
+            self.state.navigation_lost(f"no usable navigation for {self.state.config.hold_after:g} s", now)
+        self.state.tick(now)
+        self._tell()
+
+    def _step(self, inputs: Inputs) -> None:
+        navigation, water = inputs.navigation, inputs.water
+        if water is None:
+            self.health.warn("water", f"no fresh {topics.WATER_VELOCITY.name}")
+        else:
+            self.health.warn("water", "")
+            self._last_usable = self.now()
+            self.state.navigation_back()
+        late = self.state.running and inputs.current_age > self.parameters.current_timeout
+        self.health.warn("current", f"no fresh {topics.CURRENT_ESTIMATE.name}" if late else "")
+        if self.state.running and water is not None:
+            output = self.follower.update(navigation, water, inputs.current, inputs.dt)
+            if output.finished:
+                self.state.complete()
+        else:
+            output = self.follower.look(navigation)
+        if not self.state.running:
+            output = output._replace(psi_d=navigation.psi, r_d=0.0)
+        self._fill(output, inputs.stamp)
+        self.answer(self._publish)
+
+    def _fill(self, output: GuidanceOutput, stamp: int) -> None:
+        self._output = output
+        floats = self._floats
+        floats[topics.DESIRED_YAW][1].data = flip_yaw(output.psi_d)
+        floats[topics.DESIRED_YAW_RATE][1].data = -output.r_d
+        floats[topics.DESIRED_THRUST][1].data = self.mission.thrust if self.state.running else 0.0
+        floats[topics.PATH_PARAMETER][1].data = output.s
+        floats[topics.DISTANCE_TO_GO][1].data = output.distance_to_go
+        fill_pose(self._pose, output.x_p, output.y_p, output.chi_p, stamp)
+        set_stamp(self._error.header.stamp, stamp)
+        vector = self._error.vector
+        vector.x, vector.y, vector.z = output.xe, output.ye, output.psi_e
+
+    def _publish(self) -> None:
+        for publisher, message in self._floats.values():
+            publisher.publish(message)
+        self._virtual_point.publish(self._pose)
+        self._path_error.publish(self._error)
+        self._tell()
+
+    def _tell(self) -> None:
+        """Publish the state when it has changed."""
+        if self.state.state is self._told:
+            return
+        self._told = self.state.state
+        self._mission_state.publish(String(data=self._told.value))
+        self.get_logger().info(f"{self._told.value}: {self.state.reason}")
+
+
+def main(args: Sequence[str] | None = None) -> int:
+    """The executable `ailos_guidance`."""
+    return run_nodes([GuidanceNode], args)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,115 @@
+"""Odometry and velocity through water (and, for guidance, the current estimate) as one input.
+
+In lockstep the messages of one step are paired by stamp. Otherwise the odometry triggers, and the newest
+other messages are used unless they are older than a bound: a foreign vehicle never waits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from geometry_msgs.msg import TwistWithCovarianceStamped, Vector3Stamped
+from nav_msgs.msg import Odometry
+
+from auv_msgs_py import topics
+from auv_msgs_py.conversions import current_from, nanoseconds, navigation_from, water_velocity_from
+from auv_msgs_py.errors import MessageRefused
+from auv_msgs_py.frames import FrameTable
+from auv_msgs_py.pairing import Pairing
+from auv_msgs_py.runtime import SuiteNode
+from auv_msgs_py.stamps import StampGuard, Verdict
+from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
+
+
+class Inputs(NamedTuple):
+    """One step's input. `water` is None when there is none that is fresh enough; the stamp is in ns."""
+
+    navigation: Navigation
+    water: WaterVelocity | None
+    current: Current
+    current_age: float
+    dt: float
+    stamp: int
+
+
+class NavigationInput:
+    """Subscribes, converts, pairs.
+
+    Args:
+        node: the node; its parameters have `frames`, `lockstep` and `water_velocity_timeout`.
+        step: called once per odometry.
+        restart: called when time went back, before the step.
+        with_current: whether the current estimate belongs to the input.
+    """
+
+    def __init__(
+        self,
+        node: SuiteNode,
+        step: Callable[[Inputs], None],
+        restart: Callable[[], None],
+        with_current: bool = False,
+    ) -> None:
+        self._node = node
+        self._step = step
+        self._restart = restart
+        self._lockstep: bool = node.parameters.lockstep
+        self._frames = FrameTable(node.parameters.frames)
+        self._guard = StampGuard(ordered=self._lockstep)
+        parts = (topics.ODOM.name, topics.WATER_VELOCITY.name)
+        self._pairing = Pairing((*parts, topics.CURRENT_ESTIMATE.name) if with_current else parts, strict=True)
+        self._water: tuple[WaterVelocity, int] | None = None
+        self._current: tuple[Current, int] | None = None
+        node.listen(topics.ODOM, self._on_odometry)
+        node.listen(topics.WATER_VELOCITY, self._on_water)
+        if with_current:
+            node.listen(topics.CURRENT_ESTIMATE, self._on_current)
+
+    @property
+    def missing(self) -> tuple[str, ...]:
+        """Lockstep: the topics the current step still lacks."""
+        return self._pairing.missing
+
+    def _on_odometry(self, message: Odometry) -> None:
+        topic = topics.ODOM.name
+        stamp = nanoseconds(message.header.stamp)
+        navigation = navigation_from(message, self._frames, topic)
+        verdict, dt = self._guard.judge(stamp)
+        if verdict is Verdict.REFUSE:
+            raise MessageRefused(topic, "a stamp that is not newer than the last", "rising stamps")
+        if verdict is Verdict.RESTART:
+            if not self._lockstep:
+                self._water = self._current = None
+            self._restart()
+        if self._lockstep:
+            if self._pairing.put(topic, (navigation, dt, stamp), stamp):
+                self._paired()
+            return
+        water, current, age = None, NO_CURRENT, float("inf")
+        bound = self._node.parameters.water_velocity_timeout * 1e9
+        if self._water is not None and abs(stamp - self._water[1]) <= bound:
+            water = self._water[0]
+        if self._current is not None:
+            current, age = self._current[0], (stamp - self._current[1]) * 1e-9
+        self._step(Inputs(navigation, water, current, age, dt, stamp))
+
+    def _on_water(self, message: TwistWithCovarianceStamped) -> None:
+        topic = topics.WATER_VELOCITY.name
+        water = water_velocity_from(message, self._frames, topic)
+        stamp = nanoseconds(message.header.stamp)
+        self._water = water, stamp
+        if self._lockstep and self._pairing.put(topic, water, stamp):
+            self._paired()
+
+    def _on_current(self, message: Vector3Stamped) -> None:
+        topic = topics.CURRENT_ESTIMATE.name
+        current = current_from(message, topic)
+        stamp = nanoseconds(message.header.stamp)
+        self._current = current, stamp
+        if self._lockstep and self._pairing.put(topic, current, stamp):
+            self._paired()
+
+    def _paired(self) -> None:
+        (navigation, dt, stamp), water, *rest = self._pairing.take()
+        current = rest[0] if rest else NO_CURRENT
+        self._step(Inputs(navigation, water, current, 0.0, dt, stamp))

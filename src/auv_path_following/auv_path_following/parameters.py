@@ -1,0 +1,64 @@
+"""All parameters of the three nodes, as settings: ROS-free, so that files are checked before a node starts."""
+
+from __future__ import annotations
+
+from auv_msgs_py.frames import FrameIds
+from auv_msgs_py.settings import setting, settings
+from auv_path_following.control.autopilot import AutopilotConfig
+from auv_path_following.guidance.current_observer import CurrentObserverConfig
+from auv_path_following.guidance.mission_state import HoldingConfig
+from auv_path_following.guidance.path_follower import PathFollowerConfig
+
+
+@settings
+class NodeParameters:
+    """What every node of the suite has."""
+
+    lockstep: bool = setting(False, "answer every input exactly once, reliable subscriptions, no watchdogs")
+    recorded: bool = setting(False, "in lockstep: a recorder takes part, nothing is published before it listens")
+
+
+@settings
+class NavigationParameters(NodeParameters):
+    """What every node that reads the vehicle's navigation has."""
+
+    frames: FrameIds = setting(factory=FrameIds, doc="accepted frame ids")
+
+
+@settings
+class ObserverParameters(NavigationParameters):
+    """current_observer."""
+
+    observer: CurrentObserverConfig = setting(factory=CurrentObserverConfig, doc="Eq. (35)")
+    water_velocity_timeout: float = setting(
+        1.0, "oldest velocity through water that is still used", unit="s", gt=0.0, le=60.0, live=True
+    )
+
+
+@settings
+class GuidanceParameters(NavigationParameters):
+    """ailos_guidance."""
+
+    mission: str = setting("paper_composite", "mission file, or the name of a shipped one")
+    guidance: PathFollowerConfig = setting(factory=PathFollowerConfig, doc="virtual point, law and switching")
+    holding: HoldingConfig = setting(factory=HoldingConfig, doc="what missing navigation leads to")
+    water_velocity_timeout: float = setting(
+        1.0, "oldest velocity through water that is still used", unit="s", gt=0.0, le=60.0, live=True
+    )
+    current_timeout: float = setting(
+        5.0, "older estimates of the current are reported, and the last one is kept", unit="s", gt=0.0, le=600.0, live=True
+    )
+
+
+@settings
+class AutopilotParameters(NavigationParameters):
+    """heading_autopilot."""
+
+    vehicle: str = setting("remus100", "vehicle file, or the name of a shipped one: limits of rudder and thrust")
+    autopilot: AutopilotConfig = setting(factory=AutopilotConfig, doc="controller and gains")
+    reference_timeout: float = setting(
+        0.5, "guidance silent for this long: rudder and thrust go to 0", unit="s", gt=0.0, le=10.0, live=True
+    )
+    odometry_timeout: float = setting(
+        0.5, "odometry silent for this long: rudder and thrust go to 0", unit="s", gt=0.0, le=10.0, live=True
+    )

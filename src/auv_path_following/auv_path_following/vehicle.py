@@ -1,0 +1,104 @@
+"""What is known about a vehicle: hull coefficients, rudder and thruster limits, from its file."""
+
+from __future__ import annotations
+
+import math
+
+import pydantic
+from pydantic_core import PydanticCustomError
+
+from auv_msgs_py import yaml_file
+from auv_msgs_py.settings import setting, settings
+from auv_path_following import config_files
+
+
+@settings
+class Hull:
+    """Coefficients of Eq. (18) and Eq. (19), by the names of Table 2."""
+
+    m: float = setting(doc="mass", unit="kg", gt=0.0)
+    Izz: float = setting(doc="moment of inertia about the vertical axis", unit="kg m^2", gt=0.0)
+
+    Xuu: float = setting(doc="drag ahead", unit="kg/m", lt=0.0)
+    Xud: float = setting(doc="added mass ahead", unit="kg")
+    Xvr: float = setting(doc="added mass, surge force from vr r", unit="kg/rad")
+    Xrr: float = setting(doc="added mass, surge force from r^2", unit="kg m/rad")
+
+    Yvv: float = setting(doc="drag sideways", unit="kg/m", lt=0.0)
+    Yvd: float = setting(doc="added mass sideways", unit="kg")
+    Yrr: float = setting(doc="drag of turning, sway force", unit="kg m/rad^2")
+    Yrd: float = setting(doc="added mass, sway force from dr/dt", unit="kg m/rad")
+    Yur: float = setting(doc="added mass and fin lift, sway force from ur r", unit="kg/rad")
+    Yuv: float = setting(doc="lift of body and fins, sway force from ur vr", unit="kg/m")
+    Yuud: float = setting(doc="rudder lift, sway force", unit="kg/(m rad)")
+
+    Nvv: float = setting(doc="drag sideways, yaw moment", unit="kg")
+    Nvd: float = setting(doc="added mass, yaw moment from dvr/dt", unit="kg m")
+    Nrr: float = setting(doc="drag of turning", unit="kg m^2/rad^2", lt=0.0)
+    Nrd: float = setting(doc="added moment of inertia", unit="kg m^2/rad")
+    Nur: float = setting(doc="added mass and fin lift, yaw moment from ur r", unit="kg m/rad")
+    Nuv: float = setting(doc="body moment and fin lift, yaw moment from ur vr", unit="kg")
+    Nuud: float = setting(
+        doc="rudder lift, yaw moment; a positive angle turns to port", unit="kg/rad", lt=0.0
+    )
+
+    surge_coupling: bool = setting(doc="whether SX of Eq. (19) has the rigid-body term m vr r")
+
+    @pydantic.model_validator(mode="after")
+    def _mass_matrix_is_definite(self) -> Hull:
+        surge, sway, yaw = self.m - self.Xud, self.m - self.Yvd, self.Izz - self.Nrd
+        minors = {
+            "m - Xud": surge,
+            "m - Yvd": sway,
+            "Izz - Nrd": yaw,
+            "(m - Yvd) (Izz - Nrd) - Yrd Nvd": sway * yaw - self.Yrd * self.Nvd,
+        }
+        for formula, value in minors.items():
+            if not value > 0.0:
+                context = {
+                    "found": f"{formula} = {value:g}",
+                    "expected": "greater than 0, or Eq. (18) cannot hold",
+                }
+                raise PydanticCustomError("unfit", "mass matrix", context)
+        return self
+
+
+@settings
+class Rudder:
+    """What the rudder can do, the same to both sides."""
+
+    max_angle_deg: float = setting(doc="largest angle", unit="deg", gt=0.0, lt=90.0)
+    max_rate_deg_s: float = setting(doc="largest rate", unit="deg/s", gt=0.0)
+
+    @property
+    def max_angle(self) -> float:
+        """Largest angle, rad."""
+        return math.radians(self.max_angle_deg)
+
+    @property
+    def max_rate(self) -> float:
+        """Largest rate, rad/s."""
+        return math.radians(self.max_rate_deg_s)
+
+
+@settings
+class Vehicle:
+    """One vehicle. The plant reads it, and so may a model-based controller, each for itself."""
+
+    name: str = setting(doc="what people call it")
+    length: float = setting(doc="length of the hull", unit="m", gt=0.0)
+    thrust_max: float = setting(doc="largest thrust", unit="N", gt=0.0)
+    rudder: Rudder = setting(doc="limits of the rudder")
+    hull: Hull = setting(doc="coefficients of the hull")
+
+
+def load(name_or_path: str) -> Vehicle:
+    """Read a vehicle file.
+
+    Args:
+        name_or_path: a path, or a shipped name such as ``remus100``.
+
+    Raises:
+        ConfigurationError: one line with file and key, what was found and what was expected.
+    """
+    return yaml_file.load(config_files.find("vehicles", name_or_path), Vehicle)

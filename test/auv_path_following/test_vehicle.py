@@ -1,0 +1,118 @@
+"""Vehicle files: the three that are shipped, and wrong ones."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import pytest
+
+from auv_msgs_py.errors import ConfigurationError
+from auv_path_following import config_files, vehicle
+
+GOOD = config_files.find("vehicles", "remus100").read_text(encoding="utf-8")
+
+
+def _differences(one: str, other: str) -> dict[str, tuple[object, object]]:
+    a, b = (dataclasses.asdict(vehicle.load(name).hull) for name in (one, other))
+    return {key: (a[key], b[key]) for key in a if a[key] != b[key]}
+
+
+def test_default_vehicle_has_the_values_of_its_source():
+    remus = vehicle.load("remus100")
+    hull = remus.hull
+    assert (hull.m, hull.Izz, hull.Nuud, hull.surge_coupling) == (30.48, 3.45, -6.15, True)
+    assert (hull.Xrr, hull.Yuv, hull.Nrr) == (-1.93, -28.6, -94.0)
+    assert (remus.length, remus.thrust_max) == (1.6, 6.48)
+
+
+def test_limits_are_offered_in_radians():
+    rudder = vehicle.load("remus100").rudder
+    assert rudder.max_angle == pytest.approx(35.0 * math.pi / 180.0)
+    assert rudder.max_rate == pytest.approx(0.2618, abs=5e-5)
+
+
+def test_table2_differs_where_it_is_misprinted():
+    assert _differences("remus100", "remus100_table2") == {
+        "Xrr": (-1.93, 1.93),
+        "Yuv": (-28.6, 28.6),
+        "Nrr": (-94.0, -9.4),
+        "surge_coupling": (True, False),
+    }
+
+
+def test_mismatch_differs_in_the_rudder_only():
+    assert _differences("remus100", "remus100_mismatch") == {"Nuud": (-6.15, -4.15)}
+
+
+@pytest.mark.parametrize("name", config_files.shipped("vehicles"))
+def test_every_shipped_vehicle_has_the_same_limits(name):
+    remus, other = vehicle.load("remus100"), vehicle.load(name)
+    assert (other.rudder, other.thrust_max, other.length) == (remus.rudder, remus.thrust_max, remus.length)
+
+
+def test_a_vehicle_cannot_be_changed():
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        vehicle.load("remus100").hull.m = 1.0
+
+
+WRONG = {
+    "empty file": (GOOD, "", "", "empty file"),
+    "missing key": ("  m: 30.48\n", "", "hull.m", "nothing"),
+    "misspelt key": ("Izz", "izz", "hull.izz", "unknown key"),
+    "unknown key": ("hull:", "hull:\n  Kpp: 1", "hull.Kpp", "unknown key"),
+    "text": ("Xuu: -1.62", "Xuu: lots", "hull.Xuu", "'lots', expected a number"),
+    "NaN": ("Yvv: -1310", "Yvv: .nan", "hull.Yvv", "finite"),
+    "mass of zero": ("m: 30.48", "m: 0", "hull.m", "greater than 0"),
+    "drag that drives": ("Xuu: -1.62", "Xuu: 1.62", "hull.Xuu", "less than 0"),
+    "rudder the wrong way": ("Nuud: -6.15", "Nuud: 6.15", "hull.Nuud", "less than 0"),
+    "added inertia with the wrong sign": (
+        "Nrd: -4.88",
+        "Nrd: 4.88",
+        "hull",
+        "Izz - Nrd = -1.43, expected greater than 0",
+    ),
+    "sway and yaw locked together": ("Yrd: 1.93", "Yrd: 500", "hull", "Yrd Nvd = -415.387"),
+    "coupling is a text": (
+        "surge_coupling: true",
+        "surge_coupling: yes",
+        "hull.surge_coupling",
+        "true or false",
+    ),
+    "no hull": (GOOD[GOOD.index("hull:") :], "", "hull", "nothing"),
+    "empty hull": (GOOD[GOOD.index("hull:") :], "hull:\n", "hull", "a mapping"),
+    "negative length": ("length: 1.6", "length: -1.6", "length", "found -1.6"),
+    "rudder beyond a right angle": (
+        "max_angle_deg: 35",
+        "max_angle_deg: 135",
+        "rudder.max_angle_deg",
+        "less than 90",
+    ),
+    "rudder that cannot move": (
+        "max_rate_deg_s: 15",
+        "max_rate_deg_s: 0",
+        "rudder.max_rate_deg_s",
+        "greater than 0",
+    ),
+    "angle without its unit": ("max_angle_deg", "max_angle", "rudder.max_angle", "unknown key"),
+}
+
+
+@pytest.mark.parametrize(("old", "new", "key", "said"), WRONG.values(), ids=WRONG.keys())
+def test_a_wrong_file_gets_one_line_with_file_key_and_reason(tmp_path, old, new, key, said):
+    assert old in GOOD
+    file = tmp_path / "vehicle.yaml"
+    file.write_text(GOOD.replace(old, new), encoding="utf-8")
+    with pytest.raises(ConfigurationError) as caught:
+        vehicle.load(str(file))
+    message = str(caught.value)
+    assert "\n" not in message
+    assert caught.value.where == (f"{file}: {key}" if key else str(file))
+    assert said in message
+
+
+def test_a_missing_vehicle_names_the_shipped_ones():
+    with pytest.raises(
+        ConfigurationError, match=r"remus6000: .*remus100, remus100_mismatch, remus100_table2"
+    ):
+        vehicle.load("remus6000")
