@@ -1,0 +1,1 @@
+"""What a flown mission tells: the `Run` itself, its figures and its picture."""

@@ -1,0 +1,206 @@
+"""The figures of a flown mission: per subpath, at the corners and as a whole."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from auv_path_following.paths.composite import CompositePath
+from auv_sim.analysis.run import Column, Run
+
+#: A corner's figure looks this far around its joint, m.
+CORNER_RADIUS = 30.0
+#: The current estimate is judged from so long after the start, s.
+OBSERVER_SETTLING_TIME = 15.0
+
+
+@dataclass(frozen=True)
+class SubpathSummary:
+    """One subpath. NaN where nothing was flown or the recording lacks the signal.
+
+    Attributes:
+        number: counted from 1 as the paper does.
+        kind: of the segment (``line``).
+        duration: time on it, s.
+        rms_distance, largest_distance: to the path, m.
+        rms_heading_error: of psi_e, deg.
+        rudder_travel: sum of the rudder's movements, deg.
+        rudder_travel_per_metre: the same for each metre covered, deg/m.
+        distance_covered: length of the track over ground, m.
+    """
+
+    number: int
+    kind: str
+    duration: float
+    rms_distance: float
+    largest_distance: float
+    rms_heading_error: float
+    rudder_travel: float
+    rudder_travel_per_metre: float
+    distance_covered: float
+
+
+@dataclass(frozen=True)
+class CornerSummary:
+    """A joint at which the course jumps (G0).
+
+    Attributes:
+        joint: number of the subpath that ends here.
+        x, y: where it is, NED, m.
+        largest_distance: to the path within `CORNER_RADIUS` of the joint, on the two subpaths it joins, m.
+    """
+
+    joint: int
+    x: float
+    y: float
+    largest_distance: float
+
+
+@dataclass(frozen=True)
+class MissionSummary:
+    """The whole mission, from the first thrust to the end of the path. NaN where the signal is missing.
+
+    Attributes:
+        completed: whether the end of the path was reached.
+        steps: odometries in the run.
+        duration: s.
+        path_length, distance_covered: m.
+        mean_speed: over ground, m/s.
+        rms_distance, largest_distance: to the path, m.
+        rms_heading_error: deg.
+        rudder_travel, rudder_travel_per_metre: deg, deg/m.
+        current_estimate_error: largest error of the estimate from `OBSERVER_SETTLING_TIME` after the
+            start on, m/s.
+        subpaths: one for each subpath of the path.
+        corners: one for each G0 joint.
+    """
+
+    completed: bool
+    steps: int
+    duration: float
+    path_length: float
+    distance_covered: float
+    mean_speed: float
+    rms_distance: float
+    largest_distance: float
+    rms_heading_error: float
+    rudder_travel: float
+    rudder_travel_per_metre: float
+    current_estimate_error: float
+    subpaths: tuple[SubpathSummary, ...]
+    corners: tuple[CornerSummary, ...]
+
+    def to_json(self) -> str:
+        """Strict JSON, indented; NaN becomes null."""
+        return json.dumps(_without_nan(dataclasses.asdict(self)), indent=2, allow_nan=False)
+
+
+def summarise(run: Run, path: CompositePath) -> MissionSummary:
+    """Judge a run against the path it followed.
+
+    Only the rows under way count (see `under_way`). Averages are over rows. What happens between two
+    rows belongs to the subpath of the earlier one.
+
+    Args:
+        run: the flown mission.
+        path: the path of that mission, NED.
+    """
+    flown = under_way(run, path.n)
+    i = flown.subpath(path.n)
+    distance = path.distance(flown.x, flown.y, i)
+    covered = np.hypot(np.diff(flown.x), np.diff(flown.y))
+    moved = np.degrees(np.abs(np.diff(flown.rudder)))
+    elapsed = np.diff(flown.t)
+    heading_error = np.degrees(flown.psi_e)
+
+    def figures(rows: NDArray[np.bool_]) -> dict[str, Any]:
+        steps = rows[:-1]
+        travel, metres = _sum(moved[steps]), _sum(covered[steps])
+        return {
+            "duration": _sum(elapsed[steps]),
+            "rms_distance": _rms(distance[rows]),
+            "largest_distance": _largest(distance[rows]),
+            "rms_heading_error": _rms(heading_error[rows]),
+            "rudder_travel": travel,
+            "rudder_travel_per_metre": travel / metres if metres > 0.0 else math.nan,
+            "distance_covered": metres,
+        }
+
+    whole = figures(np.ones(flown.steps, bool))
+    corners = []
+    for joint in (joint for joint in path.joints if joint.geometric == "G0"):
+        near = np.hypot(flown.x - joint.x, flown.y - joint.y) <= CORNER_RADIUS
+        # The path may pass here again later: only the two subpaths that meet count.
+        near &= (i == joint.index - 1) | (i == joint.index)
+        corners.append(CornerSummary(joint.index, joint.x, joint.y, _largest(distance[near])))
+    return MissionSummary(
+        completed=bool((run.s >= path.n).any()),
+        steps=run.steps,
+        path_length=path.length,
+        mean_speed=whole["distance_covered"] / whole["duration"] if whole["duration"] > 0.0 else math.nan,
+        current_estimate_error=_current_estimate_error(flown),
+        subpaths=tuple(
+            SubpathSummary(number=k + 1, kind=segment.kind, **figures(i == k))
+            for k, segment in enumerate(path.segments)
+        ),
+        corners=tuple(corners),
+        **whole,
+    )
+
+
+def under_way(run: Run, n: int) -> Run:
+    """The rows in which the mission runs.
+
+    From the first row with a known s (and with thrust, where the thrust is known) to the one in which s
+    reaches the end of the path.
+
+    Args:
+        run: the flown mission.
+        n: number of subpaths of the path.
+    """
+    started = np.isfinite(run.s)
+    if np.isfinite(run.thrust_cmd).any():
+        started &= run.thrust_cmd > 0.0
+    if not started.any():
+        return run.select(slice(0, 0))
+    first = int(np.argmax(started))
+    arrived = np.flatnonzero(run.s[first:] >= n)
+    last = first + int(arrived[0]) if arrived.size else run.steps - 1
+    flown = run.select(slice(first, last + 1))
+    return flown.select(np.isfinite(flown.s))
+
+
+def _current_estimate_error(flown: Run) -> float:
+    if not flown.steps:
+        return math.nan
+    settled = flown.t - flown.t[0] >= OBSERVER_SETTLING_TIME
+    return _largest(np.hypot(flown.Vx_est - flown.Vx_true, flown.Vy_est - flown.Vy_true)[settled])
+
+
+def _rms(values: Column) -> float:
+    known = values[np.isfinite(values)]
+    return float(np.sqrt(np.mean(known**2))) if known.size else math.nan
+
+
+def _largest(values: Column) -> float:
+    known = values[np.isfinite(values)]
+    return float(known.max()) if known.size else math.nan
+
+
+def _sum(values: Column) -> float:
+    known = values[np.isfinite(values)]
+    return float(known.sum()) if known.size else math.nan
+
+
+def _without_nan(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _without_nan(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_without_nan(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

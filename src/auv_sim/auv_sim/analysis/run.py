@@ -1,0 +1,97 @@
+"""A flown mission as columns of numbers: what metrics, pictures and comparisons work on."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Column = NDArray[np.float64]
+
+_REQUIRED = ("t", "x", "y", "psi")
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """One row for each odometry. Every column has shape (n,); NaN stands where the source has no value.
+
+    NED and FRD, SI units, radians, in the paper's symbols.
+
+    Attributes:
+        t: stamp of the odometry, s.
+        x, y, psi, r: position (north, east), heading and its rate.
+        ur, vr: velocity through the water, body frame, Eq. (16).
+        rudder: measured rudder angle (positive to port).
+        rudder_cmd, thrust_cmd: what the autopilot asked for (rad, N).
+        psi_d, r_d: desired heading, Eq. (24), and its feed-forward rate.
+        xe, ye: path-following errors, Eq. (20).
+        psi_e: heading error wrap(psi - psi_d).
+        s: path parameter, Eq. (1), in [0, number of subpaths].
+        Vx_est, Vy_est: current estimate, Eq. (35) (north, east).
+        Vx_true, Vy_true: the true current, from a simulator only.
+    """
+
+    t: Column
+    x: Column
+    y: Column
+    psi: Column
+    r: Column
+    ur: Column
+    vr: Column
+    rudder: Column
+    rudder_cmd: Column
+    thrust_cmd: Column
+    psi_d: Column
+    r_d: Column
+    xe: Column
+    ye: Column
+    psi_e: Column
+    s: Column
+    Vx_est: Column
+    Vy_est: Column
+    Vx_true: Column
+    Vy_true: Column
+
+    @classmethod
+    def from_columns(cls, columns: Mapping[str, ArrayLike]) -> Run:
+        """Build a run from lists or arrays; columns left out become NaN.
+
+        Args:
+            columns: field name -> n numbers. `t`, `x`, `y` and `psi` are needed.
+
+        Raises:
+            ValueError: an unknown or a missing column, or columns of different lengths.
+        """
+        names = [field.name for field in dataclasses.fields(cls)]
+        if unknown := sorted(set(columns) - set(names)):
+            raise ValueError(f"unknown columns {', '.join(unknown)}")
+        if missing := sorted(set(_REQUIRED) - set(columns)):
+            raise ValueError(f"missing columns {', '.join(missing)}")
+        arrays = {name: np.array(values, dtype=np.float64) for name, values in columns.items()}
+        n = arrays["t"].size
+        if wrong := {name: array.shape for name, array in arrays.items() if array.shape != (n,)}:
+            raise ValueError(f"columns of another shape than t's ({n},): {wrong}")
+        return cls(**{name: arrays[name] if name in arrays else np.full(n, np.nan) for name in names})
+
+    @property
+    def steps(self) -> int:
+        """Number of rows n."""
+        return int(self.t.size)
+
+    def subpath(self, n: int) -> NDArray[np.int64]:
+        """The active subpath of each row, counted from 0: min(floor(s), n - 1); -1 where s is NaN.
+
+        Args:
+            n: number of subpaths of the path.
+        """
+        known = np.isfinite(self.s)
+        index = np.floor(np.where(known, self.s, -1.0)).astype(np.int64)
+        return np.where(known, np.clip(index, 0, n - 1), -1)
+
+    def select(self, rows: Any) -> Run:
+        """The rows that a mask, a slice or an index array picks."""
+        return Run(**{field.name: getattr(self, field.name)[rows] for field in dataclasses.fields(self)})

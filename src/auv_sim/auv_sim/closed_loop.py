@@ -1,0 +1,104 @@
+"""The whole suite wired without ROS: the reference for the graph, and the tool for fast studies.
+
+The nodes drive the same objects in the same order with the same times, so the two trajectories agree to
+rounding. What the graph adds is only the way over the wire.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from auv_msgs_py import topics
+from auv_msgs_py.types import NO_CURRENT, STOP, Current, Reference
+from auv_path_following.control.autopilot import AutopilotConfig, HeadingAutopilot
+from auv_path_following.guidance.current_observer import CurrentObserver, CurrentObserverConfig
+from auv_path_following.guidance.path_follower import PathFollower, PathFollowerConfig
+from auv_path_following.paths.composite import CompositePath
+from auv_path_following.vehicle import Vehicle
+from auv_sim.analysis.run import Run
+from auv_sim.parameters import CRUISE
+from auv_sim.plant.remus import PlantState, RemusPlant
+
+@dataclass(frozen=True, kw_only=True)
+class Scenario:
+    """One flight: everything that decides its course.
+
+    Attributes:
+        path: what to follow.
+        vehicle: the plant's hull.
+        thrust: N, while the mission runs.
+        initial: the plant's first state; the path's start at cruising speed if None.
+        current: constant current, m/s, NED.
+        step: time between odometries, s.
+        guidance, observer, autopilot: laws and gains.
+        controller_vehicle: the hull as the autopilot knows it; the plant's own if None.
+        time_limit: the flight ends here at the latest, s.
+    """
+
+    path: CompositePath
+    vehicle: Vehicle
+    thrust: float
+    initial: PlantState | None = None
+    current: Current = NO_CURRENT
+    step: float = 0.05
+    guidance: PathFollowerConfig = field(default_factory=PathFollowerConfig)
+    observer: CurrentObserverConfig = field(default_factory=CurrentObserverConfig)
+    autopilot: AutopilotConfig = field(default_factory=AutopilotConfig)
+    controller_vehicle: Vehicle | None = None
+    time_limit: float = 3600.0
+
+
+_COLUMNS = (
+    "t", "x", "y", "psi", "r", "ur", "vr", "rudder", "rudder_cmd", "thrust_cmd", "psi_d", "r_d",
+    "xe", "ye", "psi_e", "s", "Vx_est", "Vy_est", "Vx_true", "Vy_true",
+)  # fmt: skip
+
+
+def start_of(path: CompositePath) -> PlantState:
+    """On the path's first point, along its tangent, at cruising speed."""
+    x, y, chi = path.start_pose
+    return PlantState(x, y, chi, CRUISE, 0.0, 0.0)
+
+
+def fly(scenario: Scenario, progress: Callable[[float], None] | None = None) -> Run:
+    """Fly until the end of the path or the time limit.
+
+    Args:
+        scenario: what to fly.
+        progress: called with s a few times a second of mission time.
+
+    Returns:
+        One row per step; the last row is the one at which the mission was complete.
+    """
+    c = scenario
+    plant = RemusPlant(c.vehicle, c.initial or start_of(c.path))
+    observer = CurrentObserver(c.observer)
+    follower = PathFollower(c.path, c.guidance)
+    autopilot = HeadingAutopilot(c.controller_vehicle or c.vehicle, c.autopilot)
+    step_ns = round(c.step * 1e9)
+    dt = step_ns * 1e-9
+    rows: list[tuple[float, ...]] = []
+    for k in range(int(c.time_limit / c.step) + 1):
+        stamp = topics.FIRST_STAMP_NS + k * step_ns
+        since = dt if k else 0.0
+        navigation, water = plant.navigation, plant.water_velocity
+        estimate = observer.update(navigation, water, since).current
+        g = follower.update(navigation, water, estimate, since)
+        thrust = 0.0 if g.finished else c.thrust
+        command = autopilot.update(navigation, Reference(g.psi_d, g.r_d, thrust), since).command
+        if g.finished:
+            command = STOP
+        rows.append(
+            (
+                stamp * 1e-9, navigation.x, navigation.y, navigation.psi, navigation.r, water.ur, water.vr,
+                plant.rudder.angle, command.rudder, command.thrust, g.psi_d, g.r_d,
+                g.xe, g.ye, g.psi_e, g.s, estimate.Vx, estimate.Vy, c.current.Vx, c.current.Vy,
+            )
+        )  # fmt: skip
+        if g.finished:
+            break
+        if progress is not None and k % 20 == 0:
+            progress(g.s)
+        plant.advance(command, dt, c.current)
+    return Run.from_columns(dict(zip(_COLUMNS, zip(*rows, strict=True), strict=True)))

@@ -1,0 +1,1 @@
+"""The launcher's substance: configuration, processes, supervision, progress."""

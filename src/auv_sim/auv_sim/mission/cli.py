@@ -1,0 +1,144 @@
+"""`scripts/mission.py`: fly a mission, from its files to its picture."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import re
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from rich.console import Console
+
+from auv_msgs_py.errors import ConfigurationError, SuiteError
+from auv_path_following import config_files
+from auv_sim.mission import launcher, plan, results
+from auv_sim.mission.plan import Options
+from auv_sim.mission.progress import Progress
+
+EXIT_COMPLETE, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
+_EXIT = {"complete": EXIT_COMPLETE, "aborted": EXIT_FAILED, "interrupted": EXIT_INTERRUPTED}
+
+
+def _finite(text: str) -> float:
+    value = float(text)
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"found {text}, expected a finite number")
+    return value
+
+
+def _positive(text: str) -> float:
+    value = _finite(text)
+    if value <= 0.0:
+        raise argparse.ArgumentTypeError(f"found {text}, expected a number greater than 0")
+    return value
+
+
+def _namespace(text: str) -> str:
+    name = "/" + text.strip("/")
+    if not re.fullmatch(r"(/[A-Za-z_][A-Za-z0-9_]*)+", name):
+        raise argparse.ArgumentTypeError(f"found '{text}', expected a ROS namespace such as /auv")
+    return name
+
+
+def _domain(text: str) -> int:
+    if not text.isdecimal() or int(text) > 232:
+        raise argparse.ArgumentTypeError(f"found '{text}', expected a ROS domain from 0 to 232")
+    return int(text)
+
+
+class _Parser(argparse.ArgumentParser):
+    """One line and exit code 2, without the usage in front of it."""
+
+    def error(self, message: str) -> None:  # type: ignore[override]
+        print(f"{self.prog}: {message} (see --help)", file=sys.stderr)
+        raise SystemExit(EXIT_BAD_INPUT)
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    p = _Parser(prog="mission.py", description="Fly a mission over ROS 2, record it, draw it.", allow_abbrev=False)
+    shipped = {kind: ", ".join(config_files.shipped(kind)) for kind in ("missions", "vehicles", "params")}
+    p.add_argument("--mission", default=plan.DEFAULT_MISSION, metavar="FILE", help=f"file or one of: {shipped['missions']}")
+    p.add_argument("--vehicle", default=plan.DEFAULT_VEHICLE, metavar="FILE", help=f"file or one of: {shipped['vehicles']}")
+    p.add_argument("--params", default=plan.DEFAULT_PARAMS, metavar="FILE", help=f"file or one of: {shipped['params']}")
+    p.add_argument("--current", nargs=2, type=_finite, metavar=("VX", "VY"), help="current towards north and east, m/s")
+    p.add_argument("--initial", nargs=3, type=_finite, metavar=("X", "Y", "PSI_DEG"), help="start: north, east (m), heading (deg)")
+    p.add_argument("--switching", choices=("off", "g0", "all"), help="joints with a circle of acceptance")
+    p.add_argument("--speed", type=_positive, metavar="N", help="free running at N times real time; without it lockstep, as fast as it goes")
+    p.add_argument("--no-sim", action="store_true", help="all but the simulator: a vehicle speaks the contract's topics")
+    p.add_argument("--use-sim-time", action="store_true", help="with --no-sim: follow the /clock that somebody publishes")
+    p.add_argument("--out", type=Path, metavar="DIR", help="run directory (default: runs/MISSION-DATE)")
+    p.add_argument("--composed", action="store_true", help="all nodes in one process")
+    p.add_argument("--namespace", type=_namespace, default="/auv", help="of all nodes (default /auv)")
+    p.add_argument("--domain", type=_domain, help="ROS domain (default: one of its own; with --no-sim ROS_DOMAIN_ID)")
+    p.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
+    return p
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Fly; returns the exit code: 0 complete, 1 failed or aborted, 2 bad input, 130 interrupted."""
+    try:
+        return _fly(_options(argv))
+    except ConfigurationError as error:
+        print(error, file=sys.stderr)
+        return EXIT_BAD_INPUT
+    except SuiteError as error:
+        print(f"mission failed: {error}", file=sys.stderr)
+        return EXIT_FAILED
+
+
+def _options(argv: Sequence[str] | None) -> Options:
+    given = vars(parser().parse_args(argv))
+    for name in ("current", "initial"):
+        given[name] = tuple(given[name]) if given[name] is not None else None
+    options = Options(**given)
+    conflicts = {"--speed": options.speed, "--initial": options.initial, "--current": options.current}
+    if options.no_sim:
+        for flag, value in conflicts.items():
+            if value is not None:
+                raise ConfigurationError(flag, "together with --no-sim", "it only without, it is for the simulator")
+    elif options.use_sim_time:
+        raise ConfigurationError("--use-sim-time", "without --no-sim", "both (the simulator always has its own clock)")
+    return options
+
+
+def _fly(options: Options) -> int:
+    directory = _run_directory(options)
+    resolved = plan.make(options, directory)
+    console = Console(quiet=options.quiet)
+    try:
+        directory.mkdir(parents=True)
+    except OSError as error:
+        raise ConfigurationError("--out", f"{directory} ({error.strerror})", "a directory that can be made") from None
+    path = resolved.mission.path
+    timing = "lockstep" if resolved.lockstep else "free running"
+    console.print(
+        f"[bold]{resolved.mission.name}[/bold]: {path.n} subpaths, {path.length:.1f} m, {resolved.vehicle.name},"
+        f" {timing}, ROS domain {launcher.domain_of(resolved)}, namespace {options.namespace}",
+        highlight=False,
+    )
+    with Progress(path, console, options.quiet) as progress:
+        outcome = launcher.fly(resolved, directory, progress)
+    if outcome.state != "complete":
+        print(f"mission {outcome.state}: {outcome.reason}", file=sys.stderr)
+    if outcome.mission_time > 0.0:
+        summary = results.conclude(resolved, directory, outcome)
+        results.show(resolved, directory, outcome, summary, console)
+    return _EXIT[outcome.state]
+
+
+def _run_directory(options: Options) -> Path:
+    if options.out is not None:
+        if options.out.exists():
+            raise ConfigurationError("--out", f"{options.out}, which exists", "a new directory")
+        return options.out.absolute()
+    name = Path(options.mission).stem
+    base = Path.cwd() / "runs" / f"{name}-{time.strftime('%Y%m%d-%H%M%S')}"
+    directory, number = base, 1
+    while directory.exists():
+        number += 1
+        directory = base.with_name(f"{base.name}-{number}")
+    return directory

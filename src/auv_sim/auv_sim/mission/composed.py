@@ -1,0 +1,37 @@
+"""All nodes of a mission in one process; each gets the same ROS arguments as if it had its own."""
+
+from __future__ import annotations
+
+import importlib
+import json
+from collections.abc import Sequence
+from functools import partial
+
+from auv_msgs_py import topics
+from auv_msgs_py.runtime import run_nodes
+
+#: Node name -> module:class.
+NODES = {
+    topics.RECORDER: "auv_sim.nodes.recorder_node:RecorderNode",
+    topics.OBSERVER: "auv_path_following.nodes.current_observer_node:CurrentObserverNode",
+    topics.GUIDANCE: "auv_path_following.nodes.guidance_node:GuidanceNode",
+    topics.AUTOPILOT: "auv_path_following.nodes.heading_autopilot_node:HeadingAutopilotNode",
+    topics.PLANT: "auv_sim.nodes.plant_node:RemusPlantNode",
+}
+
+
+def main(argv: Sequence[str]) -> int:
+    """Run the nodes named in the one argument, a JSON object of node name -> its ROS arguments."""
+    wanted: dict[str, list[str]] = json.loads(argv[0])
+    factories = []
+    for name, ros_arguments in wanted.items():
+        module, cls = NODES[name].split(":")
+        make = getattr(importlib.import_module(module), cls)
+        factories.append(partial(make, cli_args=["--ros-args", *ros_arguments], use_global_arguments=False))
+    return run_nodes(factories, [])
+
+
+if __name__ == "__main__":
+    import sys
+
+    raise SystemExit(main(sys.argv[1:]))

@@ -1,0 +1,199 @@
+"""Flies one mission: starts the nodes, starts the mission, watches both, and leaves nothing running."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from auv_msgs_py import topics
+from auv_msgs_py.errors import SuiteError
+from auv_sim.mission.composed import NODES
+from auv_sim.mission.plan import Plan
+from auv_sim.mission.processes import Child, Children
+from auv_sim.mission.progress import Progress
+
+#: Wall time for all nodes to find each other, s.
+_DISCOVERY_BOUND = 60.0
+#: Wall time to wait for a foreign vehicle's first odometry, s.
+_VEHICLE_BOUND = 120.0
+_COMPOSED = "composed"
+
+
+class MissionFailed(SuiteError):
+    """The mission ended otherwise than by reaching the end of the path."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How the mission ended.
+
+    Attributes:
+        state: complete, aborted, interrupted or failed.
+        reason: for people; empty when complete.
+        wall_time: seconds between start and end of the mission.
+        mission_time: the same in the mission's own time.
+    """
+
+    state: str
+    reason: str
+    wall_time: float
+    mission_time: float
+
+
+def domain_of(plan: Plan) -> int:
+    """The ROS domain: asked for; else a foreign vehicle's, from the environment; else one of our own."""
+    if plan.options.domain is not None:
+        return plan.options.domain
+    if plan.options.no_sim:
+        return int(os.environ.get("ROS_DOMAIN_ID", "0"))
+    return 1 + os.getpid() % 100
+
+
+class _Interrupt:
+    """Ctrl-C sets a flag; the second one is not needed."""
+
+    def __init__(self) -> None:
+        self.requested = False
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, self._request)
+
+    def _request(self, *_: object) -> None:
+        self.requested = True
+
+
+def fly(plan: Plan, directory: Path, progress: Progress) -> Outcome:
+    """Run the mission of `plan`, with logs and the bag under `directory`.
+
+    Raises:
+        MissionFailed: a node died or never came up; nothing is left running.
+    """
+    environment = {"ROS_DOMAIN_ID": str(domain_of(plan))}
+    if not plan.options.no_sim or "ROS_AUTOMATIC_DISCOVERY_RANGE" not in os.environ:
+        environment["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    os.environ.update(environment)
+    interrupt = _Interrupt()
+    children = Children(directory / "log", environment)
+    try:
+        _start_nodes(plan, children, plan.write(directory / "config"))
+        # Only now: a process with DDS threads must not fork.
+        from auv_sim.mission.monitor import Monitor
+
+        monitor = Monitor(plan.options.namespace)
+        try:
+            return _Flight(plan, children, monitor, progress, interrupt).run()
+        finally:
+            # The recorder first, while the others still hold what it has not yet taken in.
+            children.stop([topics.RECORDER])
+            children.stop()
+            monitor.close()
+    finally:
+        children.stop()
+
+
+def _start_nodes(plan: Plan, children: Children, parameters: Path) -> None:
+    sim_time = "true" if plan.use_sim_time else "false"
+    ros = ["-r", f"__ns:={plan.options.namespace}", "--params-file", str(parameters), "-p", f"use_sim_time:={sim_time}"]
+    names = [name for name in NODES if name in plan.parameters]
+    if plan.options.composed:
+        children.start(_COMPOSED, "auv_sim.mission.composed", [json.dumps(dict.fromkeys(names, ros))])
+        return
+    for name in names:
+        children.start(name, NODES[name].split(":")[0], ["--ros-args", *ros])
+
+
+class _Flight:
+    """The stages of one mission, each with its own way to end."""
+
+    def __init__(self, plan, children, monitor, progress, interrupt) -> None:  # type: ignore[no-untyped-def]
+        self._plan: Plan = plan
+        self._children: Children = children
+        self._monitor = monitor
+        self._progress: Progress = progress
+        self._interrupt: _Interrupt = interrupt
+
+    def run(self) -> Outcome:
+        begin = time.monotonic()
+        if not self._all_listening() or not self._vehicle_there():
+            return Outcome("interrupted", "stopped before the mission began", time.monotonic() - begin, 0.0)
+        refused = self._monitor.start()
+        if refused:
+            raise MissionFailed(f"the mission could not be started: {refused}")
+        begin = time.monotonic()
+        state = self._until_over(begin)
+        wall = time.monotonic() - begin
+        self._monitor.look(0.05)
+        self._progress.update(self._monitor.s, self._monitor.ye, self._monitor.mission_time, wall)
+        reason = ""
+        if state == "interrupted":
+            reason = "stopped by a signal"
+            self._stop_vehicle()
+        elif state == "aborted":
+            reason = self._why_aborted()
+        return Outcome(state, reason, wall, self._monitor.mission_time)
+
+    def _all_listening(self) -> bool:
+        """Wait until every node listens to what it needs; False when interrupted."""
+        names = set(self._plan.parameters)
+        deadline = time.monotonic() + _DISCOVERY_BOUND
+        while not self._interrupt.requested:
+            self._check_children()
+            missing = self._monitor.missing_nodes(names, topics.RECORDER in names)
+            if not missing:
+                return True
+            self._progress.waiting_for(", ".join(sorted(missing)))
+            if time.monotonic() > deadline:
+                raise MissionFailed(f"no sign of {', '.join(sorted(missing))} within {_DISCOVERY_BOUND:g} s")
+            self._monitor.look(0.05)
+        return False
+
+    def _vehicle_there(self) -> bool:
+        """Without the simulator: wait for somebody's odometry; False when interrupted."""
+        deadline = time.monotonic() + _VEHICLE_BOUND
+        topic = f"{self._plan.options.namespace}/{topics.ODOM.name}"
+        while self._plan.options.no_sim and not self._monitor.odometry_seen:
+            if self._interrupt.requested:
+                return False
+            self._check_children()
+            self._progress.waiting_for(f"a vehicle's {topic}")
+            if time.monotonic() > deadline:
+                raise MissionFailed(f"no odometry on {topic} within {_VEHICLE_BOUND:g} s: is the vehicle's driver running?")
+            self._monitor.look(0.1)
+        return True
+
+    def _until_over(self, begin: float) -> str:
+        while not self._interrupt.requested:
+            self._check_children()
+            m = self._monitor
+            m.look(0.1)
+            self._progress.update(m.s, m.ye, m.mission_time, time.monotonic() - begin)
+            if m.state in ("complete", "aborted"):
+                return str(m.state)
+        return "interrupted"
+
+    def _stop_vehicle(self) -> None:
+        """Ctrl-C must not leave a propeller running: abort, and let the zero commands reach the vehicle."""
+        self._monitor.abort()
+        self._monitor.look(0.3)
+
+    def _why_aborted(self) -> str:
+        for child in self._children:
+            for line in reversed(child.last_lines(20)):
+                if "aborted: " in line:
+                    return line.split("aborted: ", 1)[1]
+        return "the mission was aborted"
+
+    def _check_children(self) -> None:
+        dead = self._children.dead()
+        if dead is not None:
+            raise MissionFailed(_obituary(dead))
+
+
+def _obituary(child: Child) -> str:
+    code = child.exit_code or 0
+    how = f"was killed by signal {-code}" if code < 0 else f"ended with code {code}"
+    lines = "\n".join(f"  | {line}" for line in child.last_lines())
+    return f"{child.name} {how}; its last lines ({child.log}):\n{lines}"

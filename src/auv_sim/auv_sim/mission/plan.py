@@ -1,0 +1,176 @@
+"""From what a person asked for to what every node is told: checked before anything is started."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from auv_msgs_py import params_file, topics, yaml_file
+from auv_msgs_py.errors import ConfigurationError
+from auv_path_following import config_files, vehicle
+from auv_path_following.paths import mission_file
+from auv_path_following.paths.mission_file import Mission
+from auv_path_following.vehicle import Vehicle
+from auv_sim.closed_loop import Scenario
+from auv_sim.parameters import SUITE
+from auv_sim.plant.remus import PlantState
+
+DEFAULT_MISSION = "paper_composite"
+DEFAULT_VEHICLE = "remus100"
+DEFAULT_PARAMS = "paper"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What the command line can say; names and units as there."""
+
+    mission: str = DEFAULT_MISSION
+    vehicle: str = DEFAULT_VEHICLE
+    params: str = DEFAULT_PARAMS
+    current: tuple[float, float] | None = None
+    initial: tuple[float, float, float] | None = None
+    switching: str | None = None
+    speed: float | None = None
+    no_sim: bool = False
+    use_sim_time: bool = False
+    out: Path | None = None
+    composed: bool = False
+    namespace: str = "/auv"
+    domain: int | None = None
+    quiet: bool = False
+
+
+@dataclass(frozen=True)
+class Plan:
+    """One mission, resolved.
+
+    Attributes:
+        options: what was asked for.
+        mission, vehicle: as read from their files.
+        parameters: node name -> settings object, for the nodes that are started.
+        sources: what each input was read from: "mission", "vehicle", "params" -> path.
+    """
+
+    options: Options
+    mission: Mission
+    vehicle: Vehicle
+    parameters: dict[str, Any]
+    sources: dict[str, Path]
+
+    @property
+    def lockstep(self) -> bool:
+        """Whether the simulator waits for the nodes."""
+        return not self.options.no_sim and self.options.speed is None
+
+    @property
+    def use_sim_time(self) -> bool:
+        """Whether the nodes follow /clock."""
+        return self.options.use_sim_time or not self.options.no_sim
+
+    def scenario(self) -> Scenario:
+        """The same flight for `closed_loop`.
+
+        Raises:
+            ValueError: there is no simulator in this plan.
+        """
+        if self.options.no_sim:
+            raise ValueError("a mission without the simulator has no closed loop")
+        plant = self.parameters[topics.PLANT]
+        start = plant.initial
+        return Scenario(
+            path=self.mission.path,
+            vehicle=self.vehicle,
+            thrust=self.mission.thrust,
+            initial=PlantState(start.x, start.y, start.psi, start.surge, 0.0, 0.0),
+            current=plant.current.value,
+            step=plant.step,
+            guidance=self.parameters[topics.GUIDANCE].guidance,
+            observer=self.parameters[topics.OBSERVER].observer,
+            autopilot=self.parameters[topics.AUTOPILOT].autopilot,
+        )
+
+    def write(self, directory: Path) -> Path:
+        """Write the resolved configuration, such that it can be flown again as it stands.
+
+        Returns:
+            The parameter file for the nodes.
+        """
+        directory.mkdir(parents=True)
+        here: dict[str, Path] = {}
+        for kind in ("mission", "vehicle"):
+            here[kind] = directory / f"{kind}.yaml"
+            shutil.copyfile(self.sources[kind], here[kind])
+        told = {
+            name: dataclasses.replace(settings, **{k: str(here[k]) for k in here if hasattr(settings, k)})
+            for name, settings in self.parameters.items()
+        }
+        target = directory / "params.yaml"
+        yaml_file.dump(params_file.as_ros(told), target)
+        return target
+
+
+def make(options: Options, directory: Path) -> Plan:
+    """Read and check all files, and give every node its parameters.
+
+    Args:
+        options: what was asked for.
+        directory: the run directory; the bag goes there.
+
+    Raises:
+        ConfigurationError: one line with the place, what was found and what was expected.
+    """
+    sources = {
+        "mission": config_files.find("missions", options.mission).absolute(),
+        "vehicle": config_files.find("vehicles", options.vehicle).absolute(),
+        "params": config_files.find("params", options.params).absolute(),
+    }
+    mission = mission_file.load(str(sources["mission"]))
+    hull = vehicle.load(str(sources["vehicle"]))
+    parameters = params_file.load(sources["params"], SUITE)
+    if mission.thrust > hull.thrust_max:
+        raise ConfigurationError(
+            f"{sources['mission']}: thrust", f"{mission.thrust:g} N", f"at most {hull.thrust_max:g} N, all that {hull.name} has"
+        )
+    timing = {"lockstep": not options.no_sim and options.speed is None}
+    timing["recorded"] = timing["lockstep"]
+    for name in parameters:
+        parameters[name] = dataclasses.replace(parameters[name], **timing)
+    _tell(parameters, topics.GUIDANCE, mission=str(sources["mission"]))
+    _tell(parameters, topics.AUTOPILOT, vehicle=str(sources["vehicle"]))
+    _tell(parameters, topics.PLANT, vehicle=str(sources["vehicle"]), initial=_initial(options, mission, parameters))
+    _tell(parameters, topics.RECORDER, directory=str(directory / "bag"))
+    if options.speed is not None:
+        _tell(parameters, topics.PLANT, speed=options.speed)
+    if options.current is not None:
+        current = parameters[topics.PLANT].current
+        changed = dataclasses.replace(current, Vx=options.current[0], Vy=options.current[1])
+        _tell(parameters, topics.PLANT, current=changed)
+    if options.switching is not None:
+        guidance = parameters[topics.GUIDANCE].guidance
+        switching = dataclasses.replace(guidance.switching, mode=options.switching)
+        _tell(parameters, topics.GUIDANCE, guidance=dataclasses.replace(guidance, switching=switching))
+    if options.no_sim:
+        del parameters[topics.PLANT]
+    return Plan(options, mission, hull, parameters, sources)
+
+
+def _tell(parameters: dict[str, Any], node: str, **changes: Any) -> None:
+    parameters[node] = dataclasses.replace(parameters[node], **changes)
+
+
+def _initial(options: Options, mission: Mission, parameters: dict[str, Any]) -> Any:
+    """Where the simulated vehicle begins: as asked for, else on the path's start, heading along it."""
+    initial = parameters[topics.PLANT].initial
+    if options.initial is not None:
+        x, y, psi = options.initial[0], options.initial[1], math.radians(options.initial[2])
+    elif initial == type(initial)():
+        x, y, psi = mission.path.start_pose
+    else:
+        return initial
+    return dataclasses.replace(initial, x=x, y=y, psi=psi)
+
+

@@ -1,0 +1,91 @@
+"""Child processes of one mission: started together, watched, and gone together."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+_PR_SET_PDEATHSIG = 1
+_LIBC = ctypes.CDLL(None)
+
+
+def _die_with_parent() -> None:
+    """Runs in the child: even a launcher that is killed with -9 leaves nothing running."""
+    _LIBC.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+
+
+@dataclass(frozen=True)
+class Child:
+    """One process and its log."""
+
+    name: str
+    process: subprocess.Popen[bytes]
+    log: Path
+
+    @property
+    def exit_code(self) -> int | None:
+        """None while it runs."""
+        return self.process.poll()
+
+    def last_lines(self, count: int = 6) -> list[str]:
+        """The end of its log."""
+        text = self.log.read_text(encoding="utf-8", errors="replace")
+        return [line for line in text.splitlines() if line.strip()][-count:]
+
+
+class Children:
+    """Starts and stops child processes.
+
+    Args:
+        log_directory: stdout and stderr of each go to ``<name>.log`` there.
+        environment: variables on top of the launcher's own.
+    """
+
+    def __init__(self, log_directory: Path, environment: Mapping[str, str]) -> None:
+        self._directory = log_directory
+        self._environment = {**os.environ, **environment, "PYTHONUNBUFFERED": "1"}
+        self._children: dict[str, Child] = {}
+        log_directory.mkdir(parents=True, exist_ok=True)
+
+    def start(self, name: str, module: str, arguments: Sequence[str]) -> None:
+        """Run ``python -m module arguments`` in a session of its own, so that Ctrl-C reaches only the launcher."""
+        log = self._directory / f"{name}.log"
+        with log.open("wb") as stream:
+            process = subprocess.Popen(  # noqa: S603 - our own interpreter, our own modules
+                [sys.executable, "-m", module, *arguments],
+                stdin=subprocess.DEVNULL,
+                stdout=stream,
+                stderr=subprocess.STDOUT,
+                env=self._environment,
+                start_new_session=True,
+                preexec_fn=_die_with_parent,  # noqa: PLW1509 - no threads are running yet
+            )
+        self._children[name] = Child(name, process, log)
+
+    def __iter__(self):  # type: ignore[no-untyped-def]
+        return iter(self._children.values())
+
+    def dead(self) -> Child | None:
+        """The first child that has ended, if any has."""
+        return next((child for child in self._children.values() if child.exit_code is not None), None)
+
+    def stop(self, names: Sequence[str] | None = None, patience: float = 10.0) -> None:
+        """SIGINT to the named children (all by default); who does not leave within `patience` s is killed."""
+        chosen = [self._children[name] for name in names or self._children if name in self._children]
+        for child in chosen:
+            if child.exit_code is None:
+                child.process.send_signal(signal.SIGINT)
+        deadline = time.monotonic() + patience
+        for child in chosen:
+            try:
+                child.process.wait(max(0.0, deadline - time.monotonic()))
+            except subprocess.TimeoutExpired:
+                child.process.kill()
+                child.process.wait()

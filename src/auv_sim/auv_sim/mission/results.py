@@ -1,0 +1,105 @@
+"""What a mission leaves behind: figures, a picture, a table, and the next command."""
+
+from __future__ import annotations
+
+import json
+import math
+import shlex
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+from auv_sim.analysis.metrics import MissionSummary, summarise
+from auv_sim.analysis.overview import draw
+from auv_sim.mission.launcher import Outcome
+from auv_sim.mission.plan import Plan
+from auv_sim.recording.load import load
+
+
+def conclude(plan: Plan, directory: Path, outcome: Outcome) -> MissionSummary:
+    """Load the bag, write `summary.json` and `overview.png`.
+
+    Raises:
+        ConfigurationError: the bag has no odometry.
+    """
+    run = load(directory / "bag")
+    summary = summarise(run, plan.mission.path)
+    record: dict[str, Any] = {
+        "outcome": outcome.state,
+        "reason": outcome.reason,
+        "wall_time_s": round(outcome.wall_time, 3),
+        "times_real_time": round(outcome.mission_time / outcome.wall_time, 2) if outcome.wall_time else None,
+        "timing": "lockstep" if plan.lockstep else "free running",
+        "mission": plan.mission.name,
+        "vehicle": plan.vehicle.name,
+        **json.loads(summary.to_json()),
+    }
+    (directory / "summary.json").write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
+    rudder = plan.vehicle.rudder
+    draw(
+        run,
+        plan.mission.path,
+        summary,
+        directory / "overview.png",
+        f"{plan.mission.name}, {plan.vehicle.name}",
+        rudder_limit=rudder.max_angle,
+        rudder_rate_limit=rudder.max_rate,
+    )
+    return summary
+
+
+def show(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary, console: Console) -> None:
+    """The table, the files, the next command."""
+    table = Table(title=f"{plan.mission.name}: {outcome.state}", title_justify="left")
+    table.add_column("subpath")
+    for heading in ("time [s]", "rms distance [m]", "largest [m]", "rms heading error [deg]", "rudder [deg/m]"):
+        table.add_column(heading, justify="right")
+    for part in summary.subpaths:
+        table.add_row(
+            f"{part.number} {part.kind}",
+            _number(part.duration, 1),
+            _number(part.rms_distance, 3),
+            _number(part.largest_distance, 3),
+            _number(part.rms_heading_error, 2),
+            _number(part.rudder_travel_per_metre, 2),
+        )
+    table.add_section()
+    table.add_row(
+        "all",
+        _number(summary.duration, 1),
+        _number(summary.rms_distance, 3),
+        _number(summary.largest_distance, 3),
+        _number(summary.rms_heading_error, 2),
+        _number(summary.rudder_travel_per_metre, 2),
+    )
+    console.print(table)
+    for corner in summary.corners:
+        console.print(f"corner at joint {corner.joint}: at most {_number(corner.largest_distance, 2)} m off the path")
+    if not math.isnan(summary.current_estimate_error):
+        console.print(f"current estimate: within {summary.current_estimate_error:.4f} m/s of the truth after 15 s")
+    speed = outcome.mission_time / outcome.wall_time if outcome.wall_time else 0.0
+    console.print(
+        f"{outcome.mission_time:.1f} s of mission in {outcome.wall_time:.1f} s, {speed:.0f} times real time"
+    )
+    console.print()
+    for name, what in (
+        ("overview.png", "the mission in one picture"),
+        ("summary.json", "the figures above, for programs"),
+        ("bag", "every topic, rosbag2 (MCAP): ros2 bag play, Foxglove, rosbags"),
+        ("config", "mission, vehicle and parameters as flown"),
+        ("log", "what each node said"),
+    ):
+        console.print(f"  {directory / name}  [dim]{what}[/dim]", soft_wrap=True, highlight=False)
+    console.print(f"\nLook further:  {_next_command(plan, directory)}", soft_wrap=True, highlight=False)
+
+
+def _next_command(plan: Plan, directory: Path) -> str:
+    if plan.options.current is None and not plan.options.no_sim:
+        return "python3 scripts/mission.py --current 0.1 0.2"
+    return f"ros2 bag info {shlex.quote(str(directory / 'bag'))}"
+
+
+def _number(value: float, digits: int) -> str:
+    return "-" if math.isnan(value) else f"{value:.{digits}f}"

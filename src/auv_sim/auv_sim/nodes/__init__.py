@@ -1,0 +1,1 @@
+"""The thin ROS 2 nodes of the simulator and the recorder."""

@@ -1,0 +1,126 @@
+"""The simulator's side of lockstep: no step without an answer, no answer without a step.
+
+Why it cannot go wrong is written down in `auv_msgs_py.pairing`.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+from diagnostic_msgs.msg import DiagnosticArray
+from rclpy.clock import Clock, ClockType
+from std_msgs.msg import UInt64
+
+from auv_msgs_py import topics
+from auv_msgs_py.pairing import Pairing
+from auv_msgs_py.types import Command
+
+if TYPE_CHECKING:
+    from auv_sim.nodes.plant_node import RemusPlantNode
+
+#: How far the simulator may be ahead of the recorder, steps. The recorder reports every 100 steps and its
+#: queues hold 1,000 messages of each topic, so nothing can be lost.
+_LEAD = 500
+
+_BY_NAME = {topic.name: topic for topic in (*topics.CONTRACT, topics.RECORDED_STEPS)}
+
+
+class Lockstep:
+    """Takes the next step when both commands for the present one are there and the mission is running.
+
+    Args:
+        node: the simulator.
+    """
+
+    def __init__(self, node: RemusPlantNode) -> None:
+        self._node = node
+        self._pairing = Pairing((topics.RUDDER_CMD.name, topics.THRUST_CMD.name), strict=True)
+        self._open_since: float | None = None
+        self._left_running = False
+        self._awaits_state = False
+        self._begun = False
+        self._command: Command | None = None
+        self._recorded = 0
+        self._published = 0
+        self._waits: dict[str, tuple[float, str]] = {}
+        node.listen(topics.DIAGNOSTICS, self._on_diagnostics)
+        if node.parameters.recorded:
+            node.listen(topics.RECORDED_STEPS, self._on_recorded)
+        node.create_timer(0.2, self._check, clock=Clock(clock_type=ClockType.STEADY_TIME))
+
+    def waiting_for(self) -> str:
+        """The commands that the present step lacks."""
+        return "" if self._open_since is None else ", ".join(self._missing())
+
+    def _missing(self) -> tuple[str, ...]:
+        return self._pairing.missing or self._pairing.topics
+
+    def on_command(self, topic: str, value: float) -> None:
+        """A valid command came."""
+        if not self._pairing.put(topic, value):
+            return
+        self._command = Command(*self._pairing.take())
+        self._open_since = None
+        # Zero thrust says that the mission did not run at this step. Its state travels on another topic
+        # and may be late: wait for it, or the number of steps would depend on the race.
+        self._awaits_state = self._command.thrust == 0.0 and not self._left_running
+        self._proceed()
+
+    def on_mission_state(self) -> None:
+        """The mission's state changed."""
+        if not self._node.mission_running:
+            self._left_running = True
+            self._awaits_state = False
+        self._proceed()
+
+    def _on_recorded(self, message: UInt64) -> None:
+        self._recorded = int(message.data)
+        self._proceed()
+
+    def _proceed(self) -> None:
+        if self._open_since is not None or self._awaits_state or not self._node.mission_running:
+            return
+        if self._node.parameters.recorded and self._published - self._recorded >= _LEAD:
+            return
+        if self._begun:
+            assert self._command is not None
+            self._node.advance(self._command)
+        self._begun = True
+        self._left_running = False
+        self._published += 1
+        self._open_since = time.monotonic()
+        self._node.publish_step()
+
+    def _on_diagnostics(self, message: DiagnosticArray) -> None:
+        for status in message.status:
+            for pair in status.values:
+                if pair.key == "waiting_for":
+                    self._waits[status.hardware_id] = time.monotonic(), pair.value
+
+    def _check(self) -> None:
+        """End the run, with the culprit's name, when a step stays without an answer."""
+        if self._open_since is None or self._node.fault:
+            return
+        if self._node.gate_waits_for():
+            self._open_since = time.monotonic()
+            return
+        bound = self._node.parameters.answer_timeout
+        if time.monotonic() - self._open_since > bound:
+            culprit, topic = self._culprit()
+            self._node.fail(
+                f"step {self._node.steps} (t = {self._node.stamp * 1e-9:.2f} s) got no answer within {bound:g} s:"
+                f" {culprit} did not send {topic}"
+            )
+
+    def _culprit(self) -> tuple[str, str]:
+        """Follow who waits for whom: the first that reports nothing, or that waits for nobody, is to blame."""
+        topic = _BY_NAME[self._missing()[0]]
+        for _ in topics.CONTRACT:
+            at, waits = self._waits.get(topic.publisher, (0.0, ""))
+            reported = self._open_since is not None and at > self._open_since
+            following = _BY_NAME.get(waits.split(",")[0]) if reported else None
+            if following is None or following.publisher == topics.PLANT:
+                break
+            topic = following
+        return topic.publisher, topic.name

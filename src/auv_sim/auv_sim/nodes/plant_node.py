@@ -1,0 +1,182 @@
+"""remus_plant: the simulated vehicle, in lockstep with the suite or free running."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from typing import Any
+
+from geometry_msgs.msg import TwistWithCovarianceStamped, Vector3Stamped
+from nav_msgs.msg import Odometry
+from rclpy.clock import Clock as RosClock
+from rclpy.clock import ClockType
+from rosgraph_msgs.msg import Clock
+from std_msgs.msg import Float64, String
+from std_srvs.srv import Trigger
+
+from auv_msgs_py import topics
+from auv_msgs_py.conversions import finite, fill_current, fill_odometry, fill_water_velocity, set_stamp
+from auv_msgs_py.errors import ConfigurationError, MessageRefused
+from auv_msgs_py.runtime import SuiteNode, run_nodes
+from auv_msgs_py.types import STOP, Command, Current
+from auv_path_following import vehicle
+from auv_sim.nodes.lockstep import Lockstep
+from auv_sim.nodes.pacing import Pacer
+from auv_sim.parameters import PlantParameters
+from auv_sim.plant.remus import PlantState, RemusPlant
+
+#: A rudder command may miss the stop by rounding, rad.
+_ROUNDING = 1e-9
+
+
+class RemusPlantNode(SuiteNode):
+    """Publishes the contract's vehicle topics and obeys its commands."""
+
+    def __init__(self, **arguments: Any) -> None:
+        super().__init__(topics.PLANT, PlantParameters, **arguments)
+        p: PlantParameters = self.parameters
+        self.vehicle = vehicle.load(p.vehicle)
+        start = p.initial
+        self.plant = RemusPlant(self.vehicle, PlantState(start.x, start.y, start.psi, start.surge, 0.0, 0.0))
+        self.step_ns = round(p.step * 1e9)
+        self.steps = 0
+        self.mission_running = False
+        self.command = STOP
+        self._released = not p.hold_until_running
+        self._commands: dict[str, tuple[float, int]] = {}
+        self._reset_wanted = False
+        self._odometry, self._water, self._message_current = Odometry(), TwistWithCovarianceStamped(), Vector3Stamped()
+        self._odometry.header.frame_id, self._odometry.child_frame_id = p.world_frame, p.body_frame
+        self._water.header.frame_id = p.body_frame
+        self._check_frames(p)
+        self._clock_message, self._rudder_message = Clock(), Float64()
+        self._outputs = [
+            (self.advertise(topic), message)
+            for topic, message in (
+                (topics.CLOCK, self._clock_message), (topics.ODOM, self._odometry), (topics.WATER_VELOCITY, self._water),
+                (topics.RUDDER_STATE, self._rudder_message), (topics.TRUE_CURRENT, self._message_current),
+            )
+        ]  # fmt: skip
+        self.close_gate()
+        self._lockstep = Lockstep(self) if p.lockstep else None
+        self._pacer = None if p.lockstep else Pacer(p.step / p.speed)
+        self.listen(topics.RUDDER_CMD, self._on_rudder)
+        self.listen(topics.THRUST_CMD, self._on_thrust)
+        self.listen(topics.MISSION_STATE, self._on_mission_state)
+        self.create_service(Trigger, topics.RESET_SERVICE, self._on_reset)
+        if self._pacer is not None:
+            self.create_timer(self._pacer.period, self._tick, clock=RosClock(clock_type=ClockType.STEADY_TIME))
+
+    def _check_frames(self, p: PlantParameters) -> None:
+        from auv_msgs_py.frames import FrameIds, FrameTable
+
+        try:
+            FrameTable(FrameIds()).of_pose(topics.ODOM.name, p.world_frame, p.body_frame)
+        except MessageRefused as error:
+            raise ConfigurationError(f"{self.get_name()}: world_frame, body_frame", error.found, error.expected) from None
+
+    def waiting_for(self) -> str:
+        return self.gate_waits_for() or (self._lockstep.waiting_for() if self._lockstep else "")
+
+    def report(self) -> dict[str, Any]:
+        values = {"steps": self.steps, "stamp [s]": f"{self.stamp * 1e-9:.3f}"}
+        if self._pacer is not None:
+            values["behind [s]"] = f"{self._pacer.behind:.3f}"
+        return values
+
+    @property
+    def stamp(self) -> int:
+        """The present step's time, ns."""
+        return topics.FIRST_STAMP_NS + self.steps * self.step_ns
+
+    @property
+    def current(self) -> Current:
+        """The true current, m/s, NED."""
+        value: Current = self.parameters.current.value
+        return value
+
+    def publish_step(self) -> None:
+        """Publish the present state, once the readers are there."""
+        current, stamp = self.current, self.stamp
+        set_stamp(self._clock_message.clock, stamp)
+        u, v = self.plant.ground_velocity(current)
+        fill_odometry(self._odometry, self.plant.navigation, u, v, stamp)
+        fill_water_velocity(self._water, self.plant.water_velocity, stamp)
+        self._rudder_message.data = self.plant.rudder.angle
+        fill_current(self._message_current, current, stamp)
+        self.answer(self._publish)
+
+    def _publish(self) -> None:
+        for publisher, message in self._outputs:
+            publisher.publish(message)
+
+    def advance(self, command: Command) -> None:
+        """One step of the plant, or back to the beginning if a reset was asked for."""
+        if self._reset_wanted:
+            self._reset_wanted = False
+            self.plant.reset()
+            self.steps = 0
+            self._commands.clear()
+            return
+        self.plant.advance(command, self.step_ns * 1e-9, self.current)
+        self.steps += 1
+
+    def _on_rudder(self, message: Float64) -> None:
+        limit = self.vehicle.rudder.max_angle
+        self._on_command(topics.RUDDER_CMD.name, message.data, -limit, limit)
+
+    def _on_thrust(self, message: Float64) -> None:
+        self._on_command(topics.THRUST_CMD.name, message.data, 0.0, self.vehicle.thrust_max)
+
+    def _on_command(self, topic: str, value: float, lowest: float, highest: float) -> None:
+        finite(value, topic)
+        if not lowest - _ROUNDING <= value <= highest + _ROUNDING:
+            raise MessageRefused(topic, f"{value:g}", f"from {lowest:g} to {highest:g}")
+        self._commands[topic] = value, self.stamp
+        if self._lockstep is not None:
+            self._lockstep.on_command(topic, value)
+
+    def _on_mission_state(self, message: String) -> None:
+        self.mission_running = message.data == "running"
+        self._released = self._released or self.mission_running
+        if self._lockstep is not None:
+            self._lockstep.on_mission_state()
+
+    def _on_reset(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        # In lockstep a step may be under way; its answer must not meet the new first step.
+        self._reset_wanted = True
+        response.success, response.message = True, "back at the initial state with the next step"
+        return response
+
+    def _tick(self) -> None:
+        """Free running: as many steps as the wall clock asks for."""
+        assert self._pacer is not None
+        if not self._released:
+            self._pacer.restart(time.monotonic())
+            return
+        for _ in range(self._pacer.due(time.monotonic())):
+            self.publish_step()
+            self.command = self._held_command()
+            self.advance(self.command)
+
+    def _held_command(self) -> Command:
+        """The newest commands; a stop when none came for too long, as any vehicle must do by itself."""
+        oldest = self.stamp - self.parameters.command_timeout * 1e9
+        values = []
+        for topic in (topics.RUDDER_CMD.name, topics.THRUST_CMD.name):
+            value, at = self._commands.get(topic, (0.0, self.stamp))
+            if at < oldest:
+                self.health.warn("commands", f"no {topic} for {self.parameters.command_timeout:g} s: stopped")
+                return STOP
+            values.append(value)
+        self.health.warn("commands", "")
+        return Command(*values)
+
+
+def main(args: Sequence[str] | None = None) -> int:
+    """The executable `remus_plant`."""
+    return run_nodes([RemusPlantNode], args)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,76 @@
+"""The parameters of the simulator and the recorder, and the table of all nodes' parameter classes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from auv_msgs_py import topics
+from auv_msgs_py.settings import setting, settings
+from auv_msgs_py.types import Current
+from auv_path_following.parameters import (
+    AutopilotParameters,
+    GuidanceParameters,
+    NodeParameters,
+    ObserverParameters,
+)
+
+#: Speed through the water with which a simulated vehicle begins, m/s.
+CRUISE = 1.9
+
+
+@settings
+class InitialPose:
+    """Where the simulated vehicle begins, NED."""
+
+    x: float = setting(0.0, "north", unit="m")
+    y: float = setting(0.0, "east", unit="m")
+    psi: float = setting(0.0, "heading, clockwise from north", unit="rad")
+    surge: float = setting(CRUISE, "speed through the water", unit="m/s", ge=0.0, le=10.0)
+
+
+@settings
+class ConstantCurrent:
+    """Velocity of the water over ground, NED."""
+
+    Vx: float = setting(0.0, "towards north", unit="m/s", ge=-5.0, le=5.0, live=True)
+    Vy: float = setting(0.0, "towards east", unit="m/s", ge=-5.0, le=5.0, live=True)
+
+    @property
+    def value(self) -> Current:
+        """For the plant."""
+        return Current(self.Vx, self.Vy)
+
+
+@settings
+class PlantParameters(NodeParameters):
+    """remus_plant."""
+
+    vehicle: str = setting("remus100", "vehicle file, or the name of a shipped one")
+    initial: InitialPose = setting(factory=InitialPose, doc="initial state")
+    current: ConstantCurrent = setting(factory=ConstantCurrent, doc="water current")
+    step: float = setting(0.05, "time between two odometries", unit="s", ge=0.001, le=1.0)
+    speed: float = setting(1.0, "free running: how many times faster than the wall clock", gt=0.0, le=1000.0)
+    hold_until_running: bool = setting(True, "stay at the initial state until the mission runs")
+    command_timeout: float = setting(1.0, "without a command for this long: rudder and thrust 0", unit="s", gt=0.0, le=60.0)
+    answer_timeout: float = setting(10.0, "lockstep: wall time after which a step without an answer ends the run", unit="s", gt=0.0)
+    world_frame: str = setting("map", "frame id of the odometry; map and odom are ENU, map_ned and odom_ned NED")
+    body_frame: str = setting("base_link", "frame id of the vehicle; base_link is FLU, base_link_frd FRD")
+
+
+@settings
+class RecorderParameters(NodeParameters):
+    """recorder."""
+
+    directory: str = setting("bag", "the rosbag2 directory to write; it must not exist yet")
+    compression: str = setting("zstd", "of the chunks: zstd or none")
+    flush_period: float = setting(0.5, "a crash loses at most this much", unit="s", gt=0.0, le=60.0)
+
+
+#: Node name -> the class of its parameters: what a parameter file may contain.
+SUITE: dict[str, type[Any]] = {
+    topics.PLANT: PlantParameters,
+    topics.OBSERVER: ObserverParameters,
+    topics.GUIDANCE: GuidanceParameters,
+    topics.AUTOPILOT: AutopilotParameters,
+    topics.RECORDER: RecorderParameters,
+}

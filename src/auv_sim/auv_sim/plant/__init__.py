@@ -1,0 +1,1 @@
+"""The vehicle that is simulated: hull, rudder, water."""

@@ -1,0 +1,145 @@
+"""REMUS in the horizontal plane: kinematics Eq. (14), dynamics Eqs. (18), (19), fourth-order Runge-Kutta."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from auv_msgs_py.types import NO_CURRENT, STOP, Command, Current, Navigation, WaterVelocity
+from auv_path_following.vehicle import Vehicle
+from auv_sim.plant.actuator import RudderServo
+
+
+class PlantState(NamedTuple):
+    """x, y (m, north, east), psi (rad, unwrapped), ur, vr (m/s through the water, FRD), r (rad/s)."""
+
+    x: float
+    y: float
+    psi: float
+    ur: float
+    vr: float
+    r: float
+
+
+class RemusDynamics:
+    """Eqs. (18), (19) for one hull: the mass matrix is inverted once.
+
+    Args:
+        vehicle: the hull's coefficients.
+    """
+
+    def __init__(self, vehicle: Vehicle) -> None:
+        self.hull = h = vehicle.hull
+        determinant = (h.m - h.Yvd) * (h.Izz - h.Nrd) - h.Yrd * h.Nvd
+        self._inv_x = 1.0 / (h.m - h.Xud)
+        self._inv_vv = (h.Izz - h.Nrd) / determinant
+        self._inv_vr = h.Yrd / determinant
+        self._inv_rv = h.Nvd / determinant
+        self._inv_rr = (h.m - h.Yvd) / determinant
+        # Prestero has the rigid-body term m vr r in surge; the paper's Eq. (19) leaves it out.
+        self._Xvr = h.Xvr + (h.m if h.surge_coupling else 0.0)
+
+    def derivative(
+        self, state: PlantState, delta: float, thrust: float, current: Current
+    ) -> tuple[float, float, float, float, float, float]:
+        """d state/dt with the rudder at `delta` (rad), thrust in N and the current in m/s, NED."""
+        _, _, psi, ur, vr, r = state
+        h = self.hull
+        SX = h.Xuu * ur * abs(ur) + self._Xvr * vr * r + h.Xrr * r * r + thrust
+        SY = (
+            h.Yvv * vr * abs(vr) + h.Yrr * r * abs(r) + (h.Yur - h.m) * ur * r + h.Yuv * ur * vr
+            + h.Yuud * ur * ur * delta
+        )  # fmt: skip
+        SN = (
+            h.Nvv * vr * abs(vr) + h.Nrr * r * abs(r) + h.Nur * ur * r + h.Nuv * ur * vr
+            + h.Nuud * ur * ur * delta
+        )  # fmt: skip
+        cos_psi, sin_psi = math.cos(psi), math.sin(psi)
+        return (
+            ur * cos_psi - vr * sin_psi + current.Vx,
+            ur * sin_psi + vr * cos_psi + current.Vy,
+            r,
+            self._inv_x * SX,
+            self._inv_vv * SY + self._inv_vr * SN,
+            self._inv_rv * SY + self._inv_rr * SN,
+        )
+
+
+class RemusPlant:
+    """The simulated vehicle: hull and rudder servo in a current.
+
+    Args:
+        vehicle: hull, rudder, thruster.
+        initial: state to begin with, and to go back to on reset.
+        max_step: longest Runge-Kutta step, s; longer steps are divided.
+    """
+
+    def __init__(self, vehicle: Vehicle, initial: PlantState, max_step: float = 0.05) -> None:
+        self.vehicle = vehicle
+        self.dynamics = RemusDynamics(vehicle)
+        self.initial = initial
+        self.max_step = max_step
+        self.reset()
+
+    def reset(self) -> None:
+        """Back to the initial state, rudder neutral."""
+        self.state = self.initial
+        self.rudder = RudderServo(self.vehicle.rudder.max_angle, self.vehicle.rudder.max_rate)
+
+    def advance(self, command: Command, dt: float, current: Current = NO_CURRENT) -> None:
+        """Let `dt` seconds pass under a held command and current."""
+        self.rudder.command(command.rudder)
+        thrust = min(max(command.thrust, 0.0), self.vehicle.thrust_max)
+        steps = max(1, math.ceil(dt / self.max_step - 1e-9))
+        for _ in range(steps):
+            self._runge_kutta(thrust, dt / steps, current)
+
+    def coast(self, dt: float, current: Current = NO_CURRENT) -> None:
+        """Let `dt` seconds pass as a vehicle does that hears no commands: propeller off, rudder neutral."""
+        self.advance(STOP, dt, current)
+
+    def _runge_kutta(self, thrust: float, h: float, current: Current) -> None:
+        f = self.dynamics.derivative
+        state = self.state
+        delta, delta_half, delta_end = self.rudder.angle, self.rudder.after(0.5 * h), self.rudder.after(h)
+        k1 = f(state, delta, thrust, current)
+        k2 = f(_moved(state, k1, 0.5 * h), delta_half, thrust, current)
+        k3 = f(_moved(state, k2, 0.5 * h), delta_half, thrust, current)
+        k4 = f(_moved(state, k3, h), delta_end, thrust, current)
+        self.state = PlantState(
+            *[
+                value + h / 6.0 * (a + 2.0 * (b + c) + d)
+                for value, a, b, c, d in zip(state, k1, k2, k3, k4, strict=True)
+            ]
+        )
+        self.rudder.advance(h)
+
+    @property
+    def navigation(self) -> Navigation:
+        """The ideal navigation's measurement."""
+        x, y, psi, _, _, r = self.state
+        return Navigation(x, y, psi, r)
+
+    @property
+    def water_velocity(self) -> WaterVelocity:
+        """The ideal water-track log's measurement."""
+        return WaterVelocity(self.state.ur, self.state.vr)
+
+    def ground_velocity(self, current: Current) -> tuple[float, float]:
+        """(u, v) over ground in the body frame, Eqs. (15) (with mended signs) and (16), m/s."""
+        _, _, psi, ur, vr, _ = self.state
+        cos_psi, sin_psi = math.cos(psi), math.sin(psi)
+        uc = current.Vx * cos_psi + current.Vy * sin_psi
+        vc = -current.Vx * sin_psi + current.Vy * cos_psi
+        return ur + uc, vr + vc
+
+
+def _moved(state: PlantState, slope: tuple[float, float, float, float, float, float], h: float) -> PlantState:
+    return PlantState(
+        state[0] + h * slope[0],
+        state[1] + h * slope[1],
+        state[2] + h * slope[2],
+        state[3] + h * slope[3],
+        state[4] + h * slope[4],
+        state[5] + h * slope[5],
+    )

@@ -1,0 +1,248 @@
+"""Reads a recording back as a `Run`: any rosbag2 directory that speaks the wire contract, ours or not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from rosbags.interfaces import Connection
+from rosbags.rosbag2 import Reader
+
+from auv_msgs_py import topics
+from auv_msgs_py.angles import wrap
+from auv_msgs_py.errors import ConfigurationError, MessageRefused
+from auv_msgs_py.frames import Convention, FrameIds, FrameTable, flip_yaw, swap_axes, yaw_of_quaternion
+from auv_msgs_py.topics import Topic
+from auv_sim.analysis.run import Run
+from auv_sim.recording.bag_writer import METADATA_FILE, typestore
+from auv_sim.recording.cdr import Columns, decode
+
+_BAG = "a rosbag2 directory with storage files and metadata.yaml"
+
+#: Every topic that a `Run` takes something from.
+_USED = (
+    topics.ODOM, topics.WATER_VELOCITY, topics.RUDDER_STATE, topics.TRUE_CURRENT, topics.CURRENT_ESTIMATE,
+    topics.DESIRED_YAW, topics.DESIRED_YAW_RATE, topics.PATH_PARAMETER, topics.PATH_ERROR,
+    topics.RUDDER_CMD, topics.THRUST_CMD,
+)  # fmt: skip
+
+# Columns of the decoded Odometry: x y z, quaternion x y z w, 36, linear x y z, angular x y z, 36.
+_POSITION_X, _POSITION_Y, _QUATERNION, _ANGULAR_Z = 0, 1, slice(3, 7), 48
+
+
+class _Recorded(NamedTuple):
+    """One topic of the bag: log times (n,), ns, and what the messages hold."""
+
+    log_ns: NDArray[np.int64]
+    columns: Columns
+
+
+def load(bag: Path, namespace: str | None = None, frame_ids: FrameIds | None = None) -> Run:
+    """Read a recording.
+
+    Topics are found by the last part of their names. Stamped messages are matched with the odometry by
+    stamp; unstamped ones row by row when there is exactly one for each odometry (lockstep), else by log
+    time. In both cases the newest message that is not younger than the odometry counts.
+
+    Args:
+        bag: the rosbag2 directory.
+        namespace: which vehicle's topics, needed only when the bag holds several (``/auv``).
+        frame_ids: the frame ids to accept; the contract's by default.
+
+    Returns:
+        The run in NED / FRD on the odometry's stamps, which strictly increase: a lone older or repeated
+        stamp is left out, and after a backward jump (a reset) nothing is read any more.
+
+    Raises:
+        ConfigurationError: not a readable recording, no odometry, topics of several vehicles, a topic
+            of another type, or frame ids that are unknown or change.
+    """
+    with _opened(bag) as reader:
+        raw = _read(reader, bag, namespace)
+    recorded = {
+        topic: _Recorded(np.array(log_times, np.int64), _decoded(topic, messages, bag))
+        for topic, (log_times, messages) in raw.items()
+        if messages
+    }
+    if topics.ODOM not in recorded:
+        raise ConfigurationError(str(bag), "no odometry", f"messages on {topics.ODOM.name}")
+    table = FrameTable(frame_ids or FrameIds())
+    try:
+        return _assemble(recorded, table, bag)
+    except MessageRefused as refused:
+        raise ConfigurationError(f"{bag}: {refused.topic}", refused.found, refused.expected) from None
+
+
+def load_messages(bag: Path, name: str, namespace: str | None = None) -> list[tuple[int, Any]]:
+    """All messages of one topic, deserialised.
+
+    Args:
+        bag: the rosbag2 directory.
+        name: last part of the topic's name (``mission_state``).
+        namespace: as in `load`.
+
+    Returns:
+        (log time in ns, message) in the order of log time; empty when the topic was not recorded.
+
+    Raises:
+        ConfigurationError: not a readable recording, or topics of several vehicles.
+    """
+    store = typestore()
+    with _opened(bag) as reader:
+        connection = _connection(reader, bag, name, namespace)
+        if connection is None:
+            return []
+        return [
+            (log_ns, store.deserialize_cdr(cdr, connection.msgtype))
+            for _, log_ns, cdr in reader.messages([connection])
+        ]
+
+
+@contextmanager
+def _opened(bag: Path) -> Iterator[Reader]:
+    if not bag.exists():
+        raise ConfigurationError(str(bag), "nothing", _BAG)
+    if bag.is_dir() and not (bag / METADATA_FILE).exists():
+        unfinished = any(bag.glob("*.mcap"))
+        found = f"no {METADATA_FILE} (the recording was not closed)" if unfinished else f"no {METADATA_FILE}"
+        raise ConfigurationError(str(bag), found, _BAG)
+    try:
+        with Reader(bag) as reader:
+            yield reader
+    except ConfigurationError:
+        raise
+    except Exception as error:
+        # A damaged file makes the reader fail in any way it likes.
+        reason = " ".join(str(error).split())
+        raise ConfigurationError(str(bag), f"a recording that cannot be read ({reason})", _BAG) from None
+
+
+def _connection(reader: Reader, bag: Path, name: str, namespace: str | None) -> Connection | None:
+    found = [c for c in reader.connections if c.topic.rsplit("/", 1)[-1] == name]
+    if namespace is not None:
+        wanted = f"/{namespace.strip('/')}/{name}".replace("//", "/")
+        found = [c for c in found if c.topic == wanted]
+    if len(found) > 1:
+        listed = " and ".join(sorted(c.topic for c in found))
+        raise ConfigurationError(
+            str(bag), f"several topics {name}: {listed}", "one vehicle, or its namespace"
+        )
+    return found[0] if found else None
+
+
+def _read(reader: Reader, bag: Path, namespace: str | None) -> dict[Topic, tuple[list[int], list[bytes]]]:
+    chosen: dict[Topic, tuple[list[int], list[bytes]]] = {}
+    by_id: dict[int, tuple[list[int], list[bytes]]] = {}
+    connections: list[Connection] = []
+    for topic in _USED:
+        connection = _connection(reader, bag, topic.name, namespace)
+        if connection is None:
+            continue
+        if connection.msgtype != topic.type:
+            raise ConfigurationError(f"{bag}: {connection.topic}", connection.msgtype, topic.type)
+        connections.append(connection)
+        chosen[topic] = by_id[connection.id] = [], []
+    if connections:
+        for connection, log_ns, cdr in reader.messages(connections):
+            log_times, messages = by_id[connection.id]
+            log_times.append(log_ns)
+            messages.append(cdr)
+    return chosen
+
+
+def _decoded(topic: Topic, messages: list[bytes], bag: Path) -> Columns:
+    try:
+        return decode(topic.type, messages)
+    except Exception as error:
+        # Bytes that are no such message: rosbags fails in any way it likes.
+        reason = " ".join(str(error).split())
+        raise ConfigurationError(
+            f"{bag}: {topic.name}", f"a damaged message ({reason})", topic.type
+        ) from None
+
+
+def _assemble(recorded: dict[Topic, _Recorded], table: FrameTable, bag: Path) -> Run:
+    odometry = recorded[topics.ODOM]
+    values = odometry.columns.values
+    world, body = _frames(topics.ODOM, odometry.columns, bag)
+    convention = table.of_pose(topics.ODOM.name, world, body)
+    yaw = yaw_of_quaternion(*values[:, _QUATERNION].T)
+    x, y, turn = values[:, _POSITION_X], values[:, _POSITION_Y], values[:, _ANGULAR_Z]
+    if convention is Convention.ENU_FLU:
+        (x, y), yaw, turn = swap_axes(x, y), flip_yaw(yaw), -turn
+
+    def aligned(topic: Topic, column: int = 0) -> Any:
+        return _aligned(odometry, recorded.get(topic), column)
+
+    water = recorded.get(topics.WATER_VELOCITY)
+    sway = aligned(topics.WATER_VELOCITY, 1)
+    if water is not None:
+        (frame,) = _frames(topics.WATER_VELOCITY, water.columns, bag)
+        if table.of_body(topics.WATER_VELOCITY.name, frame) is Convention.ENU_FLU:
+            sway = -sway
+    Vx_est, Vy_est = swap_axes(aligned(topics.CURRENT_ESTIMATE, 0), aligned(topics.CURRENT_ESTIMATE, 1))
+    Vx_true, Vy_true = swap_axes(aligned(topics.TRUE_CURRENT, 0), aligned(topics.TRUE_CURRENT, 1))
+    run = Run.from_columns(
+        {
+            "t": odometry.columns.stamp_ns * 1e-9,
+            "x": x,
+            "y": y,
+            "psi": wrap(yaw),
+            "r": turn,
+            "ur": aligned(topics.WATER_VELOCITY, 0),
+            "vr": sway,
+            "rudder": aligned(topics.RUDDER_STATE),
+            "rudder_cmd": aligned(topics.RUDDER_CMD),
+            "thrust_cmd": aligned(topics.THRUST_CMD),
+            "psi_d": wrap(flip_yaw(aligned(topics.DESIRED_YAW))),
+            "r_d": -aligned(topics.DESIRED_YAW_RATE),
+            "xe": aligned(topics.PATH_ERROR, 0),
+            "ye": aligned(topics.PATH_ERROR, 1),
+            "psi_e": aligned(topics.PATH_ERROR, 2),
+            "s": aligned(topics.PATH_PARAMETER),
+            "Vx_est": Vx_est,
+            "Vy_est": Vy_est,
+            "Vx_true": Vx_true,
+            "Vy_true": Vy_true,
+        }
+    )
+    return run.select(_first_flight(odometry.columns.stamp_ns))
+
+
+def _first_flight(stamp: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """The rows up to the first backward jump, lone older or repeated stamps left out, shape (n,)."""
+    newest_before = np.concatenate(([np.iinfo(np.int64).min], np.maximum.accumulate(stamp)[:-1]))
+    older = stamp < newest_before
+    jumps = np.flatnonzero(older[:-1] & older[1:])
+    kept: NDArray[np.bool_] = stamp > newest_before
+    if jumps.size:
+        kept[jumps[0] :] = False
+    return kept
+
+
+def _frames(topic: Topic, columns: Columns, bag: Path) -> tuple[str, ...]:
+    if len(columns.frames) > 1:
+        listed = " and ".join(repr(frames) for frames in columns.frames)
+        raise ConfigurationError(f"{bag}: {topic.name}", f"frame ids {listed}", "the same in every message")
+    return columns.frames[0]
+
+
+def _aligned(odometry: _Recorded, other: _Recorded | None, column: int) -> NDArray[np.float64]:
+    """One number of a topic for each odometry, shape (n,); NaN before the topic's first message."""
+    n = odometry.log_ns.size
+    if other is None:
+        return np.full(n, np.nan)
+    values = other.columns.values[:, column]
+    if other.columns.frames:
+        kept = _first_flight(other.columns.stamp_ns)
+        values, times, wanted = values[kept], other.columns.stamp_ns[kept], odometry.columns.stamp_ns
+    elif values.size == n:
+        return values
+    else:
+        times, wanted = other.log_ns, odometry.log_ns
+    row = np.searchsorted(times, wanted, side="right") - 1
+    return np.where(row >= 0, values[np.maximum(row, 0)], np.nan)

@@ -1,0 +1,30 @@
+"""rclpy's QoS profiles as the records that a bag's metadata wants."""
+
+from __future__ import annotations
+
+from rclpy.duration import Duration
+from rclpy.qos import QoSProfile
+from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
+
+_FOREVER = QosTime(9223372036, 854775807)
+
+
+def qos_record(profile: QoSProfile) -> Qos:
+    """The same QoS, as rosbags writes it."""
+    return Qos(
+        history=QosHistory(int(profile.history)),
+        depth=profile.depth,
+        reliability=QosReliability(int(profile.reliability)),
+        durability=QosDurability(int(profile.durability)),
+        deadline=_time(profile.deadline),
+        lifespan=_time(profile.lifespan),
+        liveliness=QosLiveliness(int(profile.liveliness)),
+        liveliness_lease_duration=_time(profile.liveliness_lease_duration),
+        avoid_ros_namespace_conventions=profile.avoid_ros_namespace_conventions,
+    )
+
+
+def _time(duration: Duration) -> QosTime:
+    """Zero is rclpy's "not set", which rosbag2 writes as infinite."""
+    sec, nsec = divmod(duration.nanoseconds, 1_000_000_000)
+    return QosTime(sec, nsec) if sec or nsec else _FOREVER
