@@ -45,8 +45,8 @@ MISSION_STATE = Topic("mission_state", "std_msgs/msg/String", GUIDANCE, (PLANT,)
 RUDDER_CMD = Topic("rudder_cmd", "std_msgs/msg/Float64", AUTOPILOT, (PLANT,))
 THRUST_CMD = Topic("thrust_cmd", "std_msgs/msg/Float64", AUTOPILOT, (PLANT,))
 DIAGNOSTICS = Topic("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", "every node")
-#: Extension of the contract, lockstep only: how many odometries the recorder has written, so that the
-#: simulator never outruns it.
+#: Extension of the contract, lockstep only: how many steps the recorder has in full, so that the simulator
+#: never outruns it.
 RECORDED_STEPS = Topic("recorded_steps", "std_msgs/msg/UInt64", RECORDER, (PLANT,))
 
 #: Published once per odometry while the mission runs: every one of them has one message a step.
@@ -62,3 +62,10 @@ RESET_SERVICE = "reset"
 
 #: The simulator's first stamp: zero reads as "unset" in ROS 2.
 FIRST_STAMP_NS = 1_000_000_000
+
+#: Lockstep: how many steps the simulator may be ahead of what the recorder has in full. A publisher keeps its
+#: last 10 messages for a reader that has not acknowledged them, and there is one message a step: as long as
+#: the lead is smaller than that, no message can be pushed out before the recorder has it.
+RECORDING_LEAD = 8
+#: How often the recorder tells how far it is, steps.
+RECORDING_REPORT = 4

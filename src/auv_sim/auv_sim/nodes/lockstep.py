@@ -19,10 +19,6 @@ from auv_msgs_py.types import Command
 if TYPE_CHECKING:
     from auv_sim.nodes.plant_node import RemusPlantNode
 
-#: How far the simulator may be ahead of the recorder, steps. The recorder reports every 100 steps and its
-#: queues hold 1,000 messages of each topic, so nothing can be lost.
-_LEAD = 500
-
 _BY_NAME = {topic.name: topic for topic in (*topics.CONTRACT, topics.RECORDED_STEPS)}
 
 
@@ -41,7 +37,7 @@ class Lockstep:
         self._awaits_state = False
         self._begun = False
         self._command: Command | None = None
-        self._recorded = 0
+        self._recorded, self._recorded_at = 0, time.monotonic()
         self._published = 0
         self._waits: dict[str, tuple[float, str]] = {}
         node.listen(topics.DIAGNOSTICS, self._on_diagnostics)
@@ -75,13 +71,13 @@ class Lockstep:
         self._proceed()
 
     def _on_recorded(self, message: UInt64) -> None:
-        self._recorded = int(message.data)
+        self._recorded, self._recorded_at = int(message.data), time.monotonic()
         self._proceed()
 
     def _proceed(self) -> None:
         if self._open_since is not None or self._awaits_state or not self._node.mission_running:
             return
-        if self._node.parameters.recorded and self._published - self._recorded >= _LEAD:
+        if self._node.parameters.recorded and self._published - self._recorded >= topics.RECORDING_LEAD:
             return
         if self._begun:
             assert self._command is not None
@@ -89,6 +85,8 @@ class Lockstep:
         self._begun = True
         self._left_running = False
         self._published += 1
+        if self._published - self._recorded == topics.RECORDING_LEAD:
+            self._recorded_at = time.monotonic()
         self._open_since = time.monotonic()
         self._node.publish_step()
 
@@ -100,7 +98,10 @@ class Lockstep:
 
     def _check(self) -> None:
         """End the run, with the culprit's name, when a step stays without an answer."""
-        if self._open_since is None or self._node.fault:
+        if self._node.fault:
+            return
+        if self._open_since is None:
+            self._check_recorder()
             return
         if self._node.gate_waits_for():
             self._open_since = time.monotonic()
@@ -111,6 +112,17 @@ class Lockstep:
             self._node.fail(
                 f"step {self._node.steps} (t = {self._node.stamp * 1e-9:.2f} s) got no answer within {bound:g} s:"
                 f" {culprit} did not send {topic}"
+            )
+
+    def _check_recorder(self) -> None:
+        waits = self._published - self._recorded >= topics.RECORDING_LEAD and self._node.mission_running
+        if not (self._node.parameters.recorded and waits):
+            return
+        bound = self._node.parameters.answer_timeout
+        if time.monotonic() - self._recorded_at > bound:
+            self._node.fail(
+                f"step {self._node.steps} (t = {self._node.stamp * 1e-9:.2f} s) was not recorded within {bound:g} s:"
+                f" {topics.RECORDER} did not send {topics.RECORDED_STEPS.name}"
             )
 
     def _culprit(self) -> tuple[str, str]:
