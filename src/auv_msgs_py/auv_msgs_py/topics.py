@@ -63,9 +63,9 @@ RESET_SERVICE = "reset"
 #: The simulator's first stamp: zero reads as "unset" in ROS 2.
 FIRST_STAMP_NS = 1_000_000_000
 
-#: Lockstep: how many steps the simulator may be ahead of what the recorder has in full. A publisher keeps its
-#: last 10 messages for a reader that has not acknowledged them, and there is one message a step: as long as
-#: the lead is smaller than that, no message can be pushed out before the recorder has it.
-RECORDING_LEAD = 8
+#: Lockstep: how many steps the simulator may be ahead of what the recorder has in full. A reader's transport
+#: queue holds 512 messages, and there are 15 a step: within this lead nothing can overflow, however long the
+#: recorder is starved of processor time. (A reliable writer could not help: it keeps its last 10 messages.)
+RECORDING_LEAD = 30
 #: How often the recorder tells how far it is, steps.
-RECORDING_REPORT = 4
+RECORDING_REPORT = 8
