@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 from auv_msgs_py import topics
 from auv_msgs_py.settings import setting, settings
@@ -51,19 +51,36 @@ class PlantParameters(NodeParameters):
     step: float = setting(0.05, "time between two odometries", unit="s", ge=0.001, le=1.0)
     speed: float = setting(1.0, "free running: how many times faster than the wall clock", gt=0.0, le=1000.0)
     hold_until_running: bool = setting(True, "stay at the initial state until the mission runs")
-    command_timeout: float = setting(1.0, "without a command for this long: rudder and thrust 0", unit="s", gt=0.0, le=60.0)
-    answer_timeout: float = setting(10.0, "lockstep: wall time after which a step without an answer ends the run", unit="s", gt=0.0)
-    world_frame: str = setting("map", "frame id of the odometry; map and odom are ENU, map_ned and odom_ned NED")
+    command_timeout: float = setting(
+        1.0, "without a command for this long: rudder and thrust 0", unit="s", gt=0.0, le=60.0
+    )
+    answer_timeout: float = setting(
+        10.0, "lockstep: wall time after which a step without an answer ends the run", unit="s", gt=0.0
+    )
+    world_frame: str = setting(
+        "map", "frame id of the odometry; map and odom are ENU, map_ned and odom_ned NED"
+    )
     body_frame: str = setting("base_link", "frame id of the vehicle; base_link is FLU, base_link_frd FRD")
 
 
 @settings
 class RecorderParameters(NodeParameters):
-    """recorder."""
+    """recorder. It records the wire contract and whatever else `topics`, `regex` or `all_topics` name."""
 
     directory: str = setting("bag", "the rosbag2 directory to write; it must not exist yet")
-    compression: str = setting("zstd", "of the chunks: zstd or none")
-    flush_period: float = setting(0.5, "a crash loses at most this much", unit="s", gt=0.0, le=60.0)
+    contract: bool = setting(True, "record the wire contract, /rosout and /parameter_events from the start")
+    topics: str = setting("", "further topics: names, separated by blanks")
+    regex: str = setting("", "further topics: those whose full name matches")
+    exclude: str = setting("", "never those whose full name matches, unless they are named elsewhere")
+    all_topics: bool = setting(False, "every topic that appears")
+    compression: Literal["none", "zstd"] = setting("zstd", "of the chunks: zstd or none")
+    flush_period: float = setting(
+        0.5, "a crash loses at most so much, of wall time and of recorded time", unit="s", gt=0.0, le=60.0
+    )
+    max_size: int = setting(0, "begin a new file after so many MB; 0 for never", ge=0, le=1_000_000)
+    max_duration: float = setting(
+        0.0, "begin a new file after so much recorded time; 0 for never", unit="s", ge=0.0, le=1e6
+    )
 
 
 #: Node name -> the class of its parameters: what a parameter file may contain.

@@ -1,33 +1,32 @@
-"""recorder: every topic of the contract, raw, into a rosbag2 directory (MCAP)."""
+"""recorder: topics, raw, into a rosbag2 directory (MCAP)."""
 
 from __future__ import annotations
 
+import re
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from rclpy.clock import Clock, ClockType
-from rosbags.interfaces import Qos
 from std_msgs.msg import UInt64
 
-from auv_msgs_py import qos, topics
+from auv_msgs_py import topics
 from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.runtime import SuiteNode, run_nodes
-from auv_msgs_py.topics import Topic
 from auv_sim.parameters import RecorderParameters
 from auv_sim.recording.bag_writer import BagWriter
-from auv_sim.recording.qos_records import qos_record
+from auv_sim.recording.intake import Taken, Timestamps, drain
+from auv_sim.recording.selection import Selection
 
-#: ROS's own topics that belong to every record.
-_ROS_OWN = (
-    Topic("/rosout", "rcl_interfaces/msg/Log", "every node", latched=True),
-    Topic("/parameter_events", "rcl_interfaces/msg/ParameterEvent", "every node"),
-)
-#: Lockstep: how often the recorder tells how far it is, steps.
-_REPORT_EVERY = 100
+#: How often everything that has come is fetched, s.
+_POLL = 0.02
+#: How often the graph is asked for new topics and publishers, s.
+_LOOK_AROUND = 0.25
 #: After a stop was requested, silence for this long means that nothing is under way any more, s.
 _QUIET = 0.2
+#: With simulated time: messages kept back until the clock's first word.
+_EARLY_LIMIT = 10_000
 
 
 class RecorderNode(SuiteNode):
@@ -38,55 +37,116 @@ class RecorderNode(SuiteNode):
         p: RecorderParameters = self.parameters
         directory = Path(p.directory)
         if directory.exists():
-            raise ConfigurationError(f"{self.get_name()}: parameter directory", f"{directory}, which exists", "a new one")
-        self.writer = BagWriter(directory, p.compression)
-        self._last = time.monotonic()
-        self._ros_clock = self.get_clock()
+            raise ConfigurationError(
+                f"{self.get_name()}: parameter directory", f"{directory}, which exists", "a new one"
+            )
+        for name in ("regex", "exclude"):
+            try:
+                re.compile(getattr(p, name))
+            except re.error as error:
+                raise ConfigurationError(
+                    f"{self.get_name()}: parameter {name}", str(error), "a regular expression"
+                ) from None
+        size, duration = p.max_size * 1_000_000, round(p.max_duration * 1e9)
+        self.writer = BagWriter(directory, p.compression, max_size=size, max_duration_ns=duration)
+        self._times = Timestamps(bool(self.get_parameter("use_sim_time").value))
+        self._early: list[Taken] = []
+        self._last = self._flushed = time.monotonic()
+        self._flushed_ns = 0
         self._progress = self.advertise(topics.RECORDED_STEPS) if p.lockstep else None
+        self._told = 0
+        self._per_step = [self.resolve_topic_name(topic.name) for topic in topics.PER_STEP]
         self.close_gate()
-        for topic in (*topics.CONTRACT, *_ROS_OWN):
-            self._record(topic)
-        self.create_timer(p.flush_period, self._flush, clock=Clock(clock_type=ClockType.STEADY_TIME))
+        self.selection = Selection(self, p, self.writer)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self.create_timer(_POLL, self._poll, clock=steady)
+        self.create_timer(_LOOK_AROUND, self._look_around, clock=steady)
+
+    @property
+    def lost(self) -> dict[str, int]:
+        """Messages that never came, by topic."""
+        return {topic.name: topic.watch.lost for topic in self.selection.topics if topic.watch.lost}
 
     def report(self) -> dict[str, Any]:
-        return {"messages": sum(self.writer.counts.values()), "directory": self.parameters.directory}
+        lost = self.lost
+        return {
+            "directory": self.parameters.directory,
+            "messages": sum(self.writer.counts.values()),
+            "size [MB]": f"{self.writer.size / 1e6:.1f}",
+            "dropped": sum(lost.values()) + self.writer.given_up,
+        } | {f"dropped {name}": number for name, number in lost.items()}
 
-    def _record(self, topic: Topic) -> None:
-        reliable = self.parameters.lockstep or topic.latched or topic.publisher != topics.PLANT
-        profile = qos.requested(topic, reliable, qos.RECORDER_DEPTH)
-        callback = self._writer_of(topic, qos_record(qos.offered(topic)))
-        self.create_subscription(qos.message_class(topic.type), topic.name, callback, profile, raw=True)
+    def _look_around(self) -> None:
+        for text in self.selection.look_around():
+            self.get_logger().warning(text)
+        lost = self.lost
+        told = ", ".join(f"{number} of {name}" for name, number in lost.items())
+        self.health.warn("lost", f"messages lost: {told}" if lost else "")
 
-    def _writer_of(self, topic: Topic, offered: Qos) -> Callable[[bytes], None]:
-        name = self.resolve_topic_name(topic.name)
-        channel = self.writer.add_topic(name, topic.type, [offered])
-        write, clock = self.writer.write, self._ros_clock
-        is_odometry = topic is topics.ODOM
-
-        def on_message(data: bytes) -> None:
-            now = clock.now().nanoseconds
-            write(channel, now, now, data)
+    def _poll(self) -> None:
+        batch = drain(self.selection.topics)
+        if batch:
             self._last = time.monotonic()
-            if is_odometry and self._progress is not None and channel.count % _REPORT_EVERY == 0:
-                self._report_progress(channel.count)
+            self._take_in(batch)
+        now, end = time.monotonic(), self._times.now or 0
+        period = self.parameters.flush_period
+        if now - self._flushed >= period or abs(end - self._flushed_ns) >= period * 1e9:
+            self._flushed, self._flushed_ns = now, end
+            self._flush()
 
-        return on_message
+    def _take_in(self, batch: list[Taken], last: bool = False) -> None:
+        times, write = self._times, self.writer.write
+        if times.simulated and times.now is None:
+            batch = self._early + batch
+            clock_known = any(taken.order == 0 for taken in batch)
+            if not (clock_known or last or len(batch) > _EARLY_LIMIT):
+                self._early = batch
+                return
+            self._early = []
+            times.begin(batch)
+        for taken in batch:
+            topic = taken.topic
+            if not topic.known:
+                self.selection.meet(topic)
+            topic.watch.note(taken.sequence, topic.publishers)
+            log_ns, publish_ns = times.of(taken)
+            write(topic.channel, log_ns, publish_ns, taken.data, taken.sequence)
+        if self._progress is not None:
+            self._report_progress()
 
-    def _report_progress(self, steps: int) -> None:
-        progress = self._progress
-        assert progress is not None
-        self.answer(lambda: progress.publish(UInt64(data=steps)))
+    def _report_progress(self) -> None:
+        counts, progress = self.writer.counts, self._progress
+        steps = min(counts[name] for name in self._per_step)
+        if steps - self._told >= topics.RECORDING_REPORT and progress is not None:
+            self._told = steps
+            self.answer(lambda: progress.publish(UInt64(data=steps)))
 
     def _flush(self) -> None:
-        self.writer.flush()
+        if self.writer.flush():
+            self.health.error("disk", "")
+            return
+        text = f"cannot write {self.writer.trouble}"
+        if self.parameters.lockstep:
+            self.fail(text)
+        given_up = f", {self.writer.given_up} messages given up" if self.writer.given_up else ""
+        self.health.error("disk", text + given_up)
 
     def busy(self) -> bool:
         return time.monotonic() - self._last < _QUIET
 
     def close(self) -> None:
-        self.writer.close()
-        counts = self.writer.counts
-        print(f"{self.writer.directory}: {sum(counts.values())} messages of {len(counts)} topics")
+        self._take_in(drain(self.selection.topics), last=True)
+        self.selection.close()
+        whole = self.writer.close()
+        counts, lost = self.writer.counts, self.lost
+        missing = sum(lost.values()) + self.writer.given_up
+        total = sum(counts.values())
+        print(f"{self.writer.directory}: {total} messages of {len(counts)} topics, {missing} dropped")
+        for name, number in lost.items():
+            print(f"{self.writer.directory}: {number} messages of {name} never came")
+        if not whole:
+            advice = f"python3 scripts/bag.py repair {self.writer.directory} makes it whole"
+            print(f"{self.writer.directory}: left unfinished ({self.writer.trouble}); {advice}")
 
 
 def main(args: Sequence[str] | None = None) -> int:

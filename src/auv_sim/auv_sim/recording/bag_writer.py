@@ -2,93 +2,110 @@
 
 from __future__ import annotations
 
-import os
-import sys
 from collections.abc import Sequence
-from functools import cache
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Literal
+from typing import Any
 
-import yaml
-from mcap.writer import CompressionType, Writer
 from rosbags.interfaces import Qos
 from rosbags.rosbag2.metadata import dump_qos_v9
-from rosbags.typesys import Stores, get_typestore
-from rosbags.typesys.store import Typestore
 
 from auv_msgs_py.errors import ConfigurationError
+from auv_sim.recording import metadata
+from auv_sim.recording.definitions import definition, typestore
+from auv_sim.recording.mcap_file import Compression, McapFile
+from auv_sim.recording.metadata import METADATA_FILE, FileFacts, TopicFacts
 
-METADATA_FILE = "metadata.yaml"
-METADATA_VERSION = 9
-ROS_DISTRO = "jazzy"
+__all__ = ["METADATA_FILE", "BagWriter", "Channel", "typestore"]
 
-_COMPRESSION = {"none": CompressionType.NONE, "zstd": CompressionType.ZSTD}
-
-
-@cache
-def typestore() -> Typestore:
-    """The message definitions of ROS 2 Jazzy; made once, it takes a tenth of a second."""
-    return get_typestore(Stores.ROS2_JAZZY)
+#: What may wait in memory for a disk that is full, bytes; further messages are counted and given up.
+PENDING_LIMIT = 16 * 1024 * 1024
 
 
 class Channel:
     """Handle of one recorded topic; `count` is the number of messages written to it."""
 
-    __slots__ = ("count", "id", "name", "qos", "type", "type_hash")
+    __slots__ = ("count", "name", "number", "qos", "type")
 
-    def __init__(self, number: int, name: str, type_name: str, type_hash: str, qos: list[Any]) -> None:
-        self.id = number
+    def __init__(self, name: str, type_name: str, qos: list[Any]) -> None:
         self.name = name
         self.type = type_name
-        self.type_hash = type_hash
         self.qos = qos
         self.count = 0
+        self.number = 0  # in the present file; 0 until something is written
 
 
 class BagWriter:
     """One recording: `add_topic`, then `write` as often as wanted, then `close`.
 
-    Messages gather in memory until a chunk is full or `flush` is called. After `flush` the operating
-    system has them, so a process that is killed loses only what came later.
+    Messages gather in memory until `flush` is called. After `flush` the operating system has them, so a
+    process that is killed loses only what came later.
 
     Args:
         directory: the rosbag2 directory to make; it must not exist.
         compression: of the chunks, "none" or "zstd".
         chunk_size: bytes of messages that make a chunk.
+        max_size: bytes after which a new file is begun; 0 for never.
+        max_duration_ns: recorded time after which a new file is begun; 0 for never.
 
     Raises:
         ConfigurationError: the directory exists or cannot be made, or the compression is unknown.
     """
 
     def __init__(
-        self, directory: Path, compression: Literal["none", "zstd"] = "none", chunk_size: int = 1024 * 1024
+        self,
+        directory: Path,
+        compression: Compression = "none",
+        chunk_size: int = 1024 * 1024,
+        max_size: int = 0,
+        max_duration_ns: int = 0,
     ) -> None:
-        if compression not in _COMPRESSION:
+        if compression not in ("none", "zstd"):
             raise ConfigurationError("compression", repr(compression), "none or zstd")
+        self.directory = directory
+        self._compression: Compression = compression
+        self._chunk_size = chunk_size
+        self._max_size, self._max_duration_ns = max_size, max_duration_ns
+        self._channels: dict[str, Channel] = {}
+        self._files: list[FileFacts] = []
+        self._closed = False
+        #: Messages given up because the disk had no room for them.
+        self.given_up = 0
         try:
             directory.mkdir(parents=True)
+            self._file = self._open()
         except FileExistsError:
             raise ConfigurationError(str(directory), "something with this name", "a new directory") from None
         except OSError as error:
             raise ConfigurationError(str(directory), f"{error.strerror}", "a place to write to") from None
-        self.directory = directory
-        self.file = directory / f"{directory.resolve().name}_0.mcap"
-        self._stream = self.file.open("xb")
-        self._writer = Writer(self._stream, chunk_size=chunk_size, compression=_COMPRESSION[compression])
-        self._writer.start(profile="ros2", library="auv_sim")
-        # Bound once: the look-up would be paid for every message.
-        self._add_message = self._writer.add_message
-        self._channels: dict[str, Channel] = {}
-        self._schemas: dict[str, tuple[int, str]] = {}
-        self._first_ns = sys.maxsize
-        self._last_ns = 0
-        self._closed = False
+
+    def _open(self) -> McapFile:
+        path = self.directory / f"{self.directory.resolve().name}_{len(self._files)}.mcap"
+        self._schemas: dict[str, int] = {}
+        for channel in self._channels.values():
+            channel.number = 0
+        return McapFile(path, self._compression, self._chunk_size)
+
+    @property
+    def file(self) -> Path:
+        """The file that is being written."""
+        return self._file.path
 
     @property
     def counts(self) -> dict[str, int]:
         """Messages written so far: topic name -> number."""
         return {channel.name: channel.count for channel in self._channels.values()}
+
+    @property
+    def size(self) -> int:
+        """Bytes handed over so far, all files."""
+        return sum(file.size for file in self._files) + self._file.size
+
+    @property
+    def trouble(self) -> str:
+        """Why nothing can be written at the moment; empty when all is well."""
+        error = self._file.journal.error
+        return "" if error is None else f"{self.file.name}: {error.strerror}"
 
     def add_topic(self, name: str, type_name: str, qos: Sequence[Qos]) -> Channel:
         """Announce a topic; topics may be added at any time.
@@ -99,33 +116,36 @@ class BagWriter:
             qos: the QoS that each publisher offers.
 
         Raises:
-            ConfigurationError: the type is not one of ROS 2 Jazzy's, or the topic was added before.
+            ConfigurationError: nobody knows the type, or the topic was added before.
         """
         if name in self._channels:
             raise ConfigurationError(name, "a topic that is recorded already", "a new topic")
-        schema, type_hash = self._schema(name, type_name)
-        offered = dump_qos_v9(list(qos))
-        number = self._writer.register_channel(
-            name,
-            "cdr",
-            schema,
-            {"offered_qos_profiles": _yaml(offered).rstrip("\n"), "topic_type_hash": type_hash},
-        )
-        channel = Channel(number, name, type_name, type_hash, list(offered))
-        self._channels[name] = channel
+        try:
+            definition(type_name)
+        except ConfigurationError as error:
+            raise ConfigurationError(name, f"the type {type_name}", error.expected) from None
+        channel = self._channels[name] = Channel(name, type_name, list(dump_qos_v9(list(qos))))
         return channel
 
-    def _schema(self, topic: str, type_name: str) -> tuple[int, str]:
-        if type_name not in self._schemas:
-            store = typestore()
-            if type_name not in store.fielddefs:
-                raise ConfigurationError(topic, f"the type {type_name}", "a message type of ROS 2 Jazzy")
-            text, _ = store.generate_msgdef(type_name, ros_version=2)
-            number = self._writer.register_schema(type_name, "ros2msg", text.encode())
-            self._schemas[type_name] = number, store.hash_rihs01(type_name)
-        return self._schemas[type_name]
+    def set_qos(self, channel: Channel, qos: Sequence[Qos]) -> None:
+        """Say what the publishers really offer; counts until the topic's first message."""
+        if not channel.count:
+            channel.qos = list(dump_qos_v9(list(qos)))
 
-    def write(self, channel: Channel, log_time_ns: int, publish_time_ns: int, cdr: bytes) -> None:
+    def _announce(self, channel: Channel) -> int:
+        text, type_hash = definition(channel.type)
+        if channel.type not in self._schemas:
+            self._schemas[channel.type] = self._file.schema(channel.type, "ros2msg", text)
+        described = {
+            "offered_qos_profiles": metadata.dump(channel.qos).rstrip("\n"),
+            "topic_type_hash": type_hash,
+        }
+        channel.number = self._file.channel(channel.name, self._schemas[channel.type], described)
+        return channel.number
+
+    def write(
+        self, channel: Channel, log_time_ns: int, publish_time_ns: int, cdr: bytes, sequence: int = 0
+    ) -> None:
         """Record one message.
 
         Args:
@@ -133,69 +153,63 @@ class BagWriter:
             log_time_ns: when it was received, ns.
             publish_time_ns: when it was sent, ns.
             cdr: the serialised message with its four bytes of CDR header; never looked into.
+            sequence: the publisher's number of it.
         """
-        self._add_message(channel.id, log_time_ns, cdr, publish_time_ns)
-        channel.count += 1
-        if log_time_ns > self._last_ns:
-            self._last_ns = log_time_ns
-        if log_time_ns < self._first_ns:
-            self._first_ns = log_time_ns
-
-    def flush(self) -> None:
-        """End the current chunk and hand it to the operating system; cheap when nothing is pending."""
-        self._writer.flush()  # type: ignore[no-untyped-call]
-
-    def close(self) -> None:
-        """Write the index and metadata.yaml; harmless when called again."""
-        if self._closed:
+        if self._file.journal.pending > PENDING_LIMIT:
+            self.given_up += 1
             return
-        self._closed = True
-        information = self._information()
+        self._file.add(channel.number or self._announce(channel), sequence, log_time_ns, publish_time_ns, cdr)
+        channel.count += 1
+
+    def flush(self) -> bool:
+        """Hand over everything to the operating system; False while the disk has no room (see `trouble`)."""
+        if not self._file.flush():
+            return False
+        file = self._file
+        full = self._max_size and file.size >= self._max_size
+        long = self._max_duration_ns and file.last_ns - file.first_ns >= self._max_duration_ns
+        if file.messages and (full or long):
+            self._finish_file()
+            self._file = self._open()
+        return True
+
+    def _finish_file(self) -> bool:
+        file = self._file
+        for channel in self._channels.values():
+            if not channel.number and not self._files:
+                self._announce(channel)
+        if not file.journal.commit() or not file.flush():
+            file.journal.close()
+            return False
+        self._files.append(FileFacts(file.path.name, file.first_ns, file.last_ns, file.messages, file.size))
         # rosbag2 keeps a copy inside the storage file, so that the file alone tells everything.
-        self._writer.add_metadata("rosbag2", {"serialized_metadata": _yaml(information).rstrip("\n")})
-        self._writer.finish()  # type: ignore[no-untyped-call]
-        self._stream.close()
-        metadata = self.directory / METADATA_FILE
-        draft = metadata.with_suffix(".yaml.tmp")
-        with draft.open("w", encoding="utf-8") as stream:
-            stream.write(_yaml({"rosbag2_bagfile_information": information}))
-            stream.flush()
-            os.fsync(stream.fileno())
-        draft.replace(metadata)
+        return file.finish({"serialized_metadata": metadata.dump(self._information()).rstrip("\n")})
+
+    def close(self) -> bool:
+        """Write the index and metadata.yaml; harmless when called again.
+
+        Returns:
+            Whether the recording is whole. A disk without room leaves it unfinished, but readable.
+        """
+        if self._closed:
+            return True
+        self._closed = True
+        whole = self._finish_file()
+        if whole:
+            try:
+                metadata.write(self.directory, self._information())
+            except OSError:
+                return False
+        return whole
 
     def _information(self) -> dict[str, Any]:
-        channels = self._channels.values()
-        total = sum(channel.count for channel in channels)
-        start = {"nanoseconds_since_epoch": self._first_ns if total else 0}
-        duration = {"nanoseconds": self._last_ns - self._first_ns if total else 0}
-        return {
-            "version": METADATA_VERSION,
-            "storage_identifier": "mcap",
-            "duration": duration,
-            "starting_time": start,
-            "message_count": total,
-            "topics_with_message_count": [
-                {
-                    "topic_metadata": {
-                        "name": channel.name,
-                        "type": channel.type,
-                        "serialization_format": "cdr",
-                        "offered_qos_profiles": channel.qos,
-                        "type_description_hash": channel.type_hash,
-                    },
-                    "message_count": channel.count,
-                }
-                for channel in channels
+        return metadata.information(
+            [
+                TopicFacts(c.name, c.type, c.count, c.qos, definition(c.type).type_hash)
+                for c in self._channels.values()
             ],
-            "compression_format": "",
-            "compression_mode": "",
-            "relative_file_paths": [self.file.name],
-            "files": [
-                {"path": self.file.name, "starting_time": start, "duration": duration, "message_count": total}
-            ],
-            "custom_data": None,
-            "ros_distro": ROS_DISTRO,
-        }
+            self._files,
+        )
 
     def __enter__(self) -> BagWriter:
         return self
@@ -204,14 +218,3 @@ class BagWriter:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
-
-
-class _Dumper(yaml.SafeDumper):
-    """Spells every value out: yaml-cpp's older readers stumble over anchors and aliases."""
-
-    def ignore_aliases(self, data: Any) -> bool:
-        return True
-
-
-def _yaml(data: Any) -> str:
-    return yaml.dump(data, Dumper=_Dumper, sort_keys=False, default_flow_style=False, allow_unicode=True)

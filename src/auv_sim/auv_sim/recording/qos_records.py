@@ -1,9 +1,11 @@
-"""rclpy's QoS profiles as the records that a bag's metadata wants."""
+"""QoS: rclpy's profiles as the records that a bag's metadata wants, and what a recorder has to ask for."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from rclpy.duration import Duration
-from rclpy.qos import QoSProfile
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
 
 _FOREVER = QosTime(9223372036, 854775807)
@@ -28,3 +30,15 @@ def _time(duration: Duration) -> QosTime:
     """Zero is rclpy's "not set", which rosbag2 writes as infinite."""
     sec, nsec = divmod(duration.nanoseconds, 1_000_000_000)
     return QosTime(sec, nsec) if sec or nsec else _FOREVER
+
+
+def matching(offers: Sequence[QoSProfile], depth: int) -> QoSProfile:
+    """The most that all of these publishers can give: a stricter wish would match none of the others."""
+    reliable = all(offer.reliability == ReliabilityPolicy.RELIABLE for offer in offers)
+    kept = all(offer.durability == DurabilityPolicy.TRANSIENT_LOCAL for offer in offers)
+    return QoSProfile(
+        history=HistoryPolicy.KEEP_LAST,
+        depth=depth,
+        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if kept else DurabilityPolicy.VOLATILE,
+    )

@@ -1,0 +1,141 @@
+"""Takes messages off subscriptions in batches: one wake-up for all topics instead of one for each message.
+
+A recorder in lockstep gets some twenty messages a step. Handed over one by one each of them costs a wake-up,
+a lock and a callback, which is several times what taking it from the reader's queue costs. So the queues are
+deep, no executor looks at them, and every few milliseconds everything that has come is fetched at once. When
+each message was sent and received is told by the middleware, not by a clock that is asked afterwards.
+"""
+
+from __future__ import annotations
+
+import struct
+from typing import Any, NamedTuple
+
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from rclpy.subscription import Subscription
+
+from auv_msgs_py.qos import message_class
+from auv_msgs_py.topics import CLOCK
+from auv_sim.recording.bag_writer import Channel
+from auv_sim.recording.sequence_watch import SequenceWatch
+
+_CLOCK = struct.Struct("<4xiI")
+
+
+class Taken(NamedTuple):
+    """One message: when it was sent and received (ns, the machine's clock), its publisher's number of it."""
+
+    sent_ns: int
+    order: int
+    sequence: int
+    received_ns: int
+    topic: PolledTopic
+    data: bytes
+
+
+class PolledTopic:
+    """A raw subscription that is emptied when it suits the recorder.
+
+    Args:
+        node: who subscribes.
+        name: full topic name.
+        type_name: ROS type.
+        profile: the QoS to ask for.
+        channel: where its messages go.
+        fixed: the QoS must stay as it is (lockstep waits for exactly this reader).
+    """
+
+    def __init__(
+        self, node: Node, name: str, type_name: str, profile: QoSProfile, channel: Channel, fixed: bool
+    ) -> None:
+        self.name = name
+        self.channel = channel
+        self.fixed = fixed
+        #: Whether a message has come, and from how many publishers they may come.
+        self.known = False
+        self.publishers = 1
+        self.watch = SequenceWatch()
+        self._node = node
+        self._type = message_class(type_name)
+        self.is_clock = name == CLOCK.name
+        self._subscribe(profile)
+
+    def _subscribe(self, profile: QoSProfile) -> None:
+        self.profile = profile
+        self._subscription: Subscription = self._node.create_subscription(
+            self._type, self.name, lambda _: None, profile, raw=True
+        )
+        # Hidden from executors before one has looked, or it would wake up for every message.
+        self._node._subscriptions.remove(self._subscription)
+        self._take = self._subscription.handle.take_message
+
+    def resubscribe(self, profile: QoSProfile) -> None:
+        """Ask for another QoS; only before anything has come."""
+        self.close()
+        self._subscribe(profile)
+
+    def close(self) -> None:
+        """Leave the topic."""
+        self._subscription.destroy()
+
+    def take(self, batch: list[Taken]) -> None:
+        """Append everything that has come."""
+        take, kind, order = self._take, self._type, 0 if self.is_clock else 1
+        while (taken := take(kind, True)) is not None:
+            data, info = taken
+            received = info["received_timestamp"]
+            sequence = info.get("publication_sequence_number") or 0
+            batch.append(Taken(info["source_timestamp"] or received, order, sequence, received, self, data))
+
+
+class Timestamps:
+    """Log time and publish time of each message.
+
+    Args:
+        simulated: both are what /clock said when the message was sent; else the machine's clock.
+    """
+
+    def __init__(self, simulated: bool) -> None:
+        self.simulated = simulated
+        #: Simulated time, ns; None before the first /clock.
+        self.now: int | None = None
+
+    def begin(self, batch: list[Taken]) -> None:
+        """What was sent before the clock's first word gets the time of that word."""
+        first = next((taken for taken in batch if taken.order == 0), None)
+        self.now = _clock(first.data) if first is not None else 0
+
+    def of(self, taken: Taken) -> tuple[int, int]:
+        """(log time, publish time), ns; a /clock message moves the time."""
+        if not self.simulated:
+            return taken.received_ns, taken.sent_ns
+        if taken.order == 0:
+            self.now = _clock(taken.data)
+        now = self.now or 0
+        return now, now
+
+
+def _clock(data: bytes) -> int:
+    seconds, nanoseconds = _CLOCK.unpack_from(data)
+    return int(seconds) * 1_000_000_000 + int(nanoseconds)
+
+
+def drain(topics: list[PolledTopic]) -> list[Taken]:
+    """Everything that has come on all topics, in the order in which it was sent."""
+    batch: list[Taken] = []
+    clocks: list[PolledTopic] = []
+    for topic in topics:
+        if topic.is_clock:
+            clocks.append(topic)
+        else:
+            topic.take(batch)
+    # Last, so that no message is there without the time at which it was sent.
+    for topic in clocks:
+        topic.take(batch)
+    batch.sort(key=_when)
+    return batch
+
+
+def _when(taken: Taken) -> Any:
+    return taken[:3]

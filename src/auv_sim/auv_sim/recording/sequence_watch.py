@@ -1,0 +1,44 @@
+"""Counts messages that never arrived, from the numbers that publishers give them. Needs no ROS."""
+
+from __future__ import annotations
+
+
+class SequenceWatch:
+    """Watches one topic. Numbers count up by one for each publisher; who published is not told.
+
+    A number that continues none of the known publishers belongs to a new one while there are more publishers
+    than known ones, or when it is 1; otherwise it shows a gap in one that is known.
+    """
+
+    def __init__(self) -> None:
+        self.lost = 0
+        self._next: list[int] = []
+        self._first = -1
+
+    def note(self, number: int, publishers: int) -> None:
+        """Take in one number (0: the middleware gives none); `publishers` is how many there are now."""
+        if number == self._first:
+            self._first += 1
+            return
+        self._slowly(number, publishers)
+
+    def _slowly(self, number: int, publishers: int) -> None:
+        if number <= 0:
+            return
+        if self._first > 0:
+            self._next[0] = self._first
+        known = self._next
+        if number in known:
+            k = known.index(number)
+        else:
+            behind = [k for k, expected in enumerate(known) if expected < number]
+            if not known or not behind or number == 1 or len(known) < publishers:
+                known.append(number)
+                k = len(known) - 1
+            else:
+                k = max(behind, key=known.__getitem__)
+                self.lost += number - known[k]
+        known[k] = number + 1
+        # The publisher that spoke last is looked at first.
+        known[0], known[k] = known[k], known[0]
+        self._first = known[0]
