@@ -82,6 +82,13 @@ class Rudder:
 
 
 @settings
+class Turning:
+    """What was measured of the vehicle's turning, in place of what its hull's coefficients give."""
+
+    radius: float = setting(doc="radius of a steady turn with full rudder", unit="m", gt=0.0)
+
+
+@settings
 class Vehicle:
     """One vehicle. The plant reads it, and so may a model-based controller, each for itself."""
 
@@ -90,6 +97,17 @@ class Vehicle:
     thrust_max: float = setting(doc="largest thrust", unit="N", gt=0.0)
     rudder: Rudder = setting(doc="limits of the rudder")
     hull: Hull = setting(doc="coefficients of the hull")
+    turning: Turning | None = setting(
+        None, "measured turning ability; found from the hull where it is not given"
+    )
+
+    def speed_at(self, thrust: float) -> float:
+        """Steady speed through the water straight ahead, m/s, at a thrust in N: Eq. (19) with SX = 0."""
+        return math.sqrt(max(thrust, 0.0) / -self.hull.Xuu)
+
+    def thrust_at(self, speed: float) -> float:
+        """Thrust, N, for a steady speed through the water straight ahead, m/s: inverse of `speed_at`."""
+        return -self.hull.Xuu * speed * speed
 
 
 def load(name_or_path: str) -> Vehicle:

@@ -81,7 +81,7 @@ class CompositePath:
                 )
         lengths = [segment.length for segment in self.segments]
         self.length: Final = math.fsum(lengths)
-        self._after: Final = tuple(math.fsum(lengths[i + 1 :]) for i in range(self.n))
+        self._after: Final = tuple(itertools.accumulate(reversed(lengths[1:]), initial=0.0))[::-1]
 
     def evaluate(self, i: int, t: float) -> PathPoint:
         """The point at t in [0, 1] of subpath i (from 0)."""
@@ -134,10 +134,17 @@ class CompositePath:
         Returns:
             closest distance, shape (n,), m, not negative; NaN where x or y is not finite.
         """
+        followed = np.asarray(i)
+        order = np.argsort(followed, kind="stable")
+        in_order = followed[order]
         result = np.full(len(x), np.inf)
-        for j, segment in enumerate(self.segments):
-            near = np.abs(np.asarray(i) - j) <= 1
-            result[near] = np.minimum(result[near], closest_distance(segment, x[near], y[near]))
+        # Only subpaths near which there are samples, each with its own: the path may have many thousands.
+        for j in np.unique(np.concatenate([in_order + step for step in (-1, 0, 1)])):
+            if 0 <= j < self.n:
+                first, last = np.searchsorted(in_order, (j - 1, j + 2))
+                near = order[first:last]
+                found = closest_distance(self.segments[j], x[near], y[near])
+                result[near] = np.minimum(result[near], found)
         return result
 
 

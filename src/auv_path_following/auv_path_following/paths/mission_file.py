@@ -5,20 +5,48 @@ from __future__ import annotations
 import dataclasses
 import math
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import pydantic
-from pydantic_core import PydanticCustomError
 
 from auv_msgs_py import yaml_file
 from auv_msgs_py.errors import ConfigurationError
-from auv_msgs_py.settings import Pair, setting, settings
-from auv_path_following import config_files
-from auv_path_following.paths.arc import Arc
+from auv_msgs_py.settings import setting, settings
+from auv_path_following import config_files, vehicle
+from auv_path_following.paths import smoothing
 from auv_path_following.paths.composite import CompositePath
-from auv_path_following.paths.fermat import FermatSpiral, MirroredFermatSpiral
-from auv_path_following.paths.line import Line
-from auv_path_following.paths.segment import Segment
+from auv_path_following.paths.geodesy import Origin
+from auv_path_following.paths.reverse import reversed_path
+from auv_path_following.paths.route_specs import (
+    FigureOfEightSpec,
+    LoiterSpec,
+    Route,
+    SpiralSpec,
+    SurveySpec,
+    WaypointsSpec,
+)
+from auv_path_following.paths.segment_specs import SegmentSpec, exactly_one, no_boolean, unfit
+from auv_path_following.paths.site import Frame, Point, Site, within
+from auv_path_following.vehicle import Vehicle
+
+#: Gap allowed at the joints of segments that somebody has typed in, m.
+TOLERANCE = 1e-3
+DEFAULT_VEHICLE = "remus100"
+#: More subpaths than this are taken for a mistake.
+_MOST_SUBPATHS = 1_000_000
+
+
+@settings
+class MissionSwitching:
+    """What the mission asks of the circles of acceptance, Eq. (44); the parameters decide the rest."""
+
+    mode: Literal["off", "g0", "all"] | None = setting(
+        None, "joints with a circle: off, g0 (corners only) or all"
+    )
+    radius: float | None = setting(None, "radius Rk of the circles", unit="m", ge=0.0, le=1000.0)
+
+
+_NO_WISHES = MissionSwitching(mode=None, radius=None)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -27,9 +55,15 @@ class Mission:
 
     Attributes:
         name, description: for people.
-        path: what to follow, NED.
+        path: what to follow, NED, all repetitions included.
         thrust: constant thrust on the way, N, greater than 0.
         source: the file it came from.
+        speed: speed through the water that the file asks for, m/s; None where it gives the thrust.
+        switching: what the file asks of the circles of acceptance.
+        origin: where north 0, east 0 is; None where the file does not say.
+        waypoints: (north, east), m, that the path was made from; empty where it was not made from any.
+        once: subpaths of the path before it repeats itself.
+        files: waypoint files that belong to it, in its own folder or below.
     """
 
     name: str
@@ -37,112 +71,17 @@ class Mission:
     thrust: float
     source: Path
     description: str
+    speed: float | None = None
+    switching: MissionSwitching = _NO_WISHES
+    origin: Origin | None = None
+    waypoints: tuple[Point, ...] = ()
+    once: int = 0
+    files: tuple[Path, ...] = ()
 
 
-def _no_boolean(value: Any) -> Any:
-    if isinstance(value, bool):  # Python takes True for 1
-        raise PydanticCustomError("int_type", "a whole number")
-    return value
-
-
-_Version = Annotated[Literal[1], pydantic.BeforeValidator(_no_boolean)]
-_Turn = Annotated[Literal[1, -1], pydantic.BeforeValidator(_no_boolean)]
-
-
-@settings
-class LineSpec:
-    """`line`: Eq. (10)."""
-
-    start: Pair = setting(doc="north, east", unit="m")
-    length: float = setting(doc="length", unit="m", gt=0.0)
-    course_deg: float = setting(doc="course, clockwise from north", unit="deg")
-
-    def build(self) -> Segment:
-        """The segment it describes."""
-        return Line(*self.start, self.length, math.radians(self.course_deg))
-
-
-@settings
-class ArcSpec:
-    """`arc`: Eq. (11); to starboard when to_deg is the larger."""
-
-    centre: Pair = setting(doc="north, east", unit="m")
-    radius: float = setting(doc="radius", unit="m", gt=0.0)
-    from_deg: float = setting(doc="bearing of the start, seen from the centre", unit="deg")
-    to_deg: float = setting(doc="bearing of the end, seen from the centre", unit="deg")
-
-    @pydantic.model_validator(mode="after")
-    def _has_length(self) -> ArcSpec:
-        if self.from_deg == self.to_deg:
-            found = f"from_deg and to_deg both {self.to_deg:g}"
-            raise PydanticCustomError(
-                "unfit", "no arc", {"found": found, "expected": "two bearings that differ"}
-            )
-        return self
-
-    def build(self) -> Segment:
-        """The segment it describes."""
-        return Arc(*self.centre, self.radius, math.radians(self.from_deg), math.radians(self.to_deg))
-
-
-@settings
-class FermatSpec:
-    """`fermat`: Eq. (12)."""
-
-    start: Pair = setting(doc="north, east", unit="m")
-    course_deg: float = setting(doc="course at the start, clockwise from north", unit="deg")
-    scale: float = setting(doc="k", unit="m", gt=0.0)
-    theta_end: float = setting(doc="polar angle of the end", unit="rad", gt=0.0, le=100.0)
-    turn: _Turn = setting(doc="rho: 1 to starboard, -1 to port")
-
-    def build(self) -> Segment:
-        """The segment it describes."""
-        return FermatSpiral(*self.start, self.scale, self.theta_end, math.radians(self.course_deg), self.turn)
-
-
-@settings
-class FermatMirroredSpec:
-    """`fermat_mirrored`: Eq. (13)."""
-
-    end: Pair = setting(doc="north, east", unit="m")
-    course_deg: float = setting(doc="course at the end, clockwise from north", unit="deg")
-    scale: float = setting(doc="k", unit="m", gt=0.0)
-    theta_end: float = setting(
-        doc="polar angle of the start, seen from the end", unit="rad", gt=0.0, le=100.0
-    )
-    turn: _Turn = setting(doc="rho: 1 to starboard, -1 to port")
-
-    def build(self) -> Segment:
-        """The segment it describes."""
-        chi_end = math.radians(self.course_deg)
-        return MirroredFermatSpiral(*self.end, self.scale, self.theta_end, chi_end, self.turn)
-
-
-@settings
-class SegmentSpec:
-    """One item of `segments`: a mapping with one key, the kind of the segment."""
-
-    line: LineSpec | None = setting(None, "straight line")
-    arc: ArcSpec | None = setting(None, "circular arc")
-    fermat: FermatSpec | None = setting(None, "Fermat's spiral")
-    fermat_mirrored: FermatMirroredSpec | None = setting(None, "Fermat's spiral, mirrored")
-
-    @pydantic.model_validator(mode="after")
-    def _is_one(self) -> SegmentSpec:
-        if len(self._given()) != 1:
-            found = f"{len(self._given())} kinds of segment"
-            kinds = ", ".join(field.name for field in dataclasses.fields(self))
-            expected = f"exactly one of {kinds}"
-            raise PydanticCustomError("unfit", "not one segment", {"found": found, "expected": expected})
-        return self
-
-    def _given(self) -> list[LineSpec | ArcSpec | FermatSpec | FermatMirroredSpec]:
-        values = (getattr(self, field.name) for field in dataclasses.fields(self))
-        return [value for value in values if value is not None]
-
-    def build(self) -> Segment:
-        """The segment it describes."""
-        return self._given()[0].build()
+_Version = Annotated[Literal[1], pydantic.BeforeValidator(no_boolean)]
+_Count = Annotated[int, pydantic.Field(ge=1, le=10000)]
+_ROUTES = ("segments", "waypoints", "survey", "spiral", "figure_of_eight", "loiter")
 
 
 @settings
@@ -152,24 +91,96 @@ class MissionSpec:
     version: _Version = setting(doc="version of this format")
     name: str = setting(doc="what people call it")
     description: str = setting("", "more for people")
-    frame: Literal["ned"] = setting(doc="axes of all points and courses: x north, y east")
-    thrust: float = setting(doc="constant thrust on the way", unit="N", gt=0.0)
-    segments: tuple[SegmentSpec, ...] = setting(doc="the subpaths, in order")
+    frame: Frame = setting(
+        doc="of all points: ned [north, east] m, enu [east, north] m, wgs84 [latitude, longitude] deg"
+    )
+    origin: Origin | None = setting(None, "where north 0, east 0 is; needed for degrees")
+    thrust: float | None = setting(None, "constant thrust on the way", unit="N", gt=0.0)
+    speed: float | None = setting(
+        None, "in place of thrust: speed through the water", unit="m/s", gt=0.0, le=20.0
+    )
+    switching: MissionSwitching = setting(factory=MissionSwitching, doc="circles of acceptance")
+    reverse: bool = setting(False, "follow the path from its end to its start")
+    repeat: _Count = setting(1, "follow a closed path so many times")
+    segments: tuple[SegmentSpec, ...] | None = setting(None, "the subpaths, in order")
+    waypoints: WaypointsSpec | None = setting(None, "points to pass")
+    survey: SurveySpec | None = setting(None, "lawnmower pattern over a polygon")
+    spiral: SpiralSpec | None = setting(None, "outwards around a point")
+    figure_of_eight: FigureOfEightSpec | None = setting(None, "two loops and two lines that cross")
+    loiter: LoiterSpec | None = setting(None, "round a circle")
+
+    @pydantic.model_validator(mode="after")
+    def _fits(self) -> MissionSpec:
+        exactly_one(self, _ROUTES, "kinds of route")
+        exactly_one(self, ("thrust", "speed"), "of thrust and speed")
+        if self.frame == "wgs84" and self.origin is None:
+            raise unfit("frame wgs84 without origin", "origin: {latitude_deg: ..., longitude_deg: ...}")
+        return self
+
+    def build(self, site: Site) -> Route:
+        """The subpaths, once and forwards."""
+        kind = exactly_one(self, _ROUTES, "kinds of route")
+        if self.segments is None:
+            with within(kind):
+                route: Route = getattr(self, kind).build(site)
+                return route
+        segments = []
+        for number, spec in enumerate(self.segments):
+            with within(f"segments[{number}]"):
+                segments.append(spec.build(site))
+        return Route(segments, [])
 
 
-def load(name_or_path: str) -> Mission:
+def load(name_or_path: str, hull: Vehicle | None = None) -> Mission:
     """Read a mission file.
 
     Args:
         name_or_path: a path, or a shipped name such as ``paper_composite``.
+        hull: the vehicle whose drag turns a speed into a thrust; the default vehicle if None.
 
     Raises:
         ConfigurationError: one line with file and key, what was found and what was expected.
     """
     source = config_files.find("missions", name_or_path)
     spec = yaml_file.load(source, MissionSpec)
+    site = Site(spec.frame, spec.origin, source.parent)
     try:
-        path = CompositePath(segment.build() for segment in spec.segments)
+        route = spec.build(site)
+        path, once = _path(spec, route)
     except ConfigurationError as error:
         raise ConfigurationError(f"{source}: {error.where}", error.found, error.expected) from None
-    return Mission(spec.name, path, spec.thrust, source, spec.description)
+    if spec.thrust is not None:
+        thrust = spec.thrust
+    else:
+        thrust = (hull or vehicle.load(DEFAULT_VEHICLE)).thrust_at(spec.speed or 0.0)
+    return Mission(
+        name=spec.name,
+        path=path,
+        thrust=thrust,
+        source=source,
+        description=spec.description,
+        speed=spec.speed,
+        switching=spec.switching,
+        origin=spec.origin,
+        waypoints=tuple(route.waypoints),
+        once=once,
+        files=tuple(site.files),
+    )
+
+
+def _path(spec: MissionSpec, route: Route) -> tuple[CompositePath, int]:
+    """The whole path, and how many of its subpaths come before it repeats itself."""
+    segments = reversed_path(route.segments) if spec.reverse else list(route.segments)
+    once = len(segments)
+    tolerance = TOLERANCE if spec.segments is not None else smoothing.TOLERANCE
+    if spec.repeat > 1 and segments:
+        start, end = segments[0].evaluate(0.0), segments[-1].evaluate(1.0)
+        gap = math.hypot(start.x - end.x, start.y - end.y)
+        if gap > tolerance:
+            found = f"{spec.repeat} for a path that ends {gap:.3f} m from its start"
+            raise ConfigurationError("repeat", found, "1, or a path that ends where it starts")
+        if once * spec.repeat > _MOST_SUBPATHS:
+            raise ConfigurationError(
+                "repeat", f"{once * spec.repeat} subpaths in all", f"at most {_MOST_SUBPATHS}"
+            )
+    return CompositePath(segments * spec.repeat, tolerance), once

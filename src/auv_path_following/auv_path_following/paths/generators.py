@@ -1,0 +1,81 @@
+"""Ready-made paths: spiral, figure of eight, loiter circle."""
+
+from __future__ import annotations
+
+import math
+
+from auv_msgs_py.angles import TWO_PI
+from auv_path_following.paths.arc import Arc
+from auv_path_following.paths.archimedean import ArchimedeanSpiral
+from auv_path_following.paths.line import Line
+from auv_path_following.paths.segment import Segment
+from auv_path_following.paths.smoothing import TOLERANCE
+
+Point = tuple[float, float]
+
+
+def spiral(
+    centre: Point, inner_radius: float, spacing: float, turns: float, bearing: float, turn: int
+) -> list[Segment]:
+    """Outwards around a point, one subpath for each turn.
+
+    Args:
+        centre: north, east, m.
+        inner_radius: distance from the centre at which it starts, m, not negative.
+        spacing: distance between neighbouring turns, m.
+        turns: how many, not necessarily whole.
+        bearing: of the start as seen from the centre, rad.
+        turn: 1 to starboard, -1 to port.
+    """
+    segments: list[Segment] = []
+    done = 0.0
+    while done < turns - 1e-9:
+        until = min(done + 1.0, turns)
+        radii = (inner_radius + spacing * done, inner_radius + spacing * until)
+        bearings = (bearing + turn * TWO_PI * done, bearing + turn * TWO_PI * until)
+        segments.append(ArchimedeanSpiral(*centre, *radii, *bearings))
+        done = until
+    return segments
+
+
+def figure_of_eight(centre: Point, radius: float, separation: float, chi: float) -> list[Segment]:
+    """Two loops and the crossing lines between them; closed; starts at the crossing towards the first loop.
+
+    Args:
+        centre: of the crossing (north, east), m.
+        radius: of both loops, m.
+        separation: distance between the loops' centres, m, at least 2 radius.
+        chi: bearing of the first loop's centre from the crossing, rad.
+    """
+    x, y = centre
+    half = 0.5 * separation
+    # Seen from the crossing, a tangent touches its loop `away` off the axis, after `straight` metres.
+    away = math.asin(min(radius / half, 1.0))
+    straight = math.sqrt(max(half * half - radius * radius, 0.0))
+    sweep = math.pi + 2.0 * away
+    segments: list[Segment] = []
+    # Out on the port side of the first loop and round it to starboard; then the other loop to port.
+    for axis, side in ((chi, 1.0), (chi + math.pi, -1.0)):
+        course, back = axis - side * away, axis + math.pi + side * away
+        if straight > TOLERANCE:
+            segments.append(Line(x, y, straight, course))
+        a0 = course - side * 0.5 * math.pi
+        cx, cy = x + half * math.cos(axis), y + half * math.sin(axis)
+        segments.append(Arc(cx, cy, radius, a0, a0 + side * sweep))
+        if straight > TOLERANCE:
+            touch = segments[-1].evaluate(1.0)
+            segments.append(Line(touch.x, touch.y, straight, back))
+    return segments
+
+
+def loiter(centre: Point, radius: float, turns: int, bearing: float, turn: int) -> list[Segment]:
+    """Round a circle, one subpath for each turn.
+
+    Args:
+        centre: north, east, m.
+        radius: m.
+        turns: how many.
+        bearing: of the start as seen from the centre, rad.
+        turn: 1 to starboard, -1 to port.
+    """
+    return [Arc(*centre, radius, bearing, bearing + turn * TWO_PI)] * turns
