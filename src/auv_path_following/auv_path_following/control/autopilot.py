@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from typing import Literal, NamedTuple
 
@@ -10,15 +11,23 @@ from auv_msgs_py.settings import setting, settings
 from auv_msgs_py.types import STOP, Command, Navigation, Reference
 from auv_path_following.control.controller import HeadingController, HeadingInputs
 from auv_path_following.control.nism import Nism, NismConfig
+from auv_path_following.control.pid import Pid, PidConfig
+from auv_path_following.control.reference_model import ReferenceConfig, ReferenceModel
+from auv_path_following.control.smc import Smc, SmcConfig
 from auv_path_following.vehicle import Vehicle
 
 
 @settings
 class AutopilotConfig:
-    """Which controller, and its gains."""
+    """Which controller, its gains, and whether its reference is shaped."""
 
-    controller: Literal["nism"] = setting("nism", "heading controller")
+    controller: Literal["nism", "pid", "smc"] = setting("nism", "heading controller: nism, pid or smc")
     nism: NismConfig = setting(factory=NismConfig, doc="NISM")
+    pid: PidConfig = setting(factory=PidConfig, doc="PID")
+    smc: SmcConfig = setting(factory=SmcConfig, doc="conventional sliding mode")
+    reference: ReferenceConfig = setting(
+        factory=ReferenceConfig, doc="what the controller is asked to follow"
+    )
 
 
 class AutopilotOutput(NamedTuple):
@@ -33,8 +42,8 @@ class AutopilotOutput(NamedTuple):
 class HeadingAutopilot:
     """Turns a reference into rudder and thrust.
 
-    dr/dt and d r_d/dt are differences of what came in. Outside a running mission (thrust 0) the
-    rudder is neutral and the controller forgets, so that a new start begins clean.
+    dr/dt and d r_d/dt are differences of what came in; a shaped reference knows its own. Outside a running
+    mission (thrust 0) the rudder is neutral and the controller forgets, so that a new start begins clean.
 
     Args:
         vehicle: for the limits of rudder and thrust.
@@ -44,18 +53,51 @@ class HeadingAutopilot:
     def __init__(self, vehicle: Vehicle, config: AutopilotConfig | None = None) -> None:
         self.vehicle = vehicle
         self.config = config or AutopilotConfig()
-        self.controller: HeadingController = Nism(self.config.nism, vehicle.rudder.max_angle)
+        self.controller: HeadingController = self._controller()
+        self.reference = ReferenceModel(self.config.reference, vehicle, self._rudder_rate)
         self.reset()
 
     def configure(self, config: AutopilotConfig) -> None:
         """Take new gains; the rudder stays where it is."""
-        self.config = config
-        if isinstance(self.controller, Nism):
-            self.controller.config = config.nism
+        before, self.config = self.config, config
+        self.reference.configure(config.reference, self._rudder_rate)
+        if config.controller != before.controller:
+            self.controller = self._controller()
+        match self.controller:
+            case Nism():
+                self.controller.config = self._nism
+            case Pid():
+                self.controller.config = config.pid
+            case Smc():
+                self.controller.config = config.smc
+
+    def _controller(self) -> HeadingController:
+        match self.config.controller:
+            case "pid":
+                return Pid(self.config.pid, self.vehicle.rudder)
+            case "smc":
+                return Smc(self.config.smc, self.vehicle)
+            case _:
+                return Nism(self._nism, self.vehicle.rudder.max_angle)
+
+    @property
+    def _nism(self) -> NismConfig:
+        """NISM's gains, with kp from the rudder where that is asked for."""
+        nism = self.config.nism
+        if not nism.kp_from_rudder:
+            return nism
+        return dataclasses.replace(nism, kp=max(self.vehicle.rudder.max_rate - nism.ks, 1e-6))
+
+    @property
+    def _rudder_rate(self) -> float:
+        """The fastest that the controller moves the rudder, rad/s."""
+        limit = self.vehicle.rudder.max_rate
+        return min(self._nism.kp + self._nism.ks, limit) if self.config.controller == "nism" else limit
 
     def reset(self) -> None:
         """Forget all state."""
         self.controller.reset()
+        self.reference.reset()
         self._last: tuple[float, float] | None = None
 
     def update(self, navigation: Navigation, reference: Reference, dt: float) -> AutopilotOutput:
@@ -67,7 +109,7 @@ class HeadingAutopilot:
             dt: seconds since the last update (0 on the first one).
         """
         psi_e = wrap(navigation.psi - reference.psi_d)
-        if reference.thrust <= 0.0:
+        if not reference.thrust > 0.0:  # NaN is no mission either
             self.reset()
             return AutopilotOutput(STOP, psi_e, 0.0, 0.0)
         r, r_d = navigation.r, reference.r_d
@@ -78,10 +120,14 @@ class HeadingAutopilot:
             r_dot = (r - self._last[0]) / dt
             r_d_dot = (r_d - self._last[1]) / dt
         self._last = (r, r_d)
-        out = self.controller.update(HeadingInputs(psi_e, r, r_dot, r_d, r_d_dot), dt)
+        error = psi_e
+        if self.config.reference.enabled:
+            shaped = self.reference.update(navigation.psi, r, reference.psi_d, r_d, dt)
+            error, r_d, r_d_dot = wrap(navigation.psi - shaped.psi_d), shaped.r_d, shaped.r_d_dot
+        thrust = min(reference.thrust, self.vehicle.thrust_max)
+        out = self.controller.update(HeadingInputs(error, r, r_dot, r_d, r_d_dot, thrust), dt)
         if not math.isfinite(out.rudder):
             self.reset()
             return AutopilotOutput(STOP, psi_e, out.sigma_1, out.sigma_2)
         rudder = min(max(out.rudder, -self.vehicle.rudder.max_angle), self.vehicle.rudder.max_angle)
-        thrust = min(reference.thrust, self.vehicle.thrust_max)
         return AutopilotOutput(Command(rudder, thrust), psi_e, out.sigma_1, out.sigma_2)

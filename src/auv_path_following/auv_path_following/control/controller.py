@@ -8,7 +8,8 @@ from typing import NamedTuple, Protocol
 class HeadingInputs(NamedTuple):
     """What a controller may look at (NED, clockwise positive, rad and s).
 
-    psi_e = wrap(psi - psi_d); r and r_dot are the vehicle's, r_d and r_d_dot the reference's.
+    psi_e = wrap(psi - psi_d); r and r_dot are the vehicle's, r_d and r_d_dot the reference's;
+    thrust (N) tells a model how fast the vehicle will be.
     """
 
     psi_e: float
@@ -16,6 +17,7 @@ class HeadingInputs(NamedTuple):
     r_dot: float
     r_d: float
     r_d_dot: float
+    thrust: float = 0.0
 
 
 class ControllerOutput(NamedTuple):

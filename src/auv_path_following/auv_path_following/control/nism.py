@@ -13,12 +13,35 @@ class NismConfig:
     """Table 4's gains. The rudder rate never exceeds kp + ks."""
 
     k1: float = setting(0.8, "fastest decay of the heading error", unit="rad/s", gt=0.0, le=10.0, live=True)
-    k2: float = setting(1.5, "narrows the range of psi_e with exponential decay", unit="1/rad", gt=0.0, le=100.0, live=True)
+    k2: float = setting(
+        1.5, "narrows the range of psi_e with exponential decay", unit="1/rad", gt=0.0, le=100.0, live=True
+    )
     k3: float = setting(0.8, "fastest decay of sigma_1", unit="rad/s^2", gt=0.0, le=10.0, live=True)
-    k4: float = setting(1.0, "narrows the range of sigma_1 with exponential decay", unit="s/rad", gt=0.0, le=100.0, live=True)
-    k5: float = setting(15.0, "narrows the range of sigma_2 with proportional rudder rate", unit="s^2/rad", gt=0.0, le=1000.0, live=True)
-    kp: float = setting(0.1745, "bound of the smooth part of the rudder rate", unit="rad/s", gt=0.0, le=10.0, live=True)
-    ks: float = setting(0.0, "switching part of the rudder rate, against varying disturbance", unit="rad/s", ge=0.0, le=10.0, live=True)
+    k4: float = setting(
+        1.0, "narrows the range of sigma_1 with exponential decay", unit="s/rad", gt=0.0, le=100.0, live=True
+    )
+    k5: float = setting(
+        15.0,
+        "narrows the range of sigma_2 with proportional rudder rate",
+        unit="s^2/rad",
+        gt=0.0,
+        le=1000.0,
+        live=True,
+    )
+    kp: float = setting(
+        0.1745, "bound of the smooth part of the rudder rate", unit="rad/s", gt=0.0, le=10.0, live=True
+    )
+    kp_from_rudder: bool = setting(
+        False, "take kp from the rudder of the vehicle's file: its rate less ks", live=True
+    )
+    ks: float = setting(
+        0.0,
+        "switching part of the rudder rate, against varying disturbance",
+        unit="rad/s",
+        ge=0.0,
+        le=10.0,
+        live=True,
+    )
 
 
 class Nism:

@@ -21,7 +21,7 @@ from auv_sim.plant.remus import PlantState
 
 DEFAULT_MISSION = "paper_composite"
 DEFAULT_VEHICLE = "remus100"
-DEFAULT_PARAMS = "paper"
+DEFAULT_PARAMS = "robust"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,0 +1,147 @@
+"""A heading that a rudder can follow: limits rate, acceleration and jerk between guidance and controller.
+
+Table 4 lets the heading error fall at up to k1 = 0.8 rad/s, which takes a far larger yaw acceleration than a
+rudder of 10 or 15 degrees a second can build up. A step of psi_d then puts the loop into saturation, where
+the rudder lags by up to a quarter of a turn and a limit cycle lives. Behind this model the controller's error
+stays small whatever guidance asks for, so it never leaves the range in which its proof holds.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from auv_msgs_py.angles import wrap
+from auv_msgs_py.settings import setting, settings
+from auv_path_following.control.hull_model import HullModel
+from auv_path_following.vehicle import Vehicle
+
+
+@settings
+class ReferenceConfig:
+    """Limits of the reference; 0 has the limit derived from hull and rudder, see `limits_of`."""
+
+    enabled: bool = setting(False, "whether the heading reference is shaped before the controller sees it")
+    bandwidth: float = setting(
+        0.7, "how fast the reference closes in on psi_d", unit="1/s", gt=0.0, le=10.0, live=True
+    )
+    damping: float = setting(
+        0.8, "damping ratio of the reference without its limits", gt=0.1, le=5.0, live=True
+    )
+    max_rate: float = setting(
+        0.0, "largest yaw rate; 0: from the hull", unit="rad/s", ge=0.0, le=10.0, live=True
+    )
+    max_acceleration: float = setting(
+        0.0, "largest yaw acceleration; 0: from the hull", unit="rad/s^2", ge=0.0, le=10.0, live=True
+    )
+    max_jerk: float = setting(
+        0.0,
+        "largest change of the yaw acceleration; 0: from the hull",
+        unit="rad/s^3",
+        ge=0.0,
+        le=100.0,
+        live=True,
+    )
+
+
+class Limits(NamedTuple):
+    """Yaw rate (rad/s), acceleration (rad/s^2) and jerk (rad/s^3)."""
+
+    rate: float
+    acceleration: float
+    jerk: float
+
+
+class Shaped(NamedTuple):
+    """The shaped psi_d (rad), its exact rate r_d (rad/s) and acceleration r_d_dot (rad/s^2)."""
+
+    psi_d: float
+    r_d: float
+    r_d_dot: float
+
+
+#: Share of the jerk of a rudder at its greatest rate; the rest is left to the controller.
+JERK_SHARE = 0.9
+#: How long the reference may build up acceleration, s.
+BUILD_UP = 0.4
+
+
+def limits_of(config: ReferenceConfig, model: HullModel, rudder_rate: float) -> Limits:
+    """The limits to use: those given, and where 0 is given those that hull and rudder allow.
+
+    At cruising speed under full thrust a radian of rudder turns the hull with b = |dr/dt per rad|. So
+
+    - jerk = `JERK_SHARE` b rudder_rate: the rudder itself cannot do more;
+    - acceleration = jerk `BUILD_UP`: the rudder is never far from neutral, and there again as fast;
+    - rate = acceleration / bandwidth: from there the linear law alone brakes within the acceleration;
+      never more than the steady turn under full rudder.
+
+    Args:
+        config: what is given.
+        model: the hull as the controller knows it.
+        rudder_rate: the fastest that the controller moves the rudder, rad/s.
+    """
+    speed = model.cruise(model.vehicle.thrust_max)
+    jerk = config.max_jerk or JERK_SHARE * abs(model.rudder_gain(speed)[1]) * rudder_rate
+    acceleration = config.max_acceleration or BUILD_UP * jerk
+    rate = config.max_rate or min(acceleration / config.bandwidth, model.steady_turn(speed))
+    return Limits(rate, acceleration, jerk)
+
+
+class ReferenceModel:
+    """Follows psi_d with limited rate, acceleration and jerk; starts from the vehicle's own heading and rate.
+
+    Args:
+        config: bandwidth and limits.
+        vehicle: hull and rudder, for the limits that are not given.
+        rudder_rate: the fastest that the controller moves the rudder, rad/s.
+    """
+
+    def __init__(self, config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> None:
+        self._model = HullModel(vehicle)
+        self.configure(config, rudder_rate)
+        self.reset()
+
+    def configure(self, config: ReferenceConfig, rudder_rate: float) -> None:
+        """Take new limits; the reference stays where it is."""
+        self.config = config
+        self.limits = limits_of(config, self._model, rudder_rate)
+
+    def reset(self) -> None:
+        """The next update starts from the vehicle."""
+        self._next: tuple[float, float] | None = None
+        self._acceleration = 0.0
+
+    def update(self, psi: float, r: float, psi_d: float, r_d: float, dt: float) -> Shaped:
+        """The reference for this instant.
+
+        The acceleration chosen here is held until the next update, so that r_d and r_d_dot are the exact
+        derivatives of psi_d: a controller may feed them forward without differencing anything.
+
+        Args:
+            psi, r: the vehicle's, where the reference starts.
+            psi_d, r_d: what guidance asks for, and how fast that turns with the path.
+            dt: seconds since the last update.
+        """
+        rate, acceleration, jerk = self.limits
+        if self._next is None:
+            angle, turning = psi, r
+        else:
+            angle, turning = self._next
+            held = self._acceleration
+            angle, turning = angle + turning * dt + 0.5 * held * dt * dt, turning + held * dt
+        wanted = min(max(r_d + self._approach(wrap(psi_d - angle), acceleration), -rate), rate)
+        pull = 4.0 * self.config.damping**2 * self.config.bandwidth * (wanted - turning)
+        pull = min(max(pull, -acceleration), acceleration)
+        change = jerk * dt
+        self._acceleration += min(max(pull - self._acceleration, -change), change)
+        self._next = wrap(angle), turning
+        return Shaped(self._next[0], turning, self._acceleration)
+
+    def _approach(self, gap: float, acceleration: float) -> float:
+        """How fast to close the gap: in proportion near it, farther away such that there is room to brake."""
+        w = self.config.bandwidth
+        linear = acceleration / (w * w)
+        if abs(gap) <= linear:
+            return w * gap
+        return math.copysign(math.sqrt(2.0 * acceleration * (abs(gap) - 0.5 * linear)), gap)
