@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
 import re
 import time
 from collections.abc import Sequence
@@ -19,6 +21,8 @@ from auv_sim.recording.bag_writer import BagWriter
 from auv_sim.recording.intake import Taken, Timestamps, drain
 from auv_sim.recording.selection import Selection
 
+#: Asked for before anything else; only granted to those who may.
+_PRIORITY = -10
 #: How often everything that has come is fetched, s.
 _POLL = 0.02
 #: How often the graph is asked for new topics and publishers, s.
@@ -151,6 +155,9 @@ class RecorderNode(SuiteNode):
 
 def main(args: Sequence[str] | None = None) -> int:
     """The executable `recorder`."""
+    # Starved of processor time it would lose messages; the threads that receive them inherit this.
+    with contextlib.suppress(OSError):
+        os.nice(_PRIORITY)
     return run_nodes([RecorderNode], args)
 
 

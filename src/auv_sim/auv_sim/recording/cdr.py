@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from auv_sim.recording.bag_writer import typestore
+from auv_sim.recording.definitions import typestore
 
 _LITTLE_ENDIAN_CDR = b"\x00\x01"
 _HEADER = 4

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+import contextlib
+from operator import itemgetter
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from rosbags.interfaces import Connection
-from rosbags.rosbag2 import Reader
 
 from auv_msgs_py import topics
 from auv_msgs_py.angles import wrap
@@ -18,13 +16,12 @@ from auv_msgs_py.errors import ConfigurationError, MessageRefused
 from auv_msgs_py.frames import Convention, FrameIds, FrameTable, flip_yaw, swap_axes, yaw_of_quaternion
 from auv_msgs_py.topics import Topic
 from auv_sim.analysis.run import Run
-from auv_sim.recording.bag_writer import METADATA_FILE, typestore
+from auv_sim.recording.bag import Bag, RecordedTopic, read_bag
 from auv_sim.recording.cdr import Columns, decode
-
-_BAG = "a rosbag2 directory with storage files and metadata.yaml"
+from auv_sim.recording.deserialize import deserializer
 
 #: Every topic that a `Run` takes something from.
-_USED = (
+USED = (
     topics.ODOM, topics.WATER_VELOCITY, topics.RUDDER_STATE, topics.TRUE_CURRENT, topics.CURRENT_ESTIMATE,
     topics.DESIRED_YAW, topics.DESIRED_YAW_RATE, topics.PATH_PARAMETER, topics.PATH_ERROR,
     topics.RUDDER_CMD, topics.THRUST_CMD,
@@ -61,20 +58,34 @@ def load(bag: Path, namespace: str | None = None, frame_ids: FrameIds | None = N
         ConfigurationError: not a readable recording, no odometry, topics of several vehicles, a topic
             of another type, or frame ids that are unknown or change.
     """
-    with _opened(bag) as reader:
-        raw = _read(reader, bag, namespace)
-    recorded = {
-        topic: _Recorded(np.array(log_times, np.int64), _decoded(topic, messages, bag))
-        for topic, (log_times, messages) in raw.items()
-        if messages
-    }
+    return run_of(read_bag(bag, _is_used), namespace, frame_ids)
+
+
+def _is_used(name: str, _: str) -> bool:
+    return name.rsplit("/", 1)[-1] in {topic.name for topic in USED}
+
+
+def run_of(bag: Bag, namespace: str | None = None, frame_ids: FrameIds | None = None) -> Run:
+    """As `load`, from a bag that has been read already.
+
+    Raises:
+        ConfigurationError: as `load`.
+    """
+    recorded = {}
+    for topic, found in _read(bag, namespace).items():
+        # By log time, as every reader gives them; messages of one time stay in the order of the file.
+        rows = np.argsort(np.array(found.log_ns, np.int64), kind="stable")
+        messages = [message for k in rows if (message := found.messages[k]) is not None]
+        if messages:
+            log_ns = np.array(found.log_ns, np.int64)[rows]
+            recorded[topic] = _Recorded(log_ns, _decoded(topic, messages, bag.path))
     if topics.ODOM not in recorded:
-        raise ConfigurationError(str(bag), "no odometry", f"messages on {topics.ODOM.name}")
+        raise ConfigurationError(str(bag.path), "no odometry", f"messages on {topics.ODOM.name}")
     table = FrameTable(frame_ids or FrameIds())
     try:
-        return _assemble(recorded, table, bag)
+        return _assemble(recorded, table, bag.path)
     except MessageRefused as refused:
-        raise ConfigurationError(f"{bag}: {refused.topic}", refused.found, refused.expected) from None
+        raise ConfigurationError(f"{bag.path}: {refused.topic}", refused.found, refused.expected) from None
 
 
 def load_messages(bag: Path, name: str, namespace: str | None = None) -> list[tuple[int, Any]]:
@@ -91,66 +102,33 @@ def load_messages(bag: Path, name: str, namespace: str | None = None) -> list[tu
     Raises:
         ConfigurationError: not a readable recording, or topics of several vehicles.
     """
-    store = typestore()
-    with _opened(bag) as reader:
-        connection = _connection(reader, bag, name, namespace)
-        if connection is None:
-            return []
-        return [
-            (log_ns, store.deserialize_cdr(cdr, connection.msgtype))
-            for _, log_ns, cdr in reader.messages([connection])
-        ]
+    content = read_bag(bag, lambda topic, _: topic.rsplit("/", 1)[-1] == name)
+    found = content.find(name, namespace)
+    if found is None:
+        return []
+    return messages_of(found)
 
 
-@contextmanager
-def _opened(bag: Path) -> Iterator[Reader]:
-    if not bag.exists():
-        raise ConfigurationError(str(bag), "nothing", _BAG)
-    if bag.is_dir() and not (bag / METADATA_FILE).exists():
-        unfinished = any(bag.glob("*.mcap"))
-        found = f"no {METADATA_FILE} (the recording was not closed)" if unfinished else f"no {METADATA_FILE}"
-        raise ConfigurationError(str(bag), found, _BAG)
-    try:
-        with Reader(bag) as reader:
-            yield reader
-    except ConfigurationError:
-        raise
-    except Exception as error:
-        # A damaged file makes the reader fail in any way it likes.
-        reason = " ".join(str(error).split())
-        raise ConfigurationError(str(bag), f"a recording that cannot be read ({reason})", _BAG) from None
+def messages_of(topic: RecordedTopic) -> list[tuple[int, Any]]:
+    """(log time in ns, message) of every message that can be decoded, in the order of log time."""
+    decode_one = deserializer(topic)
+    decoded = []
+    for log_ns, cdr in sorted(zip(topic.log_ns, topic.messages, strict=True), key=itemgetter(0)):
+        if cdr is not None:
+            with contextlib.suppress(Exception):  # damaged bytes fail in any way they like
+                decoded.append((log_ns, decode_one(cdr)))
+    return decoded
 
 
-def _connection(reader: Reader, bag: Path, name: str, namespace: str | None) -> Connection | None:
-    found = [c for c in reader.connections if c.topic.rsplit("/", 1)[-1] == name]
-    if namespace is not None:
-        wanted = f"/{namespace.strip('/')}/{name}".replace("//", "/")
-        found = [c for c in found if c.topic == wanted]
-    if len(found) > 1:
-        listed = " and ".join(sorted(c.topic for c in found))
-        raise ConfigurationError(
-            str(bag), f"several topics {name}: {listed}", "one vehicle, or its namespace"
-        )
-    return found[0] if found else None
-
-
-def _read(reader: Reader, bag: Path, namespace: str | None) -> dict[Topic, tuple[list[int], list[bytes]]]:
-    chosen: dict[Topic, tuple[list[int], list[bytes]]] = {}
-    by_id: dict[int, tuple[list[int], list[bytes]]] = {}
-    connections: list[Connection] = []
-    for topic in _USED:
-        connection = _connection(reader, bag, topic.name, namespace)
-        if connection is None:
+def _read(bag: Bag, namespace: str | None) -> dict[Topic, RecordedTopic]:
+    chosen: dict[Topic, RecordedTopic] = {}
+    for topic in USED:
+        found = bag.find(topic.name, namespace)
+        if found is None:
             continue
-        if connection.msgtype != topic.type:
-            raise ConfigurationError(f"{bag}: {connection.topic}", connection.msgtype, topic.type)
-        connections.append(connection)
-        chosen[topic] = by_id[connection.id] = [], []
-    if connections:
-        for connection, log_ns, cdr in reader.messages(connections):
-            log_times, messages = by_id[connection.id]
-            log_times.append(log_ns)
-            messages.append(cdr)
+        if found.type != topic.type:
+            raise ConfigurationError(f"{bag.path}: {found.name}", found.type, topic.type)
+        chosen[topic] = found
     return chosen
 
 

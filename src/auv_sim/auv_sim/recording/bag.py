@@ -1,0 +1,256 @@
+"""Any recording in memory: a rosbag2 directory, a bare storage file, closed or not, ours or not."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from auv_msgs_py.errors import ConfigurationError
+from auv_sim.recording.mcap_scan import scan
+from auv_sim.recording.metadata import METADATA_FILE
+
+_BAG = "a rosbag2 directory with storage files and metadata.yaml"
+
+
+@dataclass
+class RecordedTopic:
+    """One topic, its messages in the order of the file.
+
+    Attributes:
+        name, type: full topic name, ROS type.
+        definition, encoding: the type's definition as the bag has it, and its notation (``ros2msg``).
+        qos: what the publishers offered, as YAML.
+        log_ns, publish_ns, sequence, sizes: for each message, ns and bytes.
+        messages: serialised; None where only the size was asked for.
+    """
+
+    name: str
+    type: str
+    definition: str = ""
+    encoding: str = ""
+    qos: str = ""
+    log_ns: list[int] = field(default_factory=list)
+    publish_ns: list[int] = field(default_factory=list)
+    sequence: list[int] = field(default_factory=list)
+    sizes: list[int] = field(default_factory=list)
+    messages: list[bytes | None] = field(default_factory=list)
+
+    @property
+    def count(self) -> int:
+        """Number of messages."""
+        return len(self.log_ns)
+
+    def put(self, sequence: int, log_ns: int, publish_ns: int, data: bytes, keep: bool) -> None:
+        """Append a message."""
+        self.log_ns.append(log_ns)
+        self.publish_ns.append(publish_ns)
+        self.sequence.append(sequence)
+        self.sizes.append(len(data))
+        self.messages.append(data if keep else None)
+
+
+@dataclass
+class Bag:
+    """What was read.
+
+    Attributes:
+        path: what was asked for.
+        files: the storage files.
+        topics: by full name.
+        notes: one line for each damage; empty when all is well.
+        size: bytes of the files.
+        order: (topic, number of the message in it) for every message, in the order of the files.
+    """
+
+    path: Path
+    files: list[Path] = field(default_factory=list)
+    topics: dict[str, RecordedTopic] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
+    size: int = 0
+    order: list[tuple[RecordedTopic, int]] = field(default_factory=list)
+
+    @property
+    def count(self) -> int:
+        """Number of messages."""
+        return sum(topic.count for topic in self.topics.values())
+
+    @property
+    def span_ns(self) -> tuple[int, int]:
+        """First and last log time; zeros for an empty bag."""
+        held = [topic.log_ns for topic in self.topics.values() if topic.count]
+        return (min(map(min, held)), max(map(max, held))) if held else (0, 0)
+
+    def find(self, name: str, namespace: str | None = None) -> RecordedTopic | None:
+        """The topic whose name ends in `name`, of one vehicle.
+
+        Raises:
+            ConfigurationError: several vehicles have it and none is chosen.
+        """
+        found = [topic for topic in self.topics.values() if topic.name.rsplit("/", 1)[-1] == name]
+        if namespace is not None:
+            wanted = f"/{namespace.strip('/')}/{name}".replace("//", "/")
+            found = [topic for topic in found if topic.name == wanted]
+        if len(found) > 1:
+            listed = " and ".join(sorted(topic.name for topic in found))
+            raise ConfigurationError(
+                str(self.path), f"several topics {name}: {listed}", "one vehicle, or its namespace"
+            )
+        return found[0] if found else None
+
+    def in_order(self) -> Iterator[tuple[RecordedTopic, int]]:
+        """Every message by log time; messages of one time stay in the order of the file."""
+        yield from sorted(self.order, key=lambda entry: entry[0].log_ns[entry[1]])
+
+
+#: Asked for each topic: name and type; whether its messages are wanted, or only their sizes.
+Wanted = Callable[[str, str], bool]
+
+
+def everything(_: str, __: str) -> bool:
+    """Keep every message."""
+    return True
+
+
+def storage_of(path: Path) -> Path:
+    """The bag that a person means: a run directory stands for the bag in it.
+
+    Raises:
+        ConfigurationError: there is nothing.
+    """
+    if not path.exists():
+        raise ConfigurationError(str(path), "nothing", _BAG)
+    inside = path / "bag"
+    if (
+        path.is_dir()
+        and inside.is_dir()
+        and not (path / METADATA_FILE).exists()
+        and not any(path.glob("*.mcap"))
+    ):
+        return inside
+    return path
+
+
+def read_bag(path: Path, wanted: Wanted = everything) -> Bag:
+    """Read a recording, with everything that is readable in a damaged one.
+
+    Args:
+        path: a rosbag2 directory, a run directory with one in it, or a storage file.
+        wanted: which topics' messages to keep.
+
+    Raises:
+        ConfigurationError: there is no recording, or nothing of it can be read.
+    """
+    path = storage_of(path)
+    bag = Bag(path)
+    information = _information(path, bag) if path.is_dir() else {}
+    files = _files(path, information, bag)
+    packed = information.get("compression_mode") or ""
+    if not files:
+        found = f"no {METADATA_FILE}" if path.is_dir() and not information else "no storage files"
+        raise ConfigurationError(str(path), found, _BAG)
+    if packed or any(file.suffix != ".mcap" for file in files):
+        from auv_sim.recording.foreign import read_foreign
+
+        read_foreign(bag, path, files, wanted)
+        return bag
+    troubles: list[ConfigurationError] = []
+    for file in files:
+        try:
+            _read_file(bag, file, wanted)
+        except ConfigurationError as error:
+            troubles.append(error)
+            bag.notes.append(f"{file.name}: found {error.found}")
+    if len(troubles) == len(files):
+        raise troubles[0]
+    expected = information.get("message_count")
+    if isinstance(expected, int) and expected > bag.count:
+        bag.notes.append(f"{METADATA_FILE} tells of {expected} messages, {bag.count} are readable")
+    return bag
+
+
+def _information(path: Path, bag: Bag) -> dict[str, Any]:
+    file = path / METADATA_FILE
+    if not file.exists():
+        if any(path.glob("*.mcap")):
+            bag.notes.append(f"no {METADATA_FILE} (the recording was not closed)")
+        return {}
+    try:
+        content = yaml.safe_load(file.read_text(encoding="utf-8"))["rosbag2_bagfile_information"]
+        if not isinstance(content, dict):
+            raise TypeError
+    except (OSError, ValueError, yaml.YAMLError, KeyError, TypeError):
+        bag.notes.append(f"{METADATA_FILE} is damaged")
+        return {}
+    return content
+
+
+def _files(path: Path, information: dict[str, Any], bag: Bag) -> list[Path]:
+    if path.is_file():
+        return [path]
+    names = information.get("relative_file_paths") or []
+    listed = [path / str(name) for name in names] if isinstance(names, list) else []
+    missing = [file.name for file in listed if not file.exists()]
+    bag.notes += [f"{name} is missing" for name in missing]
+    found = [file for file in listed if file.exists()]
+    for pattern in ("*.mcap", "*.db3", "*.bag"):
+        others = [file for file in sorted(path.glob(pattern), key=_number) if file not in found]
+        if others and listed and not missing:
+            bag.notes += [f"{file.name} is not in {METADATA_FILE}" for file in others]
+        found += others
+        if found:
+            break
+    return found
+
+
+def _number(file: Path) -> tuple[int, str]:
+    digits = re.search(r"(\d+)$", file.stem)
+    return (int(digits[1]) if digits else -1, file.name)
+
+
+def _read_file(bag: Bag, file: Path, wanted: Wanted) -> None:
+    by_number: dict[int, RecordedTopic] = {}
+    order: list[tuple[RecordedTopic, int]] = []
+
+    def take(channel: int, sequence: int, log_ns: int, publish_ns: int, data: bytes) -> None:
+        topic = by_number.get(channel)
+        if topic is None:
+            topic = by_number[channel] = RecordedTopic("", "")
+        order.append((topic, topic.count))
+        topic.put(sequence, log_ns, publish_ns, data, True)
+
+    result = scan(file, take)
+    bag.files.append(file)
+    bag.size += file.stat().st_size
+    bag.notes += [f"{file.name}: {note}" for note in result.notes]
+    renumbered: dict[int, tuple[RecordedTopic, int]] = {}
+    for number, channel in result.channels.items():
+        schema = result.schemas.get(channel.schema_id)
+        here = by_number.setdefault(number, RecordedTopic("", ""))
+        type_name = schema.name if schema else ""
+        topic = bag.topics.get(channel.topic)
+        if topic is None:
+            topic = bag.topics[channel.topic] = RecordedTopic(channel.topic, type_name)
+            topic.qos = channel.metadata.get("offered_qos_profiles", "")
+            if schema:
+                topic.definition = schema.data.decode("utf-8", "replace")
+                topic.encoding = schema.encoding
+        renumbered[id(here)] = topic, topic.count
+        keep = wanted(channel.topic, topic.type)
+        topic.log_ns += here.log_ns
+        topic.publish_ns += here.publish_ns
+        topic.sequence += here.sequence
+        topic.sizes += here.sizes
+        topic.messages += here.messages if keep else [None] * here.count
+    nameless = [t for number, t in by_number.items() if number not in result.channels]
+    if nameless:
+        number = sum(topic.count for topic in nameless)
+        bag.notes.append(f"{file.name}: {number} messages belong to no known topic")
+    for here, k in order:
+        if id(here) in renumbered:
+            topic, offset = renumbered[id(here)]
+            bag.order.append((topic, offset + k))
