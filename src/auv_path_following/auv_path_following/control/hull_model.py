@@ -1,4 +1,4 @@
-"""What a controller may know of the hull: yaw and sway of Eqs. (18), (19), and what the rudder does to them."""
+"""What a controller may know of the hull: yaw and sway of Eqs. (18), (19), and what the rudder does."""
 
 from __future__ import annotations
 

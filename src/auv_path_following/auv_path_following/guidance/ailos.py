@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from auv_msgs_py.settings import setting, settings
+from auv_path_following.guidance.adaptive_lookahead import AdaptiveLookaheadConfig, adaptive_lookahead
 from auv_path_following.guidance.law import LawInputs, LawOutput
 
 
@@ -12,8 +13,13 @@ from auv_path_following.guidance.law import LawInputs, LawOutput
 class AilosConfig:
     """Table 4's Delta, and how near to 1 theta_n may come before it is clipped."""
 
-    lookahead: float = setting(6.0, "look-ahead distance Delta along the tangent", unit="m", ge=0.1, le=1000.0, live=True)
-    theta_limit: float = setting(0.95, "bound of |theta_n|; Eq. (30) needs it below 1", gt=0.0, le=0.99, live=True)
+    lookahead: float = setting(
+        6.0, "look-ahead distance Delta along the tangent", unit="m", ge=0.1, le=1000.0, live=True
+    )
+    theta_limit: float = setting(
+        0.95, "bound of |theta_n|; Eq. (30) needs it below 1", gt=0.0, le=0.99, live=True
+    )
+    adaptive: AdaptiveLookaheadConfig = setting(factory=AdaptiveLookaheadConfig, doc="Delta by itself")
 
 
 class Ailos:
@@ -29,6 +35,8 @@ class Ailos:
         """Eqs. (24), (25), (30), (31) for one instant."""
         ye, chi_p, Ur, beta_r, current = inputs
         Delta, limit = self.config.lookahead, self.config.theta_limit
+        if self.config.adaptive.enabled:
+            Delta = adaptive_lookahead(self.config.adaptive, ye, Ur)
         theta_n = 0.0
         if Ur > 0.0:
             across = -math.sin(chi_p) * current.Vx + math.cos(chi_p) * current.Vy
@@ -39,10 +47,10 @@ class Ailos:
 
 
 def adaptive_offset(ye: float, theta_n: float, Delta: float) -> float:
-    """alpha of Eq. (30), m: the root of (ye + alpha) theta-balance at which the current's push is cancelled.
+    """alpha of Eq. (30), m: the solution of alpha = theta_n sqrt(Delta^2 + (ye + alpha)^2).
 
     With it, Ur (ye + alpha)/sqrt(Delta^2 + (ye + alpha)^2) equals Ur ye/(same root) plus the current
-    across the path, which is what turns Eq. (28) into Eq. (32).
+    across the path, which is what turns Eq. (28) into Eq. (32). Needs |theta_n| < 1.
     """
     rest = 1.0 - theta_n * theta_n
     return (ye * theta_n * theta_n + theta_n * math.sqrt(Delta * Delta * rest + ye * ye)) / rest

@@ -1,4 +1,4 @@
-"""Guidance as a whole: virtual point, switching and a line-of-sight law in their order."""
+"""Guidance as a whole: virtual point, switching and a line-of-sight law in their order; Eqs. (9), (17)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ from auv_msgs_py.angles import wrap
 from auv_msgs_py.settings import setting, settings
 from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
 from auv_path_following.guidance.ailos import Ailos, AilosConfig
+from auv_path_following.guidance.ilos import Ilos, IlosConfig
 from auv_path_following.guidance.law import GuidanceLaw, LawInputs
+from auv_path_following.guidance.los import Los, LosConfig
 from auv_path_following.guidance.switching import CircleOfAcceptance, SwitchingConfig
 from auv_path_following.guidance.virtual_point import (
     VirtualPoint,
@@ -24,12 +26,18 @@ from auv_path_following.paths.composite import CompositePath
 class PathFollowerConfig:
     """Everything about guidance that is not the path."""
 
-    law: Literal["ailos"] = setting("ailos", "guidance law")
+    law: Literal["ailos", "ilos", "los"] = setting("ailos", "guidance law: ailos, ilos or los")
     compensate_current: bool = setting(True, "use the estimated current in Eqs. (22) and (31)", live=True)
     minimum_speed: float = setting(
-        0.2, "below this speed through water beta_r and alpha mean nothing and are taken as 0", unit="m/s", ge=0.0, live=True
+        0.2,
+        "below this speed through water beta_r and alpha mean nothing and are taken as 0",
+        unit="m/s",
+        ge=0.0,
+        live=True,
     )
     ailos: AilosConfig = setting(factory=AilosConfig, doc="AILOS")
+    ilos: IlosConfig = setting(factory=IlosConfig, doc="integral line of sight")
+    los: LosConfig = setting(factory=LosConfig, doc="proportional line of sight")
     virtual_point: VirtualPointConfig = setting(factory=VirtualPointConfig, doc="virtual point")
     switching: SwitchingConfig = setting(factory=SwitchingConfig, doc="subpath switching")
 
@@ -70,14 +78,23 @@ class PathFollower:
         self.path = path
         self.virtual_point = VirtualPoint(path)
         self.circle = CircleOfAcceptance(path)
-        self.law: GuidanceLaw = Ailos()
-        self.configure(config or PathFollowerConfig())
+        config = config or PathFollowerConfig()
+        self.law: GuidanceLaw = _law(config)
+        self.configure(config)
 
     def configure(self, config: PathFollowerConfig) -> None:
-        """Take new gains; the place on the path is kept."""
+        """Take new gains; the place on the path and, for the same law, its state are kept."""
         self.config = config
         self.circle.config = config.switching
-        self.law = Ailos(config.ailos)
+        match config.law, self.law:
+            case "ailos", Ailos():
+                self.law.config = config.ailos
+            case "ilos", Ilos():
+                self.law.config = config.ilos
+            case "los", Los():
+                self.law.config = config.los
+            case _:
+                self.law = _law(config)
 
     def reset(self) -> None:
         """Back to the beginning of the path."""
@@ -119,7 +136,7 @@ class PathFollower:
         chi_p = point.chi
         xe, ye = path_errors(navigation, point, chi_p)
 
-        Ur = math.hypot(water.ur, water.vr)
+        Ur = math.hypot(water.ur, water.vr)  # Eq. (17)
         beta_r = math.atan2(water.vr, water.ur)
         if Ur < config.minimum_speed:
             Ur = beta_r = 0.0
@@ -150,3 +167,13 @@ class PathFollower:
             switched=switched,
             finished=P.finished,
         )
+
+
+def _law(config: PathFollowerConfig) -> GuidanceLaw:
+    match config.law:
+        case "ilos":
+            return Ilos(config.ilos)
+        case "los":
+            return Los(config.los)
+        case _:
+            return Ailos(config.ailos)
