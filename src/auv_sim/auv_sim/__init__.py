@@ -1,0 +1,1 @@
+"""The simulated vehicle and what is done with it: launching, recording, analysing."""

@@ -1,0 +1,87 @@
+"""What the tests of whole processes share: a ROS domain of their own, short missions, no process left behind."""
+
+from __future__ import annotations
+
+import itertools
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+REPOSITORY = Path(__file__).resolve().parents[1]
+SHORT_MISSION = Path(__file__).parent / "data" / "short.yaml"
+
+os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+_BASE = 1 + os.getpid() % 90
+_DOMAINS = itertools.cycle(range(_BASE, _BASE + 10))
+
+
+@pytest.fixture
+def short_mission() -> Path:
+    """A mission of half a minute."""
+    return SHORT_MISSION
+
+
+@pytest.fixture
+def domain(monkeypatch: pytest.MonkeyPatch) -> int:
+    """A ROS domain that no other test of this run is using."""
+    number = next(_DOMAINS)
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
+    return number
+
+
+@pytest.fixture
+def command_line() -> Callable[..., list[str]]:
+    """`command_line("auv_sim.mission", "--help")`: run a module of the suite with this interpreter."""
+    return lambda module, *arguments: [sys.executable, "-m", module, *map(str, arguments)]
+
+
+@pytest.fixture
+def spawn(domain: int) -> Iterator[Callable[..., subprocess.Popen[str]]]:
+    """Start a process; it is killed, with everything it started, when the test ends."""
+    started: list[subprocess.Popen[str]] = []
+
+    def start(command: list[str]) -> subprocess.Popen[str]:
+        process = subprocess.Popen(
+            command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ.copy()
+        )
+        started.append(process)
+        return process
+
+    yield start
+    for process in started:
+        if process.poll() is None:
+            process.kill()
+        process.wait()
+        for stream in (process.stdout, process.stderr):
+            if stream is not None:
+                stream.close()
+
+
+def children_of(pid: int) -> list[int]:
+    """The process ids of the direct children, from /proc."""
+    found = []
+    for task in Path(f"/proc/{pid}/task").glob("*/children"):
+        found += [int(child) for child in task.read_text().split()]
+    return found
+
+
+@pytest.fixture
+def node_processes() -> Callable[[int], dict[str, int]]:
+    """The nodes that a launcher (its process id) has started: last part of the module's name -> process id."""
+
+    def look(pid: int) -> dict[str, int]:
+        nodes = {}
+        for child in children_of(pid):
+            try:
+                words = Path(f"/proc/{child}/cmdline").read_bytes().decode().split("\0")
+            except OSError:
+                continue
+            if "-m" in words:
+                nodes[words[words.index("-m") + 1].rsplit(".", 1)[-1]] = child
+        return nodes
+
+    return look

@@ -1,0 +1,138 @@
+"""The rules of the house that a machine can hold: who imports what, how long files are, what they name."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+PACKAGES = ("auv_msgs_py", "auv_path_following", "auv_sim")  # each may import itself and those before it
+#: What needs ROS 2 or a bag's format at run time.
+ROS = re.compile(
+    r"rclpy|rcl_interfaces|ament_index_python|builtin_interfaces|rosidl\w*|\w+_msgs|std_srvs|rosbags|mcap\w*"
+)
+#: Where that may be imported: these folders, and the ROS half of auv_msgs_py.
+ROS_FOLDERS = {"nodes", "recording", "mission", "drivers", "bags"}
+ROS_HALF = {"conversions", "health", "lockstep_gate", "params", "qos", "runtime"}
+#: A law that looks at a clock or rolls unseeded dice cannot be repeated.
+UNREPEATABLE = {"time", "datetime", "random"}
+
+MODULES = sorted(path for name in PACKAGES for path in (ROOT / "src" / name / name).rglob("*.py"))
+SCRIPTS = sorted((ROOT / "scripts").glob("*.py"))
+TESTS = sorted((ROOT / "test").rglob("*.py"))
+
+
+def dotted(path: Path) -> str:
+    """``.../src/auv_sim/auv_sim/plant/remus.py`` -> ``auv_sim.plant.remus``."""
+    parts = path.relative_to(ROOT / "src").with_suffix("").parts[1:]
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def imports(path: Path) -> Iterator[str]:
+    """Every module named by an import, wherever it stands; `from a import b` gives ``a.b``."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path}: a relative import hides where it points"
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+
+
+def may_use_ros(module: str) -> bool:
+    package, *rest = module.split(".")
+    if package == "auv_msgs_py":
+        return bool(rest) and rest[0] in ROS_HALF
+    return bool(rest) and rest[0] in ROS_FOLDERS
+
+
+def test_there_is_something_to_look_at() -> None:
+    assert {dotted(path).split(".")[0] for path in MODULES} == set(PACKAGES)
+
+
+@pytest.mark.parametrize("path", MODULES, ids=dotted)
+def test_imports_point_one_way(path: Path) -> None:
+    allowed = PACKAGES[: PACKAGES.index(dotted(path).split(".")[0]) + 1]
+    for name in imports(path):
+        top = name.split(".")[0]
+        assert top not in PACKAGES or top in allowed, f"{dotted(path)} imports {name}"
+
+
+@pytest.mark.parametrize("path", [path for path in MODULES if not may_use_ros(dotted(path))], ids=dotted)
+def test_ros_stays_at_the_border(path: Path) -> None:
+    for name in imports(path):
+        top = name.split(".")[0]
+        if top in PACKAGES:
+            assert not may_use_ros(name), f"{dotted(path)} imports {name}, which needs ROS"
+        else:
+            assert not ROS.fullmatch(top), f"{dotted(path)} imports {name}"
+
+
+@pytest.mark.parametrize("path", [path for path in MODULES if not may_use_ros(dotted(path))], ids=dotted)
+def test_laws_are_repeatable(path: Path) -> None:
+    for name in imports(path):
+        assert name.split(".")[0] not in UNREPEATABLE, f"{dotted(path)} imports {name}"
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Attribute) and ast.unparse(node.value) in ("np.random", "numpy.random"):
+            assert node.attr in ("default_rng", "Generator"), f"{dotted(path)} uses np.random.{node.attr}"
+
+
+@pytest.mark.parametrize("path", [*MODULES, *SCRIPTS, *TESTS], ids=lambda path: str(path.relative_to(ROOT)))
+def test_files_are_short(path: Path) -> None:
+    lines = len(path.read_text(encoding="utf-8").splitlines())
+    is_node = path.parent.name == "nodes" and path in MODULES
+    # The set-up of the environment is one file, because nothing can be imported before it has run.
+    limit = 200 if is_node else 400 if path.name == "_bootstrap.py" else 300
+    assert lines <= limit, f"{lines} lines, at most {limit} are wanted"
+
+
+@pytest.mark.parametrize("path", [*MODULES, *SCRIPTS, *TESTS], ids=lambda path: str(path.relative_to(ROOT)))
+def test_annotations_are_not_evaluated(path: Path) -> None:
+    nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+    if any(isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.AnnAssign) for node in nodes):
+        assert "__future__.annotations" in set(imports(path))
+
+
+@pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: path.name)
+def test_an_older_python_can_read_a_script_far_enough_to_say_so(path: Path) -> None:
+    ast.parse(path.read_text(encoding="utf-8"), feature_version=(3, 8))
+
+
+def texts() -> list[Path]:
+    folders = ("src", "scripts", "test", "config", "docs", "requirements", ".ci")
+    found = [path for folder in folders for path in (ROOT / folder).rglob("*") if path.is_file()]
+    found += [path for path in ROOT.iterdir() if path.is_file()]
+    made = {".mypy_cache", ".pytest_cache", ".ruff_cache", ".hypothesis", "__pycache__", "build"}
+    kinds = {
+        "",
+        ".py",
+        ".md",
+        ".toml",
+        ".cfg",
+        ".xml",
+        ".yaml",
+        ".yml",
+        ".txt",
+        ".json",
+        ".sh",
+        ".rviz",
+        ".lock",
+    }
+    return sorted(
+        path for path in found if path.suffix in kinds and not made & set(path.parts) and path.name != ".git"
+    )
+
+
+def test_nothing_names_a_machine_or_a_registry() -> None:
+    # Put together from pieces, so that this file does not name them either.
+    places = r"(?<![\w.~*}])/(?:work|tmp|root|home|mnt)/\w"
+    registries = "|".join(
+        map(re.escape, ("pypi" + ".org", "python" + "hosted", "registry." + "npm", "npm" + "js."))
+    )
+    forbidden = re.compile(f"{places}|{registries}")
+    for path in texts():
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            assert not forbidden.search(line), f"{path.relative_to(ROOT)}:{number}: {line.strip()}"

@@ -1,0 +1,114 @@
+"""The packages in a colcon workspace: what `ros2 run` needs is there, starts, and leaves when told to."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+import rclpy
+from rclpy.node import Node
+
+ROOT = Path(__file__).resolve().parents[1]
+EXECUTABLES = [
+    ("auv_path_following", "current_observer"),
+    ("auv_path_following", "ailos_guidance"),
+    ("auv_path_following", "heading_autopilot"),
+    ("auv_sim", "remus_plant"),
+    ("auv_sim", "recorder"),
+]
+NAMESPACE = "/colcon_test"
+PATIENCE = 30.0  # s, for a node to appear; it takes about one on an idle machine
+
+
+@pytest.fixture(scope="module")
+def install(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The install folder of a finished `colcon build`."""
+    base = tmp_path_factory.mktemp("workspace")
+    command = [
+        sys.executable,
+        "-m",
+        "colcon",
+        "--log-base",
+        base / "log",
+        "build",
+        "--base-paths",
+        ROOT / "src",
+    ]
+    command += ["--build-base", base / "build", "--install-base", base / "install"]
+    done = subprocess.run(command, cwd=base, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return base / "install"
+
+
+@pytest.fixture(scope="module")
+def domain() -> Iterator[int]:
+    """A ROS domain of this test's own, on this machine only."""
+    with pytest.MonkeyPatch.context() as patch:
+        number = os.getpid() % 100 + 1
+        patch.setenv("ROS_DOMAIN_ID", str(number))
+        patch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+        yield number
+
+
+@pytest.fixture(scope="module")
+def observer(domain: int) -> Iterator[Node]:
+    """A node that looks at the graph."""
+    context = rclpy.Context()
+    rclpy.init(context=context, domain_id=domain)
+    node = Node("observer", context=context)
+    yield node
+    node.destroy_node()
+    rclpy.shutdown(context=context)
+
+
+def in_workspace(install: Path, command: str) -> list[str]:
+    return ["bash", "-c", f"source '{install}/setup.bash' && exec {command}"]
+
+
+@pytest.mark.parametrize(("package", "executable"), EXECUTABLES)
+def test_executables_stand_where_ros2_run_looks(install: Path, package: str, executable: str) -> None:
+    assert os.access(install / package / "lib" / package / executable, os.X_OK)
+    assert (install / package / "share/ament_index/resource_index/packages" / package).is_file()
+    assert (install / package / "share" / package / "package.xml").is_file()
+
+
+def test_shipped_files_are_installed_for_people_and_for_the_package(install: Path) -> None:
+    shipped = {path.relative_to(ROOT / "config") for path in (ROOT / "config").rglob("*") if path.is_file()}
+    share = install / "auv_path_following/share/auv_path_following/config"
+    assert {path.relative_to(share) for path in share.rglob("*") if path.is_file()} == shipped
+    ask = "from importlib.resources import files; print(files('auv_path_following') / 'config')"
+    command = in_workspace(install, f'{sys.executable} -c "{ask}"')
+    found = Path(
+        subprocess.run(command, cwd=install, capture_output=True, text=True, check=True).stdout.strip()
+    )
+    assert install in found.parents
+    assert {path.relative_to(found) for path in found.rglob("*") if path.is_file()} == shipped
+
+
+@pytest.mark.parametrize(("package", "executable"), EXECUTABLES)
+def test_executables_start_in_a_namespace_and_leave_on_sigint(
+    install: Path, observer: Node, tmp_path: Path, package: str, executable: str
+) -> None:
+    path = install / package / "lib" / package / executable
+    command = in_workspace(install, f"'{path}' --ros-args -r __ns:={NAMESPACE} -p use_sim_time:=true")
+    with (tmp_path / "output").open("w+") as output:
+        process = subprocess.Popen(command, cwd=tmp_path, stdout=output, stderr=output)
+        try:
+            deadline = time.monotonic() + PATIENCE
+            while (executable, NAMESPACE) not in observer.get_node_names_and_namespaces():
+                assert process.poll() is None and time.monotonic() < deadline, (
+                    tmp_path / "output"
+                ).read_text()
+                time.sleep(0.05)
+            process.send_signal(signal.SIGINT)
+            assert process.wait(PATIENCE) == 0, (tmp_path / "output").read_text()
+        finally:
+            process.kill()
+            process.wait()
+    assert "Traceback" not in (tmp_path / "output").read_text()
