@@ -10,7 +10,14 @@ from geometry_msgs.msg import PoseStamped, TwistWithCovarianceStamped, Vector3St
 from nav_msgs.msg import Odometry, Path
 
 from auv_msgs_py.errors import MessageRefused
-from auv_msgs_py.frames import Convention, FrameTable, flip_yaw, quaternion_of_yaw, swap_axes, yaw_of_quaternion
+from auv_msgs_py.frames import (
+    Convention,
+    FrameTable,
+    flip_yaw,
+    quaternion_of_yaw,
+    swap_axes,
+    yaw_of_quaternion,
+)
 from auv_msgs_py.types import Current, Navigation, WaterVelocity
 
 MAP = "map"

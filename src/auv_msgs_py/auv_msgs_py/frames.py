@@ -60,10 +60,10 @@ class FrameTable:
     """
 
     def __init__(self, ids: FrameIds) -> None:
-        self._world = {name: Convention.ENU_FLU for name in ids.enu_world}
-        self._world |= {name: Convention.NED_FRD for name in ids.ned_world}
-        self._body = {name: Convention.ENU_FLU for name in ids.flu_body}
-        self._body |= {name: Convention.NED_FRD for name in ids.frd_body}
+        self._world = dict.fromkeys(ids.enu_world, Convention.ENU_FLU)
+        self._world |= dict.fromkeys(ids.ned_world, Convention.NED_FRD)
+        self._body = dict.fromkeys(ids.flu_body, Convention.ENU_FLU)
+        self._body |= dict.fromkeys(ids.frd_body, Convention.NED_FRD)
         self._known: dict[tuple[str, str], Convention] = {}
         self._known_body: dict[str, Convention] = {}
 

@@ -59,7 +59,9 @@ class Pairing:
         """
         if self.strict:
             if topic in self._slots:
-                raise LockstepBroken(f"{topic}: a second message within one step (is there a second publisher?)")
+                raise LockstepBroken(
+                    f"{topic}: a second message within one step (is there a second publisher?)"
+                )
             if stamp is not None:
                 if self._stamp is not None and stamp != self._stamp:
                     raise LockstepBroken(f"{topic}: stamp {stamp} ns in the step of {self._stamp} ns")

@@ -34,7 +34,9 @@ def declare(node: Node, cls: type[T], on_change: Callable[[T], None] | None = No
     known = {leaf.name for leaf in leaves(cls)}
     for name in node._parameter_overrides:  # rclpy offers no public way to list them
         if name not in known and not name.startswith(_BUILT_IN):
-            raise ConfigurationError(f"{node.get_name()}: parameter {name}", "an unknown name", "a declared parameter")
+            raise ConfigurationError(
+                f"{node.get_name()}: parameter {name}", "an unknown name", "a declared parameter"
+            )
     flat: dict[str, Any] = {}
     for leaf in leaves(cls):
         override = node._parameter_overrides.get(leaf.name)
@@ -90,7 +92,13 @@ def _descriptor(leaf: SettingInfo) -> ParameterDescriptor:
 
 
 def _expectation(leaf: SettingInfo) -> str:
-    kind = {bool: "true or false", float: "a number", int: "a whole number", str: "a text", list: "a list of texts"}
+    kind = {
+        bool: "true or false",
+        float: "a number",
+        int: "a whole number",
+        str: "a text",
+        list: "a list of texts",
+    }
     text = kind.get(type(leaf.default), "another type")
     if leaf.minimum is not None:
         text += f" from {leaf.minimum:g}"

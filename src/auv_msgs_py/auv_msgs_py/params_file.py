@@ -45,8 +45,8 @@ def load(path: Path, classes: Mapping[str, type[Any]]) -> dict[str, Any]:
         parameters = body["ros__parameters"]
         if not isinstance(parameters, dict):
             raise ConfigurationError(f"{path}: {pattern}.ros__parameters", repr(parameters), "a mapping")
-        values[name] |= nested(_undotted(parameters))
-    return {name: validated(cls, values[name], f"{path}: {name}") for name, cls in classes.items()}
+        values[name] |= _undotted(parameters)
+    return {name: validated(cls, nested(values[name]), f"{path}: {name}") for name, cls in classes.items()}
 
 
 def _undotted(parameters: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:

@@ -104,9 +104,13 @@ class SuiteNode(Node):  # type: ignore[misc]
             publish()
         elif self._kept is None:
             self._kept = publish
-            self._retry = self.create_timer(0.005, self._answer_kept, clock=Clock(clock_type=ClockType.STEADY_TIME))
+            self._retry = self.create_timer(
+                0.005, self._answer_kept, clock=Clock(clock_type=ClockType.STEADY_TIME)
+            )
         else:
-            raise LockstepBroken(f"{self.get_name()}: a second answer while {self._gate.waiting_for()} is awaited")
+            raise LockstepBroken(
+                f"{self.get_name()}: a second answer while {self._gate.waiting_for()} is awaited"
+            )
 
     def _answer_kept(self) -> None:
         if self._kept is None or (self._gate is not None and self._gate.waiting_for()):
@@ -175,9 +179,7 @@ def run_nodes(factories: Sequence[Callable[[], SuiteNode]], args: Sequence[str] 
     Returns:
         0 after a signal or when a node has finished, 1 after a fault, 2 for input that cannot be used.
     """
-    rclpy.init(
-        args=list(args) if args is not None else None, signal_handler_options=SignalHandlerOptions.NO
-    )
+    rclpy.init(args=list(args) if args is not None else None, signal_handler_options=SignalHandlerOptions.NO)
     stop = _Stop()
     nodes: list[SuiteNode] = []
     try:

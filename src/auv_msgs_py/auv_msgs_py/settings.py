@@ -63,7 +63,9 @@ def setting(
     return Field(default=default, description=doc, json_schema_extra=extra, **given)  # type: ignore[call-overload]
 
 
-@dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(setting, Field))
+# Without field_specifiers a type checker takes every `setting(...)` for a default, which is what positional
+# defaults need; a missing required key is found at run time.
+@dataclass_transform(frozen_default=True, kw_only_default=True)
 def settings(cls: type[T]) -> type[T]:
     """Make a class frozen, keyword-only and checked on construction; unknown keys and NaN are refused."""
     return _pydantic_dataclass(frozen=True, kw_only=True, config=_POLICY)(cls)  # type: ignore[return-value]
@@ -84,7 +86,9 @@ def validated(cls: type[T], data: object, where: str) -> T:
         # JSON mode: strict about numbers and text, yet a mapping is a settings object and a list is a pair.
         text = json.dumps(data)
     except (TypeError, ValueError, RecursionError) as error:
-        raise ConfigurationError(where, f"a value of an odd kind ({error})", "text, numbers, lists, mappings") from None
+        raise ConfigurationError(
+            where, f"a value of an odd kind ({error})", "text, numbers, lists, mappings"
+        ) from None
     try:
         return pydantic.TypeAdapter(cls).validate_json(text)
     except pydantic.ValidationError as error:
@@ -199,7 +203,9 @@ def leaves(cls: type[Any], prefix: str = "") -> list[SettingInfo]:
         if info.is_required():
             raise TypeError(f"{cls.__name__}.{name} has no default")
         extra = info.json_schema_extra if isinstance(info.json_schema_extra, dict) else {}
-        bounds = {key: getattr(m, key) for m in info.metadata for key in ("gt", "ge", "lt", "le") if hasattr(m, key)}
+        bounds = {
+            key: getattr(m, key) for m in info.metadata for key in ("gt", "ge", "lt", "le") if hasattr(m, key)
+        }
         found.append(
             SettingInfo(
                 name=prefix + name,
@@ -215,14 +221,20 @@ def leaves(cls: type[Any], prefix: str = "") -> list[SettingInfo]:
 
 
 def nested(flat: Mapping[str, Any]) -> dict[str, Any]:
-    """`{"nism.k1": 0.8}` -> ``{"nism": {"k1": 0.8}}``."""
+    """`{"nism.k1": 0.8}` -> ``{"nism": {"k1": 0.8}}``.
+
+    Where one name is both a value and a group, the value stays, for `validated` to refuse.
+    """
     tree: dict[str, Any] = {}
     for name, value in flat.items():
         *parents, leaf = name.split(".")
         branch = tree
         for parent in parents:
             branch = branch.setdefault(parent, {})
-        branch[leaf] = value
+            if not isinstance(branch, dict):
+                break
+        else:
+            branch[leaf] = value
     return tree
 
 

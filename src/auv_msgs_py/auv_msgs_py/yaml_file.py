@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 import yaml
 
@@ -14,11 +14,14 @@ from auv_msgs_py.settings import validated
 T = TypeVar("T")
 
 
-class _Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # type: ignore[misc]
-    """PyYAML reads YAML 1.1, where `off` is false and `1e-3` is text. People expect neither."""
+_NOT_AS_IN_1_1 = ("bool", "int", "float", "timestamp")
 
-    yaml_implicit_resolvers: dict[str, Any] = {
-        first: [(tag, pattern) for tag, pattern in pairs if not tag.endswith((":bool", ":float", ":timestamp"))]
+
+class _Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # type: ignore[misc]
+    """PyYAML reads YAML 1.1, where `off` is false, `1e-3` is text and `12:30` is 750. Nobody expects that."""
+
+    yaml_implicit_resolvers: ClassVar[dict[str, Any]] = {
+        first: [(tag, pattern) for tag, pattern in pairs if tag.rsplit(":", 1)[-1] not in _NOT_AS_IN_1_1]
         for first, pairs in yaml.SafeLoader.yaml_implicit_resolvers.items()
     }
 
@@ -26,7 +29,11 @@ class _Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # type: ignore[mi
         seen = set()
         for key_node, _ in node.value:
             if not isinstance(key_node, yaml.ScalarNode):
-                raise yaml.constructor.ConstructorError(None, None, "a list or mapping as key", key_node.start_mark)
+                raise yaml.constructor.ConstructorError(
+                    None, None, "a list or mapping as key", key_node.start_mark
+                )
+            if key_node.tag == "tag:yaml.org,2002:merge":
+                continue
             key = self.construct_object(key_node, deep=True)
             if key in seen:
                 raise yaml.constructor.ConstructorError(
@@ -36,15 +43,22 @@ class _Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # type: ignore[mi
         return super().construct_mapping(node, deep)  # type: ignore[no-any-return]
 
 
-_Loader.add_implicit_resolver("tag:yaml.org,2002:bool", re.compile(r"^(?:true|True|TRUE|false|False|FALSE)$"), "tTfF")
-_Loader.add_implicit_resolver(
-    "tag:yaml.org,2002:float",
-    re.compile(
-        r"^[-+]?(?:(?:[0-9]+\.[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?|[0-9]+[eE][-+]?[0-9]+"
-        r"|\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN))$"
-    ),
-    "-+0123456789.",
+class _Dumper(yaml.SafeDumper):
+    """Puts text in quotes that either version of YAML would read as something else."""
+
+
+#: Whole numbers of YAML 1.2 in decimal; a leading zero means eight to one parser and ten to another: text.
+_INT = re.compile(r"^[-+]?(?:0|[1-9][0-9]*)$")
+_FLOAT = re.compile(
+    r"^[-+]?(?:(?:[0-9]+\.[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?|[0-9]+[eE][-+]?[0-9]+"
+    r"|\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN))$"
 )
+_Loader.add_implicit_resolver(
+    "tag:yaml.org,2002:bool", re.compile(r"^(?:true|True|TRUE|false|False|FALSE)$"), "tTfF"
+)
+_Loader.add_implicit_resolver("tag:yaml.org,2002:int", _INT, "-+0123456789")
+for _class in (_Loader, _Dumper):
+    _class.add_implicit_resolver("tag:yaml.org,2002:float", _FLOAT, "-+0123456789.")
 
 
 def parse(path: Path) -> Any:
@@ -58,14 +72,18 @@ def parse(path: Path) -> Any:
     except FileNotFoundError:
         raise ConfigurationError(str(path), "no such file", "a YAML file") from None
     except (OSError, UnicodeDecodeError) as error:
-        raise ConfigurationError(str(path), f"a file that cannot be read ({error})", "a YAML text file") from None
+        raise ConfigurationError(
+            str(path), f"a file that cannot be read ({error})", "a YAML text file"
+        ) from None
     try:
         return yaml.load(text, Loader=_Loader)  # noqa: S506 - _Loader derives from the safe loader
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         place = f"{path}: line {mark.line + 1}, column {mark.column + 1}" if mark else str(path)
         problem = getattr(error, "problem", None) or str(error).splitlines()[0]
-        raise ConfigurationError(place, f"text that cannot be read ({problem})", "YAML, each key once") from None
+        raise ConfigurationError(
+            place, f"text that cannot be read ({problem})", "YAML, each key once"
+        ) from None
 
 
 def load(path: Path, cls: type[T]) -> T:
@@ -82,4 +100,4 @@ def load(path: Path, cls: type[T]) -> T:
 
 def dump(data: Any, path: Path) -> None:
     """Write plain objects as YAML that both this module and ROS 2's parameter parser read back alike."""
-    path.write_text(yaml.safe_dump(data, sort_keys=False, allow_unicode=True), encoding="utf-8")
+    path.write_text(yaml.dump(data, Dumper=_Dumper, sort_keys=False, allow_unicode=True), encoding="utf-8")

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 from auv_msgs_py.frames import FrameIds
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.control.autopilot import AutopilotConfig
 from auv_path_following.guidance.current_observer import CurrentObserverConfig
 from auv_path_following.guidance.mission_state import HoldingConfig
 from auv_path_following.guidance.path_follower import PathFollowerConfig
+from auv_path_following.guidance.switching import as_wished
+from auv_path_following.paths.mission_file import Mission
 
 
 @settings
@@ -15,7 +19,9 @@ class NodeParameters:
     """What every node of the suite has."""
 
     lockstep: bool = setting(False, "answer every input exactly once, reliable subscriptions, no watchdogs")
-    recorded: bool = setting(False, "in lockstep: a recorder takes part, nothing is published before it listens")
+    recorded: bool = setting(
+        False, "in lockstep: a recorder takes part, nothing is published before it listens"
+    )
 
 
 @settings
@@ -40,21 +46,42 @@ class GuidanceParameters(NavigationParameters):
     """ailos_guidance."""
 
     mission: str = setting("paper_composite", "mission file, or the name of a shipped one")
+    vehicle: str = setting(
+        "remus100", "vehicle file, or the name of a shipped one: thrust for a mission's speed"
+    )
+    mission_switching: bool = setting(
+        True, "at the start guidance.switching takes over what the mission file asks for"
+    )
     guidance: PathFollowerConfig = setting(factory=PathFollowerConfig, doc="virtual point, law and switching")
     holding: HoldingConfig = setting(factory=HoldingConfig, doc="what missing navigation leads to")
     water_velocity_timeout: float = setting(
         1.0, "oldest velocity through water that is still used", unit="s", gt=0.0, le=60.0, live=True
     )
     current_timeout: float = setting(
-        5.0, "older estimates of the current are reported, and the last one is kept", unit="s", gt=0.0, le=600.0, live=True
+        5.0,
+        "older estimates of the current are reported, and the last one is kept",
+        unit="s",
+        gt=0.0,
+        le=600.0,
+        live=True,
     )
+
+    def with_wishes_of(self, mission: Mission) -> GuidanceParameters:
+        """These parameters with the mission's own switching, where it has one and `mission_switching` is on."""
+        if not self.mission_switching:
+            return self
+        wish = mission.switching
+        switching = as_wished(self.guidance.switching, wish.mode, wish.radius)
+        return dataclasses.replace(self, guidance=dataclasses.replace(self.guidance, switching=switching))
 
 
 @settings
 class AutopilotParameters(NavigationParameters):
     """heading_autopilot."""
 
-    vehicle: str = setting("remus100", "vehicle file, or the name of a shipped one: limits of rudder and thrust")
+    vehicle: str = setting(
+        "remus100", "vehicle file, or the name of a shipped one: limits of rudder and thrust"
+    )
     autopilot: AutopilotConfig = setting(factory=AutopilotConfig, doc="controller and gains")
     reference_timeout: float = setting(
         0.5, "guidance silent for this long: rudder and thrust go to 0", unit="s", gt=0.0, le=10.0, live=True

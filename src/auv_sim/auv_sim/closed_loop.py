@@ -20,6 +20,7 @@ from auv_sim.analysis.run import Run
 from auv_sim.parameters import CRUISE
 from auv_sim.plant.remus import PlantState, RemusPlant
 
+
 @dataclass(frozen=True, kw_only=True)
 class Scenario:
     """One flight: everything that decides its course.
@@ -66,10 +67,10 @@ def fly(scenario: Scenario, progress: Callable[[float], None] | None = None) -> 
 
     Args:
         scenario: what to fly.
-        progress: called with s a few times a second of mission time.
+        progress: called with s every 20 steps.
 
     Returns:
-        One row per step; the last row is the one at which the mission was complete.
+        One row per step. A mission that was completed ends with the row at which it was.
     """
     c = scenario
     plant = RemusPlant(c.vehicle, c.initial or start_of(c.path))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from typing import NamedTuple
 
@@ -14,8 +13,12 @@ from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
 class CurrentObserverConfig:
     """Gains of Eq. (35). The poles of the error are the roots of z^2 + k_ob2 z + k_ob1 = 0."""
 
-    k_ob1: float = setting(1.0, "gain from position error to the current", unit="1/s^2", gt=0.0, le=100.0, live=True)
-    k_ob2: float = setting(1.0, "gain from position error to the position", unit="1/s", gt=0.0, le=100.0, live=True)
+    k_ob1: float = setting(
+        1.0, "gain from position error to the current", unit="1/s^2", gt=0.0, le=100.0, live=True
+    )
+    k_ob2: float = setting(
+        1.0, "gain from position error to the position", unit="1/s", gt=0.0, le=100.0, live=True
+    )
 
 
 class ObserverOutput(NamedTuple):
@@ -86,13 +89,21 @@ def transition(k_ob1: float, k_ob2: float, dt: float) -> tuple[float, float, flo
     """The matrix exponential of [[-k_ob2, -1], [k_ob1, 0]] dt, row by row (Eq. (36) with the signs of e, Vhat).
 
     With m = -k_ob2/2 and q = sqrt(k_ob2^2/4 - k_ob1) (real or imaginary) it is
-    e^(m dt) (cosh(q dt) I + sinh(q dt)/q (A - m I)).
+    e^(m dt) (cosh(q dt) I + sinh(q dt)/q (A - m I)). It is put together from powers of e that only fall,
+    so that it is finite however large the gains and the step are.
     """
     m = -0.5 * k_ob2
-    q = cmath.sqrt(0.25 * k_ob2 * k_ob2 - k_ob1)
-    decay = math.exp(m * dt)
-    cosh = cmath.cosh(q * dt).real * decay
-    sinh_over_q = ((cmath.sinh(q * dt) / q).real if abs(q * dt) > 1e-6 else dt) * decay
+    square = m * m - k_ob1
+    q = math.sqrt(abs(square))
+    if square > 0.0:
+        slow = math.exp(k_ob1 / (m - q) * dt)  # (m - q) (m + q) = k_ob1; m + q itself would cancel
+        fast_by_slow = math.expm1(-2.0 * q * dt)
+        cosh = slow * (1.0 + 0.5 * fast_by_slow)
+        sinh_over_q = -0.5 * slow * fast_by_slow / q
+    else:
+        decay = math.exp(m * dt)
+        cosh = decay * math.cos(q * dt)
+        sinh_over_q = decay * (math.sin(q * dt) / q if q > 0.0 else dt)
     return (
         cosh + sinh_over_q * (-k_ob2 - m),
         -sinh_over_q,

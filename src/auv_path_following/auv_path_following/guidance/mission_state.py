@@ -21,8 +21,17 @@ class State(str, enum.Enum):
 class HoldingConfig:
     """How long a running mission bears missing navigation, in ROS time."""
 
-    hold_after: float = setting(1.0, "without navigation for this long the mission holds: thrust 0", unit="s", gt=0.0, le=60.0, live=True)
-    abort_after: float = setting(30.0, "holding for this long ends the mission", unit="s", gt=0.0, le=3600.0, live=True)
+    hold_after: float = setting(
+        1.0,
+        "without navigation for this long the mission holds: thrust 0",
+        unit="s",
+        gt=0.0,
+        le=60.0,
+        live=True,
+    )
+    abort_after: float = setting(
+        30.0, "holding for this long ends the mission", unit="s", gt=0.0, le=3600.0, live=True
+    )
 
 
 class MissionState:

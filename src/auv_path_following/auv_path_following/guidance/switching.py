@@ -15,8 +15,19 @@ SwitchingMode = Literal["off", "g0", "all"]
 class SwitchingConfig:
     """The circle of acceptance around a joint."""
 
-    mode: SwitchingMode = setting("g0", "joints with a circle of acceptance: off, g0 (corners only) or all", live=True)
-    radius: float = setting(6.0, "radius Rk of the circle, at most Delta", unit="m", ge=0.0, le=1000.0, live=True)
+    mode: SwitchingMode = setting(
+        "g0", "joints with a circle of acceptance: off, g0 (corners only) or all", live=True
+    )
+    radius: float = setting(
+        6.0, "radius Rk of the circle, at most Delta", unit="m", ge=0.0, le=1000.0, live=True
+    )
+
+
+def as_wished(config: SwitchingConfig, mode: SwitchingMode | None, radius: float | None) -> SwitchingConfig:
+    """`config` with what a mission asks for; None leaves a value as it is."""
+    return SwitchingConfig(
+        mode=config.mode if mode is None else mode, radius=config.radius if radius is None else radius
+    )
 
 
 class CircleOfAcceptance:

@@ -1,4 +1,4 @@
-"""The virtual point P: its errors, its speed, its way along the path. Eqs. (9), (20), (22), (42), (43)."""
+"""The virtual point P: its errors, its speed, its way along the path. Eqs. (20), (22), (42), (43)."""
 
 from __future__ import annotations
 
@@ -15,7 +15,9 @@ from auv_path_following.paths.segment import PathPoint
 class VirtualPointConfig:
     """Table 4's k."""
 
-    k: float = setting(1.0, "gain that draws P along the path towards the vehicle", unit="1/s", gt=0.0, le=10.0, live=True)
+    k: float = setting(
+        1.0, "gain that draws P along the path towards the vehicle", unit="1/s", gt=0.0, le=10.0, live=True
+    )
 
 
 class PathErrors(NamedTuple):
@@ -65,7 +67,7 @@ class VirtualPoint:
         return self.i + self.t
 
     def move(self, dt: float) -> bool:
-        """Eq. (43) with the speed set last; True when P has come to a new subpath or to the end.
+        """Eq. (43) with the speed set last; True when P has just come to a new subpath or to the end.
 
         Reaching the end of a subpath sets P to the start of the next one: how far it would have
         overshot has no meaning there, since every subpath has its own length per unit of s.
@@ -73,7 +75,7 @@ class VirtualPoint:
         self.t += self._t_rate * dt
         if self.t < 0.0:
             self.t = 0.0
-        if self.t < 1.0:
+        if self.t < 1.0 or self.finished:
             return False
         return self.go_on()
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from geometry_msgs.msg import PoseStamped, Vector3Stamped
+from rclpy.parameter import Parameter
 from std_msgs.msg import Float64, String
 from std_srvs.srv import Trigger
 
@@ -13,6 +14,7 @@ from auv_msgs_py import topics
 from auv_msgs_py.conversions import PATH_FRAME, fill_pose, path_message, set_stamp
 from auv_msgs_py.frames import flip_yaw
 from auv_msgs_py.runtime import SuiteNode, run_nodes
+from auv_path_following import vehicle
 from auv_path_following.guidance.mission_state import MissionState, State
 from auv_path_following.guidance.path_follower import GuidanceOutput, PathFollower
 from auv_path_following.nodes.navigation_input import Inputs, NavigationInput
@@ -21,6 +23,8 @@ from auv_path_following.paths import mission_file
 
 #: Distance between the poses of `path`, m.
 _PATH_SPACING = 1.0
+#: A path longer than so many metres is published in larger steps.
+_PATH_POSES = 20_000
 
 
 class GuidanceNode(SuiteNode):
@@ -28,7 +32,7 @@ class GuidanceNode(SuiteNode):
 
     def __init__(self, **arguments: Any) -> None:
         super().__init__(topics.GUIDANCE, GuidanceParameters, **arguments)
-        self.mission = mission_file.load(self.parameters.mission)
+        self.mission = mission_file.load(self.parameters.mission, vehicle.load(self.parameters.vehicle))
         self.follower = PathFollower(self.mission.path, self.parameters.guidance)
         self.state = MissionState(self.parameters.holding)
         self._told: State | None = None
@@ -52,10 +56,23 @@ class GuidanceNode(SuiteNode):
         self.create_service(Trigger, topics.ABORT_SERVICE, self._on_abort)
         if not self.parameters.lockstep:
             self.create_timer(0.1, self._watch)
-        points = (self.mission.path.at(float(s)) for s in self.mission.path.polyline(_PATH_SPACING)[2])
+        path = self.mission.path
+        points = (path.at(float(s)) for s in path.polyline(max(_PATH_SPACING, path.length / _PATH_POSES))[2])
         rows = [(point.x, point.y, point.chi) for point in points]
         self._path.publish(path_message(rows, self.get_clock().now().nanoseconds))
+        self._take_wishes()
         self._tell()
+
+    def _take_wishes(self) -> None:
+        """The mission's switching becomes the parameters', where everybody can see and change it."""
+        wished = self.parameters.with_wishes_of(self.mission).guidance.switching
+        if wished != self.parameters.guidance.switching:
+            self.set_parameters(
+                [
+                    Parameter("guidance.switching.mode", value=wished.mode),
+                    Parameter("guidance.switching.radius", value=wished.radius),
+                ]
+            )
 
     def configure(self) -> None:
         self.follower.configure(self.parameters.guidance)

@@ -57,7 +57,9 @@ class NavigationInput:
         self._frames = FrameTable(node.parameters.frames)
         self._guard = StampGuard(ordered=self._lockstep)
         parts = (topics.ODOM.name, topics.WATER_VELOCITY.name)
-        self._pairing = Pairing((*parts, topics.CURRENT_ESTIMATE.name) if with_current else parts, strict=True)
+        self._pairing = Pairing(
+            (*parts, topics.CURRENT_ESTIMATE.name) if with_current else parts, strict=True
+        )
         self._water: tuple[WaterVelocity, int] | None = None
         self._current: tuple[Current, int] | None = None
         node.listen(topics.ODOM, self._on_odometry)

@@ -104,7 +104,7 @@ class CompositePath:
         return p.x, p.y, p.chi
 
     def polyline(self, spacing: float) -> tuple[Array, Array, Array]:
-        """The path as points, the ends of all subpaths among them, for drawing and publishing.
+        """The path as points of Eq. (2), the ends of all subpaths among them, for drawing and publishing.
 
         Args:
             spacing: largest length of path between neighbours, m.

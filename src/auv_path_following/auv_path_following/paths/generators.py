@@ -39,7 +39,7 @@ def spiral(
 
 
 def figure_of_eight(centre: Point, radius: float, separation: float, chi: float) -> list[Segment]:
-    """Two loops and the crossing lines between them; closed; starts at the crossing towards the first loop.
+    """Two loops and the crossing lines between them; closed; starts with the first loop, to starboard.
 
     Args:
         centre: of the crossing (north, east), m.
@@ -47,24 +47,21 @@ def figure_of_eight(centre: Point, radius: float, separation: float, chi: float)
         separation: distance between the loops' centres, m, at least 2 radius.
         chi: bearing of the first loop's centre from the crossing, rad.
     """
-    x, y = centre
     half = 0.5 * separation
-    # Seen from the crossing, a tangent touches its loop `away` off the axis, after `straight` metres.
+    # Seen from the crossing, a tangent touches its loop `away` off the axis.
     away = math.asin(min(radius / half, 1.0))
-    straight = math.sqrt(max(half * half - radius * radius, 0.0))
-    sweep = math.pi + 2.0 * away
-    segments: list[Segment] = []
-    # Out on the port side of the first loop and round it to starboard; then the other loop to port.
+    straight = math.sqrt(max(separation * separation - 4.0 * radius * radius, 0.0))
+    loops = []
     for axis, side in ((chi, 1.0), (chi + math.pi, -1.0)):
-        course, back = axis - side * away, axis + math.pi + side * away
+        cx, cy = centre[0] + half * math.cos(axis), centre[1] + half * math.sin(axis)
+        a0 = axis - side * (away + 0.5 * math.pi)
+        loops.append(Arc(cx, cy, radius, a0, a0 + side * (math.pi + 2.0 * away)))
+    segments: list[Segment] = []
+    for loop, course in zip(loops, (chi + math.pi + away, chi - away), strict=True):
+        segments.append(loop)
         if straight > TOLERANCE:
-            segments.append(Line(x, y, straight, course))
-        a0 = course - side * 0.5 * math.pi
-        cx, cy = x + half * math.cos(axis), y + half * math.sin(axis)
-        segments.append(Arc(cx, cy, radius, a0, a0 + side * sweep))
-        if straight > TOLERANCE:
-            touch = segments[-1].evaluate(1.0)
-            segments.append(Line(touch.x, touch.y, straight, back))
+            leave = loop.evaluate(1.0)
+            segments.append(Line(leave.x, leave.y, straight, course))
     return segments
 
 

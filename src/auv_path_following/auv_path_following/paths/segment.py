@@ -8,7 +8,7 @@ from auv_msgs_py.elementary import functions_of
 
 
 class PathPoint(NamedTuple):
-    """A point of a path with its first and second derivative with respect to t (equally: to s).
+    """A point of a path, Eq. (3), with its derivatives with respect to t (equally: to s), Eq. (5).
 
     NED, metres; t has no unit, so the derivatives are metres too. All fields are floats, or arrays of
     one shape when the curve was evaluated for an array.
@@ -23,7 +23,7 @@ class PathPoint(NamedTuple):
 
     @property
     def speed(self) -> float:
-        """|dp/dt|: metres of path per unit of t, the factor between U_P and ds/dt in Eq. (6)."""
+        """|dp/dt|, Eq. (4): metres of path per unit of t, the factor between U_P and ds/dt in Eq. (6)."""
         return functions_of(self.dx).hypot(self.dx, self.dy)  # type: ignore[no-any-return]
 
     @property

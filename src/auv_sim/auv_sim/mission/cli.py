@@ -59,21 +59,55 @@ class _Parser(argparse.ArgumentParser):
 
 def parser() -> argparse.ArgumentParser:
     """The command line."""
-    p = _Parser(prog="mission.py", description="Fly a mission over ROS 2, record it, draw it.", allow_abbrev=False)
+    p = _Parser(
+        prog="mission.py", description="Fly a mission over ROS 2, record it, draw it.", allow_abbrev=False
+    )
     shipped = {kind: ", ".join(config_files.shipped(kind)) for kind in ("missions", "vehicles", "params")}
-    p.add_argument("--mission", default=plan.DEFAULT_MISSION, metavar="FILE", help=f"file or one of: {shipped['missions']}")
-    p.add_argument("--vehicle", default=plan.DEFAULT_VEHICLE, metavar="FILE", help=f"file or one of: {shipped['vehicles']}")
-    p.add_argument("--params", default=plan.DEFAULT_PARAMS, metavar="FILE", help=f"file or one of: {shipped['params']}")
-    p.add_argument("--current", nargs=2, type=_finite, metavar=("VX", "VY"), help="current towards north and east, m/s")
-    p.add_argument("--initial", nargs=3, type=_finite, metavar=("X", "Y", "PSI_DEG"), help="start: north, east (m), heading (deg)")
+    p.add_argument(
+        "--mission",
+        default=plan.DEFAULT_MISSION,
+        metavar="FILE",
+        help=f"file or one of: {shipped['missions']}",
+    )
+    p.add_argument(
+        "--vehicle",
+        default=plan.DEFAULT_VEHICLE,
+        metavar="FILE",
+        help=f"file or one of: {shipped['vehicles']}",
+    )
+    p.add_argument(
+        "--params", default=plan.DEFAULT_PARAMS, metavar="FILE", help=f"file or one of: {shipped['params']}"
+    )
+    p.add_argument(
+        "--current", nargs=2, type=_finite, metavar=("VX", "VY"), help="current towards north and east, m/s"
+    )
+    p.add_argument(
+        "--initial",
+        nargs=3,
+        type=_finite,
+        metavar=("X", "Y", "PSI_DEG"),
+        help="start: north, east (m), heading (deg)",
+    )
     p.add_argument("--switching", choices=("off", "g0", "all"), help="joints with a circle of acceptance")
-    p.add_argument("--speed", type=_positive, metavar="N", help="free running at N times real time; without it lockstep, as fast as it goes")
-    p.add_argument("--no-sim", action="store_true", help="all but the simulator: a vehicle speaks the contract's topics")
-    p.add_argument("--use-sim-time", action="store_true", help="with --no-sim: follow the /clock that somebody publishes")
+    p.add_argument(
+        "--speed",
+        type=_positive,
+        metavar="N",
+        help="free running at N times real time; without it lockstep, as fast as it goes",
+    )
+    p.add_argument(
+        "--no-sim", action="store_true", help="all but the simulator: a vehicle speaks the contract's topics"
+    )
+    p.add_argument(
+        "--use-sim-time", action="store_true", help="with --no-sim: follow the /clock that somebody publishes"
+    )
     p.add_argument("--out", type=Path, metavar="DIR", help="run directory (default: runs/MISSION-DATE)")
     p.add_argument("--composed", action="store_true", help="all nodes in one process")
     p.add_argument("--namespace", type=_namespace, default="/auv", help="of all nodes (default /auv)")
-    p.add_argument("--domain", type=_domain, help="ROS domain (default: one of its own; with --no-sim ROS_DOMAIN_ID)")
+    p.add_argument(
+        "--domain", type=_domain, help="ROS domain (default: one of its own; with --no-sim ROS_DOMAIN_ID)"
+    )
+    p.add_argument("--force", action="store_true", help="fly what the check of the plan refuses")
     p.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
     return p
 
@@ -99,9 +133,13 @@ def _options(argv: Sequence[str] | None) -> Options:
     if options.no_sim:
         for flag, value in conflicts.items():
             if value is not None:
-                raise ConfigurationError(flag, "together with --no-sim", "it only without, it is for the simulator")
+                raise ConfigurationError(
+                    flag, "together with --no-sim", "it only without, it is for the simulator"
+                )
     elif options.use_sim_time:
-        raise ConfigurationError("--use-sim-time", "without --no-sim", "both (the simulator always has its own clock)")
+        raise ConfigurationError(
+            "--use-sim-time", "without --no-sim", "both (the simulator always has its own clock)"
+        )
     return options
 
 
@@ -112,7 +150,9 @@ def _fly(options: Options) -> int:
     try:
         directory.mkdir(parents=True)
     except OSError as error:
-        raise ConfigurationError("--out", f"{directory} ({error.strerror})", "a directory that can be made") from None
+        raise ConfigurationError(
+            "--out", f"{directory} ({error.strerror})", "a directory that can be made"
+        ) from None
     path = resolved.mission.path
     timing = "lockstep" if resolved.lockstep else "free running"
     console.print(
@@ -120,12 +160,15 @@ def _fly(options: Options) -> int:
         f" {timing}, ROS domain {launcher.domain_of(resolved)}, namespace {options.namespace}",
         highlight=False,
     )
+    for level, verdicts in (("refused", resolved.verdicts.refusals), ("warning", resolved.verdicts.warnings)):
+        for verdict in verdicts:
+            console.print(f"[yellow]{level}[/yellow] {verdict}", highlight=False, soft_wrap=True)
     with Progress(path, console, options.quiet) as progress:
         outcome = launcher.fly(resolved, directory, progress)
     if outcome.state != "complete":
         print(f"mission {outcome.state}: {outcome.reason}", file=sys.stderr)
-    if outcome.mission_time > 0.0:
-        summary = results.conclude(resolved, directory, outcome)
+    summary = results.conclude(resolved, directory, outcome)
+    if summary is not None:
         results.show(resolved, directory, outcome, summary, console)
     return _EXIT[outcome.state]
 

@@ -20,6 +20,9 @@ from auv_sim.mission.progress import Progress
 _DISCOVERY_BOUND = 60.0
 #: Wall time to wait for a foreign vehicle's first odometry, s.
 _VEHICLE_BOUND = 120.0
+#: Wall time without a step of the simulator after which nothing is expected to move any more, s. The
+#: simulator names a node that does not answer well before; this is for what it cannot see.
+_STALL_BOUND = 60.0
 _COMPOSED = "composed"
 
 
@@ -96,7 +99,14 @@ def fly(plan: Plan, directory: Path, progress: Progress) -> Outcome:
 
 def _start_nodes(plan: Plan, children: Children, parameters: Path) -> None:
     sim_time = "true" if plan.use_sim_time else "false"
-    ros = ["-r", f"__ns:={plan.options.namespace}", "--params-file", str(parameters), "-p", f"use_sim_time:={sim_time}"]
+    ros = [
+        "-r",
+        f"__ns:={plan.options.namespace}",
+        "--params-file",
+        str(parameters),
+        "-p",
+        f"use_sim_time:={sim_time}",
+    ]
     names = [name for name in NODES if name in plan.parameters]
     if plan.options.composed:
         children.start(_COMPOSED, "auv_sim.mission.composed", [json.dumps(dict.fromkeys(names, ros))])
@@ -160,15 +170,24 @@ class _Flight:
             self._check_children()
             self._progress.waiting_for(f"a vehicle's {topic}")
             if time.monotonic() > deadline:
-                raise MissionFailed(f"no odometry on {topic} within {_VEHICLE_BOUND:g} s: is the vehicle's driver running?")
+                raise MissionFailed(
+                    f"no odometry on {topic} within {_VEHICLE_BOUND:g} s: is the vehicle's driver running?"
+                )
             self._monitor.look(0.1)
         return True
 
     def _until_over(self, begin: float) -> str:
+        m = self._monitor
+        moved_at, stamp = begin, m.stamp
         while not self._interrupt.requested:
             self._check_children()
-            m = self._monitor
             m.look(0.1)
+            if m.stamp != stamp:
+                moved_at, stamp = time.monotonic(), m.stamp
+            elif not self._plan.options.no_sim and time.monotonic() - moved_at > _STALL_BOUND:
+                raise MissionFailed(
+                    f"time stood still at {m.mission_time:.2f} s of the mission for {_STALL_BOUND:g} s"
+                )
             self._progress.update(m.s, m.ye, m.mission_time, time.monotonic() - begin)
             if m.state in ("complete", "aborted"):
                 return str(m.state)

@@ -48,7 +48,9 @@ class Monitor:
 
     def _listen(self, topic: Topic, kind: Any, callback: Any) -> None:
         depth = qos.DEPTH if topic.latched else 1
-        self.node.create_subscription(kind, topic.name, callback, qos.requested(topic, reliable=False, depth=depth))
+        self.node.create_subscription(
+            kind, topic.name, callback, qos.requested(topic, reliable=False, depth=depth)
+        )
 
     def _on_odometry(self, _: Odometry) -> None:
         self.odometry_seen = True

@@ -10,13 +10,14 @@ from pathlib import Path
 from typing import Any
 
 from auv_msgs_py import params_file, topics, yaml_file
-from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.types import NO_CURRENT
 from auv_path_following import config_files, vehicle
 from auv_path_following.paths import mission_file
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.closed_loop import Scenario
 from auv_sim.parameters import SUITE
+from auv_sim.planning.check import Verdicts, check, refusal
 from auv_sim.plant.remus import PlantState
 
 DEFAULT_MISSION = "paper_composite"
@@ -42,6 +43,7 @@ class Options:
     namespace: str = "/auv"
     domain: int | None = None
     quiet: bool = False
+    force: bool = False
 
 
 @dataclass(frozen=True)
@@ -53,6 +55,7 @@ class Plan:
         mission, vehicle: as read from their files.
         parameters: node name -> settings object, for the nodes that are started.
         sources: what each input was read from: "mission", "vehicle", "params" -> path.
+        verdicts: what was found when the mission was checked.
     """
 
     options: Options
@@ -60,6 +63,7 @@ class Plan:
     vehicle: Vehicle
     parameters: dict[str, Any]
     sources: dict[str, Path]
+    verdicts: Verdicts
 
     @property
     def lockstep(self) -> bool:
@@ -104,6 +108,10 @@ class Plan:
         for kind in ("mission", "vehicle"):
             here[kind] = directory / f"{kind}.yaml"
             shutil.copyfile(self.sources[kind], here[kind])
+        for file in self.mission.files:
+            copy = directory / file.relative_to(self.mission.source.parent)
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(file, copy)
         told = {
             name: dataclasses.replace(settings, **{k: str(here[k]) for k in here if hasattr(settings, k)})
             for name, settings in self.parameters.items()
@@ -128,20 +136,23 @@ def make(options: Options, directory: Path) -> Plan:
         "vehicle": config_files.find("vehicles", options.vehicle).absolute(),
         "params": config_files.find("params", options.params).absolute(),
     }
-    mission = mission_file.load(str(sources["mission"]))
     hull = vehicle.load(str(sources["vehicle"]))
+    mission = mission_file.load(str(sources["mission"]), hull)
     parameters = params_file.load(sources["params"], SUITE)
-    if mission.thrust > hull.thrust_max:
-        raise ConfigurationError(
-            f"{sources['mission']}: thrust", f"{mission.thrust:g} N", f"at most {hull.thrust_max:g} N, all that {hull.name} has"
-        )
     timing = {"lockstep": not options.no_sim and options.speed is None}
     timing["recorded"] = timing["lockstep"]
     for name in parameters:
         parameters[name] = dataclasses.replace(parameters[name], **timing)
-    _tell(parameters, topics.GUIDANCE, mission=str(sources["mission"]))
+    wishes = parameters[topics.GUIDANCE].with_wishes_of(mission).guidance
+    _tell(parameters, topics.GUIDANCE, guidance=wishes, mission_switching=False)
+    _tell(parameters, topics.GUIDANCE, mission=str(sources["mission"]), vehicle=str(sources["vehicle"]))
     _tell(parameters, topics.AUTOPILOT, vehicle=str(sources["vehicle"]))
-    _tell(parameters, topics.PLANT, vehicle=str(sources["vehicle"]), initial=_initial(options, mission, parameters))
+    _tell(
+        parameters,
+        topics.PLANT,
+        vehicle=str(sources["vehicle"]),
+        initial=_initial(options, mission, parameters),
+    )
     _tell(parameters, topics.RECORDER, directory=str(directory / "bag"))
     if options.speed is not None:
         _tell(parameters, topics.PLANT, speed=options.speed)
@@ -153,9 +164,14 @@ def make(options: Options, directory: Path) -> Plan:
         guidance = parameters[topics.GUIDANCE].guidance
         switching = dataclasses.replace(guidance.switching, mode=options.switching)
         _tell(parameters, topics.GUIDANCE, guidance=dataclasses.replace(guidance, switching=switching))
+    switching = parameters[topics.GUIDANCE].guidance.switching
+    current = NO_CURRENT if options.no_sim else parameters[topics.PLANT].current.value
+    verdicts = check(mission, hull, current, switching)
+    if verdicts.refusals and not options.force:
+        raise refusal(mission, verdicts, "--force flies it all the same")
     if options.no_sim:
         del parameters[topics.PLANT]
-    return Plan(options, mission, hull, parameters, sources)
+    return Plan(options, mission, hull, parameters, sources, verdicts)
 
 
 def _tell(parameters: dict[str, Any], node: str, **changes: Any) -> None:
@@ -172,5 +188,3 @@ def _initial(options: Options, mission: Mission, parameters: dict[str, Any]) -> 
     else:
         return initial
     return dataclasses.replace(initial, x=x, y=y, psi=psi)
-
-

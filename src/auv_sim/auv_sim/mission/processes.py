@@ -65,7 +65,7 @@ class Children:
                 stderr=subprocess.STDOUT,
                 env=self._environment,
                 start_new_session=True,
-                preexec_fn=_die_with_parent,  # noqa: PLW1509 - no threads are running yet
+                preexec_fn=_die_with_parent,
             )
         self._children[name] = Child(name, process, log)
 

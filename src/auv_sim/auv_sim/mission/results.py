@@ -11,6 +11,7 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
+from auv_msgs_py.errors import ConfigurationError
 from auv_sim.analysis.metrics import MissionSummary, summarise
 from auv_sim.analysis.overview import draw
 from auv_sim.mission.launcher import Outcome
@@ -18,13 +19,12 @@ from auv_sim.mission.plan import Plan
 from auv_sim.recording.load import load
 
 
-def conclude(plan: Plan, directory: Path, outcome: Outcome) -> MissionSummary:
-    """Load the bag, write `summary.json` and `overview.png`.
-
-    Raises:
-        ConfigurationError: the bag has no odometry.
-    """
-    run = load(directory / "bag")
+def conclude(plan: Plan, directory: Path, outcome: Outcome) -> MissionSummary | None:
+    """Load the bag, write `summary.json` and `overview.png`; None if nothing was flown."""
+    try:
+        run = load(directory / "bag")
+    except ConfigurationError:
+        return None
     summary = summarise(run, plan.mission.path)
     record: dict[str, Any] = {
         "outcome": outcome.state,
@@ -54,7 +54,13 @@ def show(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary,
     """The table, the files, the next command."""
     table = Table(title=f"{plan.mission.name}: {outcome.state}", title_justify="left")
     table.add_column("subpath")
-    for heading in ("time [s]", "rms distance [m]", "largest [m]", "rms heading error [deg]", "rudder [deg/m]"):
+    for heading in (
+        "time [s]",
+        "rms distance [m]",
+        "largest [m]",
+        "rms heading error [deg]",
+        "rudder [deg/m]",
+    ):
         table.add_column(heading, justify="right")
     for part in summary.subpaths:
         table.add_row(
@@ -76,9 +82,13 @@ def show(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary,
     )
     console.print(table)
     for corner in summary.corners:
-        console.print(f"corner at joint {corner.joint}: at most {_number(corner.largest_distance, 2)} m off the path")
+        console.print(
+            f"corner at joint {corner.joint}: at most {_number(corner.largest_distance, 2)} m off the path"
+        )
     if not math.isnan(summary.current_estimate_error):
-        console.print(f"current estimate: within {summary.current_estimate_error:.4f} m/s of the truth after 15 s")
+        console.print(
+            f"current estimate: within {summary.current_estimate_error:.4f} m/s of the truth after 15 s"
+        )
     speed = outcome.mission_time / outcome.wall_time if outcome.wall_time else 0.0
     console.print(
         f"{outcome.mission_time:.1f} s of mission in {outcome.wall_time:.1f} s, {speed:.0f} times real time"

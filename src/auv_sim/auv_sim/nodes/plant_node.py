@@ -15,7 +15,7 @@ from std_msgs.msg import Float64, String
 from std_srvs.srv import Trigger
 
 from auv_msgs_py import topics
-from auv_msgs_py.conversions import finite, fill_current, fill_odometry, fill_water_velocity, set_stamp
+from auv_msgs_py.conversions import fill_current, fill_odometry, fill_water_velocity, finite, set_stamp
 from auv_msgs_py.errors import ConfigurationError, MessageRefused
 from auv_msgs_py.runtime import SuiteNode, run_nodes
 from auv_msgs_py.types import STOP, Command, Current
@@ -45,7 +45,11 @@ class RemusPlantNode(SuiteNode):
         self._released = not p.hold_until_running
         self._commands: dict[str, tuple[float, int]] = {}
         self._reset_wanted = False
-        self._odometry, self._water, self._message_current = Odometry(), TwistWithCovarianceStamped(), Vector3Stamped()
+        self._odometry, self._water, self._message_current = (
+            Odometry(),
+            TwistWithCovarianceStamped(),
+            Vector3Stamped(),
+        )
         self._odometry.header.frame_id, self._odometry.child_frame_id = p.world_frame, p.body_frame
         self._water.header.frame_id = p.body_frame
         self._check_frames(p)
@@ -65,7 +69,9 @@ class RemusPlantNode(SuiteNode):
         self.listen(topics.MISSION_STATE, self._on_mission_state)
         self.create_service(Trigger, topics.RESET_SERVICE, self._on_reset)
         if self._pacer is not None:
-            self.create_timer(self._pacer.period, self._tick, clock=RosClock(clock_type=ClockType.STEADY_TIME))
+            self.create_timer(
+                self._pacer.period, self._tick, clock=RosClock(clock_type=ClockType.STEADY_TIME)
+            )
 
     def _check_frames(self, p: PlantParameters) -> None:
         from auv_msgs_py.frames import FrameIds, FrameTable
@@ -73,7 +79,9 @@ class RemusPlantNode(SuiteNode):
         try:
             FrameTable(FrameIds()).of_pose(topics.ODOM.name, p.world_frame, p.body_frame)
         except MessageRefused as error:
-            raise ConfigurationError(f"{self.get_name()}: world_frame, body_frame", error.found, error.expected) from None
+            raise ConfigurationError(
+                f"{self.get_name()}: world_frame, body_frame", error.found, error.expected
+            ) from None
 
     def waiting_for(self) -> str:
         return self.gate_waits_for() or (self._lockstep.waiting_for() if self._lockstep else "")

@@ -52,7 +52,9 @@ class RecorderNode(SuiteNode):
                     f"{self.get_name()}: parameter {name}", str(error), "a regular expression"
                 ) from None
         size, duration = p.max_size * 1_000_000, round(p.max_duration * 1e9)
-        self.writer = BagWriter(directory, p.compression, max_size=size, max_duration_ns=duration)
+        self.writer = BagWriter(
+            directory, p.compression, max_size=size, max_duration_ns=duration, texts=_configuration(directory)
+        )
         self._times = Timestamps(bool(self.get_parameter("use_sim_time").value))
         self._early: list[Taken] = []
         self._last = self._flushed = time.monotonic()
@@ -151,6 +153,12 @@ class RecorderNode(SuiteNode):
         if not whole:
             advice = f"python3 scripts/bag.py repair {self.writer.directory} makes it whole"
             print(f"{self.writer.directory}: left unfinished ({self.writer.trouble}); {advice}")
+
+
+def _configuration(directory: Path) -> dict[str, str]:
+    """The configuration that the launcher wrote beside the bag, so that the bag alone tells everything."""
+    files = sorted((directory.parent / "config").glob("*.yaml"))
+    return {file.name: file.read_text(encoding="utf-8", errors="replace") for file in files}
 
 
 def main(args: Sequence[str] | None = None) -> int:

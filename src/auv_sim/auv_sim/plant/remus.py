@@ -126,7 +126,7 @@ class RemusPlant:
         return WaterVelocity(self.state.ur, self.state.vr)
 
     def ground_velocity(self, current: Current) -> tuple[float, float]:
-        """(u, v) over ground in the body frame, Eqs. (15) (with mended signs) and (16), m/s."""
+        """(u, v) over ground in the body frame, m/s: Eqs. (15), (16) with the signs that Eq. (14) demands."""
         _, _, psi, ur, vr, _ = self.state
         cos_psi, sin_psi = math.cos(psi), math.sin(psi)
         uc = current.Vx * cos_psi + current.Vy * sin_psi

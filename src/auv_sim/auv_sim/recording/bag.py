@@ -11,6 +11,7 @@ from typing import Any
 import yaml
 
 from auv_msgs_py.errors import ConfigurationError
+from auv_sim.recording.bag_writer import TEXTS
 from auv_sim.recording.mcap_scan import scan
 from auv_sim.recording.metadata import METADATA_FILE
 
@@ -64,6 +65,7 @@ class Bag:
         topics: by full name.
         notes: one line for each damage; empty when all is well.
         size: bytes of the files.
+        texts: what the recorder put into the bag by name (the configuration that was flown).
         order: (topic, number of the message in it) for every message, in the order of the files.
     """
 
@@ -72,6 +74,7 @@ class Bag:
     topics: dict[str, RecordedTopic] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
     size: int = 0
+    texts: dict[str, str] = field(default_factory=dict)
     order: list[tuple[RecordedTopic, int]] = field(default_factory=list)
 
     @property
@@ -227,6 +230,7 @@ def _read_file(bag: Bag, file: Path, wanted: Wanted) -> None:
     bag.files.append(file)
     bag.size += file.stat().st_size
     bag.notes += [f"{file.name}: {note}" for note in result.notes]
+    bag.texts |= result.metadata.get(TEXTS, {})
     renumbered: dict[int, tuple[RecordedTopic, int]] = {}
     for number, channel in result.channels.items():
         schema = result.schemas.get(channel.schema_id)

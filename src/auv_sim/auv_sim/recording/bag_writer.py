@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -18,6 +18,8 @@ from auv_sim.recording.metadata import METADATA_FILE, FileFacts, TopicFacts
 
 __all__ = ["METADATA_FILE", "BagWriter", "Channel", "typestore"]
 
+#: Name of the MCAP metadata record that holds the texts kept in a file.
+TEXTS = "auv_sim.texts"
 #: What may wait in memory for a disk that is full, bytes; further messages are counted and given up.
 PENDING_LIMIT = 16 * 1024 * 1024
 
@@ -47,6 +49,7 @@ class BagWriter:
         chunk_size: bytes of messages that make a chunk.
         max_size: bytes after which a new file is begun; 0 for never.
         max_duration_ns: recorded time after which a new file is begun; 0 for never.
+        texts: kept in every file, by name (the configuration that was flown).
 
     Raises:
         ConfigurationError: the directory exists or cannot be made, or the compression is unknown.
@@ -59,6 +62,7 @@ class BagWriter:
         chunk_size: int = 1024 * 1024,
         max_size: int = 0,
         max_duration_ns: int = 0,
+        texts: Mapping[str, str] | None = None,
     ) -> None:
         if compression not in ("none", "zstd"):
             raise ConfigurationError("compression", repr(compression), "none or zstd")
@@ -66,6 +70,7 @@ class BagWriter:
         self._compression: Compression = compression
         self._chunk_size = chunk_size
         self._max_size, self._max_duration_ns = max_size, max_duration_ns
+        self._texts = dict(texts or {})
         self._channels: dict[str, Channel] = {}
         self._files: list[FileFacts] = []
         self._closed = False
@@ -84,7 +89,11 @@ class BagWriter:
         self._schemas: dict[str, int] = {}
         for channel in self._channels.values():
             channel.number = 0
-        return McapFile(path, self._compression, self._chunk_size)
+        file = McapFile(path, self._compression, self._chunk_size)
+        if self._texts:
+            file.metadata(TEXTS, self._texts)
+            file.journal.commit()
+        return file
 
     @property
     def file(self) -> Path:
@@ -183,7 +192,8 @@ class BagWriter:
             return False
         self._files.append(FileFacts(file.path.name, file.first_ns, file.last_ns, file.messages, file.size))
         # rosbag2 keeps a copy inside the storage file, so that the file alone tells everything.
-        return file.finish({"serialized_metadata": metadata.dump(self._information()).rstrip("\n")})
+        file.metadata("rosbag2", {"serialized_metadata": metadata.dump(self._information()).rstrip("\n")})
+        return file.finish()
 
     def close(self) -> bool:
         """Write the index and metadata.yaml; harmless when called again.

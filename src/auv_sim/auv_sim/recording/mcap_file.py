@@ -63,6 +63,7 @@ class McapFile:
         self._schemas: list[Schema] = []
         self._channels: list[Channel] = []
         self._chunks: list[ChunkIndex] = []
+        self._metadata: list[MetadataIndex] = []
         self._counts: dict[int, int] = {}
         self.first_ns = self.last_ns = self.messages = 0
         self._new_chunk()
@@ -117,19 +118,22 @@ class McapFile:
         self._end_chunk()
         return self.journal.commit()
 
-    def finish(self, metadata: dict[str, str]) -> bool:
+    def metadata(self, name: str, content: dict[str, str]) -> None:
+        """Write texts by name into the file, outside of all topics."""
+        start = self.journal.position
+        self._put(Metadata(name=name, metadata=content))
+        self._metadata.append(MetadataIndex(offset=start, length=self.journal.position - start, name=name))
+
+    def finish(self) -> bool:
         """Write the index and close; False when the file had to be left without it."""
         self._end_chunk()
-        start = self.journal.position
-        self._put(Metadata(name="rosbag2", metadata=metadata))
-        entry = MetadataIndex(offset=start, length=self.journal.position - start, name="rosbag2")
         self._put(DataEnd(data_section_crc=0))
-        self._summary(entry)
+        self._summary()
         whole = self.journal.commit()
         self.journal.close()
         return whole
 
-    def _summary(self, entry: MetadataIndex) -> None:
+    def _summary(self) -> None:
         statistics = Statistics(
             attachment_count=0,
             channel_count=len(self._channels),
@@ -138,7 +142,7 @@ class McapFile:
             message_count=self.messages,
             message_end_time=self.last_ns,
             message_start_time=self.first_ns,
-            metadata_count=1,
+            metadata_count=len(self._metadata),
             schema_count=len(self._schemas),
         )
         groups: list[tuple[Opcode, list[McapRecord]]] = [
@@ -146,7 +150,7 @@ class McapFile:
             (Opcode.CHANNEL, [*self._channels]),
             (Opcode.STATISTICS, [statistics]),
             (Opcode.CHUNK_INDEX, [*self._chunks]),
-            (Opcode.METADATA_INDEX, [entry]),
+            (Opcode.METADATA_INDEX, [*self._metadata]),
         ]
         start = self.journal.position
         builder = RecordBuilder()

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import zstandard
 from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
-from mcap.records import Channel, Chunk, Footer, Schema, Statistics
+from mcap.records import Channel, Chunk, Footer, Metadata, Schema, Statistics
 from mcap.stream_reader import CRCValidationError, get_chunk_data_stream
 
 from auv_msgs_py.errors import ConfigurationError
@@ -33,6 +33,7 @@ _READERS: dict[int, Any] = {
     Opcode.CHANNEL: Channel,
     Opcode.STATISTICS: Statistics,
     Opcode.FOOTER: Footer,
+    Opcode.METADATA: Metadata,
 }
 
 #: Called for each message: channel number, sequence, log time, publish time (ns), the serialised message.
@@ -44,12 +45,14 @@ class ScanResult(NamedTuple):
 
     Attributes:
         channels, schemas: by number.
+        metadata: the texts of the metadata records, by name.
         notes: one line for each damage; empty for a whole file.
         closed: whether the file has its index and its end.
     """
 
     channels: dict[int, Channel]
     schemas: dict[int, Schema]
+    metadata: dict[str, dict[str, str]]
     notes: list[str]
     closed: bool
 
@@ -81,6 +84,7 @@ class _Scanner:
         self._sink = sink
         self._channels: dict[int, Channel] = {}
         self._schemas: dict[int, Schema] = {}
+        self._metadata: dict[str, dict[str, str]] = {}
         self._notes: list[str] = []
         self._statistics: Statistics | None = None
         self._messages = 0
@@ -118,7 +122,7 @@ class _Scanner:
         elif self._statistics is not None and self._statistics.message_count != self._messages:
             there = self._statistics.message_count
             self._notes.append(f"{self._messages} of {there} messages are readable")
-        return ScanResult(self._channels, self._schemas, self._notes, closed)
+        return ScanResult(self._channels, self._schemas, self._metadata, self._notes, closed)
 
     def _take(self, opcode: int, start: int, end: int) -> bool:
         """Take in one record; False when it makes no sense, so that its length cannot be trusted either."""
@@ -142,6 +146,8 @@ class _Scanner:
             self._channels[record.id] = record
         elif isinstance(record, Statistics):
             self._statistics = record
+        elif isinstance(record, Metadata):
+            self._metadata[record.name] = record.metadata
 
     def _chunk(self, start: int, body: int, end: int) -> bool:
         if not self._is_chunk(start):

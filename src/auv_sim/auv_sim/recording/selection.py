@@ -112,8 +112,9 @@ class Selection:
         topic.publishers = max(1, len(offers))
         # Discovery does not tell a history's depth. Where the contract does, it knows more.
         promised = self._promised.get(topic.name)
-        if offers and any(promised is None or _kind(offer) != _kind(promised) for offer in offers):
-            self._writer.set_qos(topic.channel, [qos_record(offer) for offer in offers])
+        told = [promised if promised and _kind(offer) == _kind(promised) else offer for offer in offers]
+        if told:
+            self._writer.set_qos(topic.channel, [qos_record(offer) for offer in told])
 
     def _offers(self, name: str) -> list[Any]:
         return [info.qos_profile for info in self._node.get_publishers_info_by_topic(name)]
