@@ -1,4 +1,4 @@
-"""All parameters of the three nodes, as settings: ROS-free, so that files are checked before a node starts."""
+"""All parameters of the three nodes as settings: ROS-free, so that files are checked before a node starts."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class GuidanceParameters(NavigationParameters):
     )
 
     def with_wishes_of(self, mission: Mission) -> GuidanceParameters:
-        """These parameters with the mission's own switching, where it has one and `mission_switching` is on."""
+        """These parameters with the mission's own switching, unless `mission_switching` is off."""
         if not self.mission_switching:
             return self
         wish = mission.switching
@@ -80,7 +80,7 @@ class AutopilotParameters(NavigationParameters):
     """heading_autopilot."""
 
     vehicle: str = setting(
-        "remus100", "vehicle file, or the name of a shipped one: limits of rudder and thrust"
+        "remus100", "vehicle file or shipped name: limits of rudder and thrust"
     )
     autopilot: AutopilotConfig = setting(factory=AutopilotConfig, doc="controller and gains")
     reference_timeout: float = setting(

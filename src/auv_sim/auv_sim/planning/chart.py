@@ -1,0 +1,102 @@
+"""The path for a chart: GeoJSON and KML, in degrees."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+
+from auv_msgs_py.errors import ConfigurationError
+from auv_path_following.paths.geodesy import to_geodetic
+from auv_path_following.paths.mission_file import Mission
+from auv_path_following.paths.outline import polygon
+
+#: How far the drawn line may be from the path, m.
+_ERROR = 0.05
+#: 1e-8 degrees are a millimetre.
+_DIGITS = 8
+_KML = "http://www.opengis.net/kml/2.2"
+
+Place = list[float]
+
+
+def export(mission: Mission, target: Path) -> None:
+    """Write the path as a line, and its waypoints and joints as points.
+
+    Args:
+        mission: with an origin.
+        target: the file to write; its suffix says which format.
+
+    Raises:
+        ConfigurationError: the mission has no origin, the suffix is unknown, or the file cannot be written.
+    """
+    writer = {".geojson": _geojson, ".kml": _kml}.get(target.suffix.lower())
+    if writer is None:
+        raise ConfigurationError("--export", f"{target}", "a file that ends with .geojson or .kml")
+    if mission.origin is None:
+        expected = "origin: {latitude_deg: ..., longitude_deg: ...}, to place the path on a chart"
+        raise ConfigurationError(f"{mission.source}: origin", "nothing", expected)
+    try:
+        target.write_text(writer(mission), encoding="utf-8")
+    except OSError as error:
+        raise ConfigurationError(
+            "--export", f"{target} ({error.strerror})", "a file that can be written"
+        ) from None
+
+
+def _places(mission: Mission, north: Any, east: Any) -> list[Place]:
+    """[longitude, latitude] as both formats have it."""
+    if mission.origin is None or not len(north):
+        return []
+    latitude, longitude = to_geodetic(mission.origin, north, east)
+    return np.column_stack((longitude, latitude)).round(_DIGITS).tolist()
+
+
+def _line(mission: Mission) -> list[Place]:
+    parts = [polygon(segment, _ERROR) for segment in mission.path.segments[: mission.once]]
+    kept = [(x[:-1], y[:-1]) for x, y in parts[:-1]] + [parts[-1]]
+    return _places(mission, *(np.concatenate(axis) for axis in zip(*kept, strict=True)))
+
+
+def _points(mission: Mission) -> list[tuple[str, Place]]:
+    """Names and places of waypoints and joints."""
+    joints = mission.path.joints[: max(mission.once - 1, 0)]
+    named = [(f"waypoint {k}", *point) for k, point in enumerate(mission.waypoints, start=1)]
+    named += [(f"joint {joint.index} {joint.geometric}", joint.x, joint.y) for joint in joints]
+    places = _places(mission, [item[1] for item in named], [item[2] for item in named])
+    return [(item[0], place) for item, place in zip(named, places, strict=True)]
+
+
+def _geojson(mission: Mission) -> str:
+    def feature(kind: str, coordinates: Any, **properties: Any) -> dict[str, Any]:
+        geometry = {"type": kind, "coordinates": coordinates}
+        return {"type": "Feature", "properties": properties, "geometry": geometry}
+
+    line = feature("LineString", _line(mission), name=mission.name, length_m=round(mission.path.length, 3))
+    points = [feature("Point", place, name=name) for name, place in _points(mission)]
+    return json.dumps({"type": "FeatureCollection", "features": [line, *points]}, indent=1) + "\n"
+
+
+def _kml(mission: Mission) -> str:
+    ElementTree.register_namespace("", _KML)
+    root = ElementTree.Element(f"{{{_KML}}}kml")
+    document = ElementTree.SubElement(root, f"{{{_KML}}}Document")
+
+    def placemark(parent: ElementTree.Element, name: str, kind: str, places: list[Place]) -> None:
+        mark = ElementTree.SubElement(parent, f"{{{_KML}}}Placemark")
+        ElementTree.SubElement(mark, f"{{{_KML}}}name").text = name
+        shape = ElementTree.SubElement(mark, f"{{{_KML}}}{kind}")
+        text = " ".join(f"{longitude},{latitude}" for longitude, latitude in places)
+        ElementTree.SubElement(shape, f"{{{_KML}}}coordinates").text = text
+
+    ElementTree.SubElement(document, f"{{{_KML}}}name").text = mission.name
+    placemark(document, mission.name, "LineString", _line(mission))
+    folder = ElementTree.SubElement(document, f"{{{_KML}}}Folder")
+    ElementTree.SubElement(folder, f"{{{_KML}}}name").text = "waypoints and joints"
+    for name, place in _points(mission):
+        placemark(folder, name, "Point", [place])
+    ElementTree.indent(root)
+    return ElementTree.tostring(root, encoding="unicode", xml_declaration=True) + "\n"

@@ -1,0 +1,182 @@
+"""`scripts/plan.py`: look at a mission before the vehicle is in the water."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+
+from rich import box
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from auv_msgs_py import params_file, topics
+from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.types import Current
+from auv_path_following import config_files, vehicle
+from auv_path_following.guidance.switching import SwitchingConfig, as_wished
+from auv_path_following.paths import mission_file
+from auv_path_following.paths.mission_file import Mission
+from auv_path_following.vehicle import Vehicle
+from auv_sim.parameters import SUITE
+from auv_sim.planning import chart, drawing
+from auv_sim.planning.check import Verdicts, check, refusal
+
+EXIT_FLYABLE, EXIT_REFUSED = 0, 2
+_ROWS = 40
+
+
+class _Parser(argparse.ArgumentParser):
+    """One line and exit code 2, without the usage in front of it."""
+
+    def error(self, message: str) -> None:  # type: ignore[override]
+        print(f"{self.prog}: {message} (see --help)", file=sys.stderr)
+        raise SystemExit(EXIT_REFUSED)
+
+
+def _finite(text: str) -> float:
+    value = float(text)
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"found {text}, expected a finite number")
+    return value
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    shipped = {kind: ", ".join(config_files.shipped(kind)) for kind in ("missions", "vehicles", "params")}
+    p = _Parser(
+        prog="plan.py",
+        description="Check a mission, draw it, and say whether the vehicle can fly it.",
+        epilog="Exit code 0: it can be flown, perhaps with warnings. 2: it is refused, or a file is wrong.",
+        allow_abbrev=False,
+    )
+    p.add_argument("mission", metavar="MISSION", help=f"file or one of: {shipped['missions']}")
+    p.add_argument(
+        "--vehicle", default="remus100", metavar="FILE", help=f"file or one of: {shipped['vehicles']}"
+    )
+    p.add_argument(
+        "--params", metavar="FILE", help=f"for its circles of acceptance: file or one of: {shipped['params']}"
+    )
+    p.add_argument(
+        "--current",
+        nargs=2,
+        type=_finite,
+        default=(0.0, 0.0),
+        metavar=("VX", "VY"),
+        help="current towards north and east, m/s",
+    )
+    p.add_argument("--switching", choices=("off", "g0", "all"), help="joints with a circle of acceptance")
+    p.add_argument("--out", type=Path, metavar="PNG", help="the picture (default: plan-MISSION.png here)")
+    p.add_argument("--export", type=Path, metavar="FILE", help="write the path for a chart: .geojson or .kml")
+    p.add_argument("--quiet", action="store_true", help="print nothing but a refusal, draw only with --out")
+    return p
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Plan; returns the exit code: 0 flyable, 2 refused or bad input."""
+    try:
+        return _plan(parser().parse_args(argv))
+    except ConfigurationError as error:
+        print(error, file=sys.stderr)
+        return EXIT_REFUSED
+
+
+def _plan(options: argparse.Namespace) -> int:
+    hull = vehicle.load(options.vehicle)
+    mission = mission_file.load(options.mission, hull)
+    verdicts = check(mission, hull, Current(*options.current), _switching(options, mission))
+    console = Console(
+        quiet=options.quiet, highlight=False, soft_wrap=True, width=None if sys.stdout.isatty() else 110
+    )
+    _tell(console, mission, hull, verdicts)
+    png = options.out or (None if options.quiet else Path(f"plan-{mission.source.stem}.png"))
+    if png is not None:
+        try:
+            drawing.draw(mission, verdicts, hull.name, png)
+        except (OSError, ValueError) as error:  # ValueError: a suffix that is no picture
+            raise ConfigurationError("--out", f"{png} ({error})", "a picture that can be written") from None
+        console.print(f"  {png}  [dim]the plan in one picture[/dim]")
+    if options.export is not None:
+        chart.export(mission, options.export)
+        console.print(f"  {options.export}  [dim]the path for a chart[/dim]")
+    if verdicts.refusals:
+        raise refusal(mission, verdicts, "scripts/mission.py --force would fly it all the same")
+    console.print(f"\nFly it:  python3 scripts/mission.py --mission {options.mission}")
+    return EXIT_FLYABLE
+
+
+def _switching(options: argparse.Namespace, mission: Mission) -> SwitchingConfig:
+    """As in flight: the parameters, then the mission, then the option."""
+    source = config_files.find("params", options.params) if options.params else None
+    if source is None:
+        parameters = SUITE[topics.GUIDANCE]()
+    else:
+        parameters = params_file.load(source, SUITE)[topics.GUIDANCE]
+    switching = parameters.with_wishes_of(mission).guidance.switching
+    return as_wished(switching, options.switching, None)
+
+
+def _tell(console: Console, mission: Mission, hull: Vehicle, verdicts: Verdicts) -> None:
+    path = mission.path
+    times = path.n // max(mission.once, 1)
+    console.print(
+        f"[bold]{mission.name}[/bold]" + (f": {mission.description}" if mission.description else "")
+    )
+    console.print(
+        f"  path      {path.n} subpaths, {path.length:.2f} m"
+        + (f", {times} times round" if times > 1 else "")
+    )
+    lasts = f"{verdicts.duration:.0f} s" if math.isfinite(verdicts.duration) else "no end"
+    console.print(
+        f"  duration  {lasts} at {verdicts.speed:.2f} m/s through the water ({mission.thrust:.2f} N)"
+    )
+    turn = f"{verdicts.turn.radius:.2f} m, {verdicts.turn.source}"
+    console.print(f"  vehicle   {hull.name}, tightest turn {turn}")
+    console.print(_joints(mission))
+    for verdict in verdicts.refusals:
+        console.print(f"[bold red]refused[/bold red]  {verdict}")
+    for verdict in verdicts.warnings:
+        console.print(f"[yellow]warning[/yellow]  {verdict}")
+    if not verdicts.refusals and not verdicts.warnings:
+        console.print("[green]nothing to say against it[/green]")
+    console.print()
+
+
+def _joints(mission: Mission) -> Table | str:
+    joints = mission.path.joints[: max(mission.once - 1, 0)]
+    if not joints:
+        return "  joints    none"
+    if len(joints) > _ROWS:
+        counts = Counter(joint.geometric for joint in joints)
+        listed = ", ".join(f"{counts[name]} {name}" for name in ("G0", "G1", "G2") if counts[name])
+        worst = max(joints, key=lambda joint: joint.gap)
+        return f"  joints    {listed}, largest gap {worst.gap * 1e3:.2g} mm at joint {worst.index}"
+    table = Table(title="joints", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
+    for heading in ("", "between"):
+        table.add_column(heading, no_wrap=True)
+    for heading in ("north\n[m]", "east\n[m]", "gap\n[mm]", "course\nstep [deg]", "curvature\nstep [1/m]"):
+        table.add_column(Text(heading), justify="right", no_wrap=True)
+    table.add_column("")
+    colors = {"G0": "red", "G1": "yellow", "G2": "green"}
+    for joint in joints:
+        before, after = (mission.path.segments[joint.index - 1 + k].kind for k in (0, 1))
+        table.add_row(
+            str(joint.index),
+            f"{before}, {after}",
+            f"{joint.x:.2f}",
+            f"{joint.y:.2f}",
+            f"{joint.gap * 1e3:.3f}",
+            _clean(math.degrees(joint.angle_step), 2),
+            _clean(joint.curvature_step, 5),
+            f"[{colors[joint.geometric]}]{joint.geometric}[/] {joint.parametric}",
+        )
+    return table
+
+
+def _clean(value: float, digits: int) -> str:
+    """Rounded, and without a minus in front of a zero."""
+    return f"{round(value, digits) + 0.0:.{digits}f}"
