@@ -14,13 +14,13 @@ from auv_path_following.vehicle import Rudder
 class PidConfig:
     """Gains from the heading error to the rudder; docs/tuning.md tells how the defaults were found."""
 
-    kp: float = setting(1.2, "rudder for heading error", gt=0.0, le=100.0, live=True)
+    kp: float = setting(1.0, "rudder for heading error", gt=0.0, le=100.0, live=True)
     ki: float = setting(
-        0.12, "rudder for the integral of the heading error", unit="1/s", ge=0.0, le=100.0, live=True
+        0.13, "rudder for the integral of the heading error", unit="1/s", ge=0.0, le=100.0, live=True
     )
-    kd: float = setting(1.2, "rudder for yaw rate", unit="s", ge=0.0, le=100.0, live=True)
+    kd: float = setting(1.8, "rudder for yaw rate", unit="s", ge=0.0, le=100.0, live=True)
     largest_error: float = setting(
-        0.6, "the proportional part acts on at most this heading error, so that far turns stay damped",
+        0.63, "the proportional part acts on at most this heading error, so that far turns stay damped",
         unit="rad", gt=0.0, le=math.pi, live=True,
     )  # fmt: skip
 
@@ -53,7 +53,7 @@ class Pid:
         self._integral += g.ki * error * dt
         wanted = g.kp * error + self._integral + g.kd * (inputs.r - inputs.r_d)
         rudder = self._limiter.limit(wanted, dt)
-        # The integral follows the rudder that there is within 1/kp_i = kd/kp seconds, the law's own lag.
+        # The integral follows the rudder that there is within kd/kp seconds, the law's own lead.
         if g.ki > 0.0 and dt > 0.0:
             tracking = max(g.kd / g.kp, dt)
             self._integral += (rudder - wanted) * min(dt / tracking, 1.0)

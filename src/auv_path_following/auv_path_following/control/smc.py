@@ -14,16 +14,16 @@ class SmcConfig:
     """Surface and switching gain; docs/tuning.md tells how the defaults were found."""
 
     slope: float = setting(
-        0.5, "slope of the surface: psi_e decays at this rate on it", unit="1/s", gt=0.0, le=10.0, live=True
+        1.0, "slope of the surface: psi_e decays at this rate on it", unit="1/s", gt=0.0, le=10.0, live=True
     )
     gain: float = setting(
-        0.5, "reaching gain, yaw acceleration off the surface", unit="rad/s^2", gt=0.0, le=10.0, live=True
+        0.7, "reaching gain, yaw acceleration off the surface", unit="rad/s^2", gt=0.0, le=10.0, live=True
     )
     boundary: float = setting(
-        0.3, "half width of the boundary layer", unit="rad/s", gt=0.0, le=10.0, live=True
+        0.43, "half width of the boundary layer", unit="rad/s", gt=0.0, le=10.0, live=True
     )
     largest_rate: float = setting(
-        0.3, "the surface asks for at most this yaw rate, so that a far turn does not outrun the rudder",
+        0.5, "the surface asks for at most this yaw rate, so that a far turn does not outrun the rudder",
         unit="rad/s", gt=0.0, le=10.0, live=True,
     )  # fmt: skip
 
