@@ -1,0 +1,76 @@
+"""Stamps: what is new, what is old, and what is a new beginning."""
+
+from __future__ import annotations
+
+import itertools
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from auv_msgs_py.stamps import StampGuard, Verdict
+
+ACCEPT, REFUSE, RESTART = Verdict.ACCEPT, Verdict.REFUSE, Verdict.RESTART
+
+
+def verdicts(stamps, ordered=False):
+    guard = StampGuard(ordered)
+    return [guard.judge(stamp).verdict for stamp in stamps]
+
+
+@settings(deadline=None)
+@given(st.lists(st.integers(0, 2 * 10**18), min_size=1, max_size=20, unique=True), st.booleans())
+def test_rising_stamps_are_accepted_with_the_seconds_between_them(stamps, ordered):
+    stamps.sort()
+    guard = StampGuard(ordered)
+    ticks = [guard.judge(stamp) for stamp in stamps]
+    assert {tick.verdict for tick in ticks} == {ACCEPT}
+    assert ticks[0].dt == 0.0
+    expected = [(b - a) / 1e9 for a, b in itertools.pairwise(stamps)]
+    assert [tick.dt for tick in ticks[1:]] == pytest.approx(expected, rel=1e-12)
+
+
+def test_dt_keeps_its_nanoseconds_on_a_clock_that_shows_the_date():
+    guard = StampGuard()
+    guard.judge(1_700_000_000_000_000_000)
+    assert guard.judge(1_700_000_000_050_000_001).dt == pytest.approx(0.050000001, abs=1e-15)
+
+
+@pytest.mark.parametrize("stamp", [100, 99, 50])
+def test_a_lone_old_stamp_is_refused_counted_and_harmless(stamp):
+    guard = StampGuard()
+    guard.judge(100)
+    assert guard.judge(stamp) == (REFUSE, 0.0)
+    assert guard.refused == 1
+    # The next good one counts from the last good one.
+    assert guard.judge(150) == (ACCEPT, pytest.approx(50e-9))
+
+
+def test_every_message_twice_is_no_restart():
+    assert verdicts([1, 1, 2, 2, 3, 3]) == [ACCEPT, REFUSE] * 3
+
+
+def test_time_that_went_back_is_seen_with_the_second_old_stamp():
+    assert verdicts([100, 110, 5, 15, 25]) == [ACCEPT, ACCEPT, REFUSE, RESTART, ACCEPT]
+
+
+def test_old_stamps_apart_from_each_other_are_no_restart():
+    assert verdicts([100, 60, 110, 70, 120]) == [ACCEPT, REFUSE, ACCEPT, REFUSE, ACCEPT]
+
+
+def test_in_lockstep_the_first_older_stamp_is_a_restart_and_an_equal_one_is_not():
+    assert verdicts([100, 100, 50, 60], ordered=True) == [ACCEPT, REFUSE, RESTART, ACCEPT]
+
+
+def test_after_a_restart_dt_counts_from_it():
+    guard = StampGuard(ordered=True)
+    guard.judge(10**9)
+    assert guard.judge(0) == (RESTART, 0.0)
+    assert guard.judge(5 * 10**7).dt == pytest.approx(0.05)
+
+
+def test_reset_makes_the_next_stamp_a_first_one():
+    guard = StampGuard()
+    guard.judge(100)
+    guard.reset()
+    assert guard.judge(1) == (ACCEPT, 0.0)

@@ -1,0 +1,123 @@
+"""YAML as people expect it, and every unreadable file in one line with its place."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import settings as hypothesis_settings
+from hypothesis import strategies as st
+
+from auv_msgs_py import yaml_file
+from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.settings import setting, settings
+
+
+@settings
+class Sample:
+    gain: float = setting(1.0, "a gain")
+
+
+@pytest.fixture
+def parsed(tmp_path):
+    def parse(text):
+        path = tmp_path / "f.yaml"
+        path.write_text(text, encoding="utf-8")
+        return yaml_file.parse(path)
+
+    return parse
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("off", "off"),
+        ("on", "on"),
+        ("yes", "yes"),
+        ("true", True),
+        ("False", False),
+        ("1e-3", 1e-3),
+        ("1E3", 1e3),
+        ("-2.5e+1", -25.0),
+        (".5", 0.5),
+        ("5.", 5.0),
+        ("-20", -20),
+        ("+7", 7),
+        ("0", 0),
+        (".inf", math.inf),
+        ("2024-01-01", "2024-01-01"),
+        ("12:30", "12:30"),  # YAML 1.1 would make it 750
+        ("1_000", "1_000"),
+        ("010", "010"),  # 8 for YAML 1.1, 10 for YAML 1.2: neither is guessed
+        ("'1'", "1"),
+        ("~", None),
+    ],
+)
+def test_scalars_mean_what_they_look_like(parsed, text, value):
+    found = parsed(f"key: {text}\n")["key"]
+    assert found == value
+    assert type(found) is type(value)
+
+
+def test_not_a_number_is_read_and_then_refused(parsed, tmp_path):
+    assert math.isnan(parsed("gain: .nan")["gain"])
+    with pytest.raises(ConfigurationError, match=r"gain: found nan, expected a finite number"):
+        yaml_file.load(tmp_path / "f.yaml", Sample)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("a: 1\nb: 2\na: 3\n", "line 3, column 1: found text that cannot be read (the key 'a' stands there"),
+        ("a: {x: 1, x: 2}\n", "line 1, column 11: found text that cannot be read (the key 'x' stands there"),
+        ("a: [1, 2\n", "line 2, column 1: found text that cannot be read"),
+        ("? [1, 2]\n: 3\n", "line 1, column 3: found text that cannot be read (a list or mapping as key)"),
+        ("a: !!python/object/apply:os.system ['true']\n", "line 1, column 4: found text that cannot be read"),
+        ("a: \x01\n", "found text that cannot be read"),
+    ],
+)
+def test_what_is_not_yaml_is_told_with_line_and_column(parsed, tmp_path, text, said):
+    with pytest.raises(ConfigurationError) as caught:
+        parsed(text)
+    message = str(caught.value)
+    assert message.startswith(str(tmp_path / "f.yaml"))
+    assert said in message
+    assert "\n" not in message
+
+
+def test_files_that_cannot_be_read(tmp_path):
+    with pytest.raises(ConfigurationError, match="no such file"):
+        yaml_file.parse(tmp_path / "missing.yaml")
+    with pytest.raises(ConfigurationError, match="cannot be read"):
+        yaml_file.parse(tmp_path)
+    binary = tmp_path / "binary.yaml"
+    binary.write_bytes(b"a: \xff\xfe")
+    with pytest.raises(ConfigurationError, match="cannot be read"):
+        yaml_file.parse(binary)
+
+
+@pytest.mark.parametrize("text", ["", "# nothing but this\n", "~\n"])
+def test_an_empty_file_is_told_so(parsed, tmp_path, text):
+    assert parsed(text) is None
+    with pytest.raises(ConfigurationError, match="found an empty file, expected a mapping"):
+        yaml_file.load(tmp_path / "f.yaml", Sample)
+
+
+def test_anchors_are_shared_and_merged(parsed):
+    assert parsed("a: &a {x: 1}\nb: {<<: *a, y: 2}\n") == {"a": {"x": 1}, "b": {"x": 1, "y": 2}}
+
+
+_text = st.text(st.characters(codec="utf-8", exclude_categories=("C", "Zl", "Zp")), max_size=12)
+_scalar = st.floats(allow_nan=False) | st.integers(-(10**6), 10**6) | st.booleans() | _text
+_looks_like_a_number = st.sampled_from(
+    ["1e3", "-2E-5", "off", "true", "010", "12:30", "1.", "null", "0x1F", ""]
+)
+
+
+@hypothesis_settings(deadline=None)
+@given(st.dictionaries(_text, _scalar | _looks_like_a_number | st.lists(_scalar, max_size=3), max_size=4))
+def test_what_is_dumped_is_read_back(tmp_path_factory, data):
+    path = tmp_path_factory.mktemp("dump", numbered=True) / "f.yaml"
+    yaml_file.dump(data, path)
+    assert yaml_file.parse(path) == data

@@ -1,0 +1,158 @@
+"""The autopilot: what it derives for the controller, and that nothing odd reaches the rudder."""
+
+from __future__ import annotations
+
+import dataclasses
+import itertools
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from auv_msgs_py import params_file, topics
+from auv_msgs_py.types import STOP, Navigation, Reference
+from auv_path_following import config_files, vehicle
+from auv_path_following.control.autopilot import HeadingAutopilot
+from auv_path_following.control.controller import ControllerOutput
+from auv_path_following.parameters import AutopilotParameters, GuidanceParameters, ObserverParameters
+
+_NODES = {
+    topics.OBSERVER: ObserverParameters,
+    topics.GUIDANCE: GuidanceParameters,
+    topics.AUTOPILOT: AutopilotParameters,
+}
+#: Table 4.
+CONFIG = params_file.load(config_files.find("params", "paper"), _NODES)[topics.AUTOPILOT].autopilot
+REMUS = vehicle.load("remus100")
+LIMIT = REMUS.rudder.max_angle
+DT = 0.05
+
+_any = st.floats(allow_nan=True, allow_infinity=True)
+
+
+class Spy:
+    """A controller that remembers what it was shown and answers as it is told."""
+
+    def __init__(self, rudder=0.1):
+        self.rudder, self.seen, self.resets = rudder, [], 0
+
+    def update(self, inputs, dt):
+        self.seen.append((inputs, dt))
+        return ControllerOutput(self.rudder)
+
+    def reset(self):
+        self.resets += 1
+
+
+def spied(rudder=0.1):
+    autopilot, spy = HeadingAutopilot(REMUS, CONFIG), Spy(rudder)
+    autopilot.controller = spy
+    return autopilot, spy
+
+
+def heading(psi, r=0.0):
+    return Navigation(0.0, 0.0, psi, r)
+
+
+def reference(psi_d=0.0, r_d=0.0, thrust=6.48):
+    return Reference(psi_d, r_d, thrust)
+
+
+def test_accelerations_are_differences_of_what_came_in():
+    autopilot, spy = spied()
+    autopilot.update(heading(0.5, r=0.10), reference(0.2, r_d=0.02), 99.0)
+    autopilot.update(heading(0.6, r=0.13), reference(0.2, r_d=0.01), DT)
+    # The first one has nothing to compare with, and no time has passed.
+    (first, first_dt), (second, second_dt) = spy.seen
+    assert first[:5] == pytest.approx((0.3, 0.10, 0.0, 0.02, 0.0))
+    assert second[:5] == pytest.approx((0.4, 0.13, 0.03 / DT, 0.01, -0.01 / DT))
+    assert (first_dt, second_dt) == (0.0, DT)
+
+
+@pytest.mark.parametrize(
+    ("psi", "psi_d", "psi_e"),
+    [(3.0, -3.0, 6.0 - 2.0 * math.pi), (-3.0, 3.0, 2.0 * math.pi - 6.0), (10.0, 10.0, 0.0)],
+)
+def test_the_heading_error_takes_the_short_way(psi, psi_d, psi_e):
+    out = HeadingAutopilot(REMUS, CONFIG).update(heading(psi), reference(psi_d), 0.0)
+    assert out.psi_e == pytest.approx(psi_e)
+
+
+def test_thrust_is_passed_on_up_to_what_the_vehicle_can():
+    autopilot, _ = spied()
+    assert autopilot.update(heading(0.0), reference(thrust=3.0), DT).command.thrust == 3.0
+    assert autopilot.update(heading(0.0), reference(thrust=60.0), DT).command.thrust == REMUS.thrust_max
+
+
+@pytest.mark.parametrize(("asked", "given_"), [(2.0, LIMIT), (-2.0, -LIMIT), (0.3, 0.3)])
+def test_the_rudder_stays_within_its_stops(asked, given_):
+    autopilot, _ = spied(asked)
+    assert autopilot.update(heading(0.0), reference(), DT).command.rudder == given_
+
+
+@pytest.mark.parametrize("thrust", [0.0, -1.0, math.nan])
+def test_outside_a_mission_everything_is_neutral_and_the_controller_forgets(thrust):
+    autopilot = HeadingAutopilot(REMUS, CONFIG)
+    first = [autopilot.update(heading(0.5 + 0.01 * k, 0.2), reference(), DT) for k in range(10)]
+    assert first[-1].command.rudder > 0.0
+    assert autopilot.update(heading(0.5), reference(thrust=thrust), DT).command == STOP
+    # A new start is like the first one: no old rudder, no difference across the pause.
+    assert [autopilot.update(heading(0.5 + 0.01 * k, 0.2), reference(), DT) for k in range(10)] == first
+
+
+def test_new_gains_leave_the_rudder_where_it_is():
+    autopilot = HeadingAutopilot(REMUS, CONFIG)
+    for _ in range(10):
+        before = autopilot.update(heading(0.5), reference(), DT).command.rudder
+    autopilot.configure(dataclasses.replace(CONFIG, nism=dataclasses.replace(CONFIG.nism, kp=1e-6)))
+    assert autopilot.update(heading(0.5), reference(), DT).command.rudder == pytest.approx(before, abs=1e-6)
+
+
+def _good(command):
+    return abs(command.rudder) <= LIMIT and 0.0 <= command.thrust <= REMUS.thrust_max
+
+
+@settings(deadline=None, max_examples=200)
+@given(st.lists(st.tuples(_any, _any, _any, _any, _any, st.floats(0.0, 10.0)), min_size=1, max_size=6))
+def test_whatever_comes_in_the_command_is_finite_and_within_limits(steps):
+    autopilot = HeadingAutopilot(REMUS, CONFIG)
+    for psi, r, psi_d, r_d, thrust, dt in steps:
+        assert _good(autopilot.update(heading(psi, r), reference(psi_d, r_d, thrust), dt).command)
+    # And it recovers: from the second good input on it steers again.
+    for _ in range(3):
+        out = autopilot.update(heading(0.5), reference(), DT)
+        assert _good(out.command)
+    assert math.isfinite(out.sigma_2)
+
+
+@pytest.mark.parametrize("position", range(5))
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+def test_a_bad_number_is_a_stop_or_harmless_and_is_forgotten(position, bad):
+    clean, hit = HeadingAutopilot(REMUS, CONFIG), HeadingAutopilot(REMUS, CONFIG)
+    values = [0.4, 0.1, 0.0, 0.02, 6.48]
+    values[position] = bad
+    psi, r, psi_d, r_d, thrust = values
+    assert _good(hit.update(heading(psi, r), reference(psi_d, r_d, thrust), DT).command)
+    hit.reset()
+    for k in range(5):
+        navigation = heading(0.5 - 0.01 * k, 0.1)
+        assert hit.update(navigation, reference(), DT) == clean.update(navigation, reference(), DT)
+
+
+def test_a_controller_that_loses_its_mind_is_reset_and_the_vehicle_stopped():
+    autopilot, spy = spied(math.nan)
+    before = spy.resets
+    assert autopilot.update(heading(0.5), reference(), DT).command == STOP
+    assert spy.resets == before + 1
+
+
+def test_it_turns_a_simple_ship_onto_its_course():
+    """A first-order turning model with the hull's signs: positive rudder turns to port."""
+    for psi0, psi_d in itertools.product([0.0, 2.5], [0.6, -0.6]):
+        autopilot, psi, r = HeadingAutopilot(REMUS, CONFIG), psi0, 0.0
+        for k in range(1200):
+            out = autopilot.update(heading(psi, r), reference(psi_d), DT if k else 0.0)
+            r += DT * (-out.command.rudder - r) / 0.5
+            psi += DT * r
+        assert abs(out.psi_e) < 0.02

@@ -1,0 +1,158 @@
+"""The life of a mission."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import settings
+from hypothesis import strategies as st
+from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
+
+from auv_path_following.guidance.mission_state import HoldingConfig, MissionState, State
+
+
+@pytest.fixture
+def mission():
+    return MissionState(HoldingConfig(hold_after=1.0, abort_after=30.0))
+
+
+def test_the_words_on_the_wire():
+    assert [state.value for state in State] == ["idle", "running", "holding", "complete", "aborted"]
+
+
+def test_it_waits_runs_and_ends(mission):
+    assert (mission.state, mission.running) == (State.IDLE, False)
+    assert mission.start()
+    assert (mission.state, mission.running) == (State.RUNNING, True)
+    mission.complete()
+    assert (mission.state, mission.running) == (State.COMPLETE, False)
+
+
+def test_it_can_be_flown_again_after_the_end_and_after_an_abort(mission):
+    mission.start()
+    mission.complete()
+    assert mission.start()
+    mission.abort("enough")
+    assert (mission.state, mission.reason) == (State.ABORTED, "enough")
+    assert mission.start()
+    assert mission.running
+
+
+@pytest.mark.parametrize("holding", [False, True])
+def test_a_mission_under_way_is_not_started_twice(mission, holding):
+    mission.start()
+    if holding:
+        mission.navigation_lost("no odom", 5.0)
+    before = mission.state, mission.reason
+    assert not mission.start()
+    assert (mission.state, mission.reason) == before
+
+
+def test_it_holds_while_navigation_is_missing_and_goes_on_afterwards(mission):
+    mission.start()
+    mission.navigation_lost("no odom for 1 s", 10.0)
+    assert (mission.state, mission.reason, mission.running) == (State.HOLDING, "no odom for 1 s", False)
+    mission.tick(39.9)
+    assert mission.state is State.HOLDING
+    mission.navigation_back()
+    assert mission.running
+    # The time held before does not count the next time.
+    mission.navigation_lost("no odom for 1 s", 50.0)
+    mission.tick(79.9)
+    assert mission.state is State.HOLDING
+
+
+def test_holding_for_too_long_aborts_and_says_why(mission):
+    mission.start()
+    mission.navigation_lost("no odom for 1 s", 10.0)
+    mission.navigation_lost("still none", 30.0)  # told again: the first one counts
+    mission.tick(40.1)
+    assert mission.state is State.ABORTED
+    assert mission.reason == "held for more than 30 s: no odom for 1 s"
+    mission.navigation_back()
+    assert mission.state is State.ABORTED
+
+
+def test_a_clock_that_goes_back_while_holding_counts_from_there(mission):
+    mission.start()
+    mission.navigation_lost("no odom", 1000.0)
+    mission.tick(2.0)
+    mission.tick(31.9)
+    assert mission.state is State.HOLDING
+    mission.tick(32.1)
+    assert mission.state is State.ABORTED
+
+
+@pytest.mark.parametrize("end", ["complete", "abort"])
+def test_what_comes_after_the_end_changes_nothing(mission, end):
+    mission.start()
+    mission.complete() if end == "complete" else mission.abort("enough")
+    state = mission.state
+    mission.navigation_lost("no odom", 1.0)
+    mission.navigation_back()
+    mission.tick(1e6)
+    mission.complete()
+    assert mission.state is state
+
+
+def test_abort_leaves_a_completed_mission_complete(mission):
+    mission.start()
+    mission.complete()
+    mission.abort("too late")
+    assert mission.state is State.COMPLETE
+
+
+def test_only_a_running_mission_completes(mission):
+    mission.complete()
+    assert mission.state is State.IDLE
+    mission.start()
+    mission.navigation_lost("no odom", 0.0)
+    mission.complete()
+    assert mission.state is State.HOLDING
+
+
+ALLOWED = {
+    State.IDLE: {State.RUNNING, State.ABORTED},
+    State.RUNNING: {State.HOLDING, State.COMPLETE, State.ABORTED},
+    State.HOLDING: {State.RUNNING, State.ABORTED},
+    State.COMPLETE: {State.RUNNING},
+    State.ABORTED: {State.RUNNING},
+}
+
+
+class Life(RuleBasedStateMachine):
+    """Any order of events keeps to the allowed transitions and always has a reason."""
+
+    def __init__(self):
+        super().__init__()
+        self.mission = MissionState(HoldingConfig(hold_after=1.0, abort_after=5.0))
+        self.now = 0.0
+        self.last = State.IDLE
+
+    @rule(event=st.sampled_from(["start", "complete", "navigation_back"]))
+    def simple(self, event):
+        getattr(self.mission, event)()
+
+    @rule()
+    def abort(self):
+        self.mission.abort("stop")
+
+    @rule()
+    def lose(self):
+        self.mission.navigation_lost("lost", self.now)
+
+    @rule(seconds=st.floats(0.0, 20.0))
+    def wait(self, seconds):
+        self.now += seconds
+        self.mission.tick(self.now)
+
+    @invariant()
+    def keeps_to_the_rules(self):
+        state = self.mission.state
+        assert state is self.last or state in ALLOWED[self.last]
+        assert self.mission.running == (state is State.RUNNING)
+        assert self.mission.reason
+        self.last = state
+
+
+TestLife = Life.TestCase
+TestLife.settings = settings(max_examples=30, stateful_step_count=20, deadline=None)

@@ -1,0 +1,65 @@
+"""The circle of acceptance, Eq. (44), by mode, radius and kind of joint."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from auv_path_following.guidance.switching import CircleOfAcceptance, SwitchingConfig
+from auv_path_following.paths.arc import Arc
+from auv_path_following.paths.composite import CompositePath
+from auv_path_following.paths.line import Line
+
+#: A corner (G0) at (40, 0), a smooth joint (G1) at (40, 20), and the end.
+PATH = CompositePath(
+    [
+        Line(0.0, 0.0, 40.0, 0.0),
+        Line(40.0, 0.0, 20.0, math.pi / 2),
+        Arc(30.0, 20.0, 10.0, 0.0, math.pi / 2),
+    ]
+)
+CORNER, SMOOTH, END = 0, 1, 2
+
+
+def circle(mode, radius=6.0):
+    return CircleOfAcceptance(PATH, SwitchingConfig(mode=mode, radius=radius))
+
+
+def test_the_path_has_the_joints_that_the_tests_need():
+    assert [joint.geometric for joint in PATH.joints] == ["G0", "G1"]
+
+
+@pytest.mark.parametrize(
+    ("mode", "at_corner", "at_smooth"), [("off", False, False), ("g0", True, False), ("all", True, True)]
+)
+def test_modes(mode, at_corner, at_smooth):
+    assert circle(mode).reached(40.0, 0.0, CORNER) is at_corner
+    assert circle(mode).reached(40.0, 20.0, SMOOTH) is at_smooth
+
+
+@pytest.mark.parametrize("mode", ["off", "g0", "all"])
+def test_the_last_subpath_has_no_joint_to_switch_at(mode):
+    end = PATH.at(3.0)
+    assert not circle(mode, 1000.0).reached(end.x, end.y, END)
+
+
+@settings(deadline=None)
+@given(st.floats(0.0, 12.0), st.floats(-math.pi, math.pi), st.floats(0.5, 12.0))
+def test_it_is_a_circle_with_the_radius_that_was_asked_for(distance, bearing, radius):
+    x, y = 40.0 + distance * math.cos(bearing), distance * math.sin(bearing)
+    reached = circle("g0", radius).reached(x, y, CORNER)
+    if abs(distance - radius) > 1e-9:
+        assert reached is (distance < radius)
+
+
+def test_the_edge_belongs_to_the_circle():
+    assert circle("g0", 6.0).reached(34.0, 0.0, CORNER)
+    assert circle("g0", 0.0).reached(40.0, 0.0, CORNER)
+
+
+def test_only_the_joint_at_the_end_of_the_followed_subpath_counts():
+    assert not circle("all").reached(40.0, 0.0, SMOOTH)
+    assert not circle("all").reached(40.0, 20.0, CORNER)

@@ -1,0 +1,187 @@
+"""The virtual point: its errors, its speed, its way along the path."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
+from auv_path_following.guidance.virtual_point import VirtualPoint, path_errors, tangential_speed
+from auv_path_following.paths.arc import Arc
+from auv_path_following.paths.composite import CompositePath
+from auv_path_following.paths.line import Line
+from auv_path_following.paths.segment import PathPoint
+
+_place = st.floats(-100.0, 100.0)
+_angle = st.floats(-3.0, 3.0)
+_speed = st.floats(-2.0, 2.0)
+
+
+def two_legs():
+    """40 m north, then 20 m east."""
+    return CompositePath([Line(0.0, 0.0, 40.0, 0.0), Line(40.0, 0.0, 20.0, math.pi / 2)])
+
+
+def north(x=0.0, y=0.0):
+    return PathPoint(x, y, 10.0, 0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "chi_p", "xe", "ye"),
+    [
+        (3.0, 1.0, 0.0, 2.0, -1.0),
+        (1.0, 5.0, 0.0, 0.0, 3.0),  # east of a path to the north: starboard
+        (3.0, 2.0, math.pi / 2, 0.0, -2.0),  # north of a path to the east: port
+        (1.0, 0.0, -math.pi / 2, 2.0, 0.0),
+    ],
+)
+def test_errors_are_ahead_and_to_starboard(x, y, chi_p, xe, ye):
+    found = path_errors(Navigation(x, y, 0.7, 0.0), north(1.0, 2.0), chi_p)
+    assert found == pytest.approx((xe, ye), abs=1e-12)
+
+
+@settings(deadline=None)
+@given(_place, _place, _angle, _angle)
+def test_errors_are_the_offset_turned_into_the_paths_axes(x, y, chi_p, turn):
+    at = path_errors(Navigation(x, y, 0.0, 0.0), north(), chi_p)
+    assert math.hypot(*at) == pytest.approx(math.hypot(x, y))
+    # Turning the world about P changes nothing.
+    c, s = math.cos(turn), math.sin(turn)
+    turned = path_errors(Navigation(c * x - s * y, s * x + c * y, 0.0, 0.0), north(), chi_p + turn)
+    assert turned == pytest.approx(at, abs=1e-9)
+
+
+@settings(deadline=None)
+@given(st.floats(-20.0, 20.0), _angle, st.floats(0.01, 3.0), _speed, _angle, _speed, _speed)
+def test_speed_of_p_is_eq_22(xe, psi, ur, vr, chi_p, Vx, Vy):
+    Ur, beta_r = math.hypot(ur, vr), math.atan2(vr, ur)
+    expected = Ur * math.cos(psi + beta_r - chi_p) + 0.7 * xe + math.cos(chi_p) * Vx + math.sin(chi_p) * Vy
+    found = tangential_speed(0.7, xe, psi, WaterVelocity(ur, vr), chi_p, Current(Vx, Vy))
+    assert found == pytest.approx(expected, abs=1e-12)
+
+
+@settings(deadline=None)
+@given(
+    k=st.floats(0.1, 3.0),
+    xe=st.floats(-10.0, 10.0),
+    ye=st.floats(-10.0, 10.0),
+    psi=_angle,
+    ur=_speed,
+    vr=_speed,
+    Vx=_speed,
+    Vy=_speed,
+)
+def test_the_along_track_error_decays_on_any_heading(k, xe, ye, psi, ur, vr, Vx, Vy):
+    """Eq. (23), xe' = -k xe + r_p ye: Eq. (22) takes everything else out of Eq. (21)."""
+    path = Arc(0.0, 0.0, 50.0, 0.0, 3.0)
+    P = path.evaluate(0.5)
+    c, s = math.cos(P.chi), math.sin(P.chi)
+    x, y = P.x + xe * c - ye * s, P.y + xe * s + ye * c
+    U_P = tangential_speed(k, xe, psi, WaterVelocity(ur, vr), P.chi, Current(Vx, Vy))
+    x_dot = ur * math.cos(psi) - vr * math.sin(psi) + Vx
+    y_dot = ur * math.sin(psi) + vr * math.cos(psi) + Vy
+
+    def xe_at(seconds):
+        there = path.evaluate(0.5 + U_P / P.speed * seconds)
+        navigation = Navigation(x + x_dot * seconds, y + y_dot * seconds, psi, 0.0)
+        return path_errors(navigation, there, there.chi).xe
+
+    h = 1e-4
+    assert (xe_at(h) - xe_at(-h)) / (2.0 * h) == pytest.approx(-k * xe + P.kappa * U_P * ye, abs=1e-5)
+
+
+@settings(deadline=None)
+@given(st.floats(0.1, 3.0), st.floats(0.01, 1.0))
+def test_p_covers_metres_not_units_of_s(U_P, dt):
+    P = VirtualPoint(two_legs())
+    assert P.set_speed(U_P, P.point()) == U_P
+    assert not P.move(dt)
+    assert P.point().x == pytest.approx(U_P * dt)
+    assert P.s == pytest.approx(U_P * dt / 40.0)
+
+
+def test_reaching_the_end_of_a_subpath_sets_p_to_the_start_of_the_next():
+    P = VirtualPoint(two_legs())
+    P.set_speed(39.0, P.point())
+    assert not P.move(1.0)
+    P.set_speed(7.0, P.point())
+    assert P.move(1.0)
+    # 6 m too far on the first leg are not carried over: s is set to i, as Eq. (43) is to be used.
+    assert (P.i, P.t, P.s) == (1, 0.0, 1.0)
+    assert (P.point().x, P.point().y) == pytest.approx((40.0, 0.0))
+    # And it stays there until it is told a speed for the new subpath.
+    assert not P.move(1.0)
+    assert P.s == 1.0
+
+
+def test_at_the_end_of_the_path_it_is_finished_and_stays():
+    P = VirtualPoint(two_legs())
+    P.go_on()
+    P.set_speed(25.0, P.point())
+    assert P.move(1.0)
+    assert P.finished
+    assert (P.i, P.t, P.s) == (1, 1.0, 2.0)
+    assert P.set_speed(2.0, P.point()) == 0.0
+    P.move(1.0)
+    assert P.s == 2.0
+    assert (P.point().x, P.point().y) == pytest.approx((40.0, 20.0))
+
+
+def test_it_waits_at_the_start_for_a_vehicle_that_is_still_behind():
+    P = VirtualPoint(two_legs())
+    assert P.set_speed(-3.0, P.point()) == 0.0
+    P.move(1.0)
+    assert P.s == 0.0
+    assert P.set_speed(1.0, P.point()) == 1.0
+    P.move(1.0)
+    assert P.point().x == pytest.approx(1.0)
+
+
+def test_within_a_subpath_it_may_go_back_but_never_into_the_one_before():
+    P = VirtualPoint(two_legs())
+    P.go_on()
+    P.set_speed(5.0, P.point())
+    P.move(1.0)
+    assert P.set_speed(-2.0, P.point()) == -2.0
+    P.move(1.0)
+    assert P.point().y == pytest.approx(3.0)
+    P.set_speed(-50.0, P.point())
+    P.move(1.0)
+    assert (P.i, P.t) == (1, 0.0)
+
+
+@settings(deadline=None)
+@given(st.lists(st.tuples(st.floats(-30.0, 60.0), st.floats(0.0, 2.0), st.booleans()), max_size=30))
+def test_whatever_happens_the_subpath_never_decreases_and_s_stays_on_the_path(course):
+    P = VirtualPoint(two_legs())
+    last = 0
+    for U_P, dt, rest in course:
+        P.set_speed(U_P, P.point())
+        if rest:
+            P.rest()
+        before = P.s
+        moved_on = P.move(dt)
+        assert not (rest and P.s != before)
+        assert P.i >= last
+        assert 0.0 <= P.t <= 1.0
+        assert P.t < 1.0 or P.finished
+        assert not moved_on or P.finished or (P.i, P.t) == (last + 1, 0.0)
+        last = P.i
+
+
+def test_reset_goes_back_to_the_beginning():
+    P = VirtualPoint(two_legs())
+    P.go_on()
+    P.go_on()
+    assert P.finished
+    P.reset()
+    assert (P.s, P.finished) == (0.0, False)
+    P.move(1.0)  # the old speed is forgotten too
+    assert P.s == 0.0
+
+
+def test_at_rest_p_is_drawn_towards_the_vehicle_only():
+    assert tangential_speed(2.0, 3.0, 0.4, WaterVelocity(0.0, 0.0), 1.0, NO_CURRENT) == 6.0
