@@ -12,7 +12,7 @@ from rosbags.rosbag2.metadata import dump_qos_v9
 
 from auv_msgs_py.errors import ConfigurationError
 from auv_sim.recording import metadata
-from auv_sim.recording.definitions import definition, typestore
+from auv_sim.recording.definitions import Definition, definition, typestore
 from auv_sim.recording.mcap_file import Compression, McapFile
 from auv_sim.recording.metadata import METADATA_FILE, FileFacts, TopicFacts
 
@@ -50,6 +50,8 @@ class BagWriter:
         max_size: bytes after which a new file is begun; 0 for never.
         max_duration_ns: recorded time after which a new file is begun; 0 for never.
         texts: kept in every file, by name (the configuration that was flown).
+        name: what the storage files' names begin with; the directory's name by default.
+        definitions: types that need not be looked up.
 
     Raises:
         ConfigurationError: the directory exists or cannot be made, or the compression is unknown.
@@ -63,6 +65,8 @@ class BagWriter:
         max_size: int = 0,
         max_duration_ns: int = 0,
         texts: Mapping[str, str] | None = None,
+        name: str | None = None,
+        definitions: Mapping[str, Definition] | None = None,
     ) -> None:
         if compression not in ("none", "zstd"):
             raise ConfigurationError("compression", repr(compression), "none or zstd")
@@ -71,6 +75,8 @@ class BagWriter:
         self._chunk_size = chunk_size
         self._max_size, self._max_duration_ns = max_size, max_duration_ns
         self._texts = dict(texts or {})
+        self._name = name or directory.resolve().name
+        self._definitions = definitions if definitions is not None else {}
         self._channels: dict[str, Channel] = {}
         self._files: list[FileFacts] = []
         self._closed = False
@@ -85,7 +91,7 @@ class BagWriter:
             raise ConfigurationError(str(directory), f"{error.strerror}", "a place to write to") from None
 
     def _open(self) -> McapFile:
-        path = self.directory / f"{self.directory.resolve().name}_{len(self._files)}.mcap"
+        path = self.directory / f"{self._name}_{len(self._files)}.mcap"
         self._schemas: dict[str, int] = {}
         for channel in self._channels.values():
             channel.number = 0
@@ -111,6 +117,11 @@ class BagWriter:
         return sum(file.size for file in self._files) + self._file.size
 
     @property
+    def pending(self) -> int:
+        """Bytes that the operating system has not got yet."""
+        return self._file.journal.pending + self._file.filling
+
+    @property
     def trouble(self) -> str:
         """Why nothing can be written at the moment; empty when all is well."""
         error = self._file.journal.error
@@ -130,11 +141,22 @@ class BagWriter:
         if name in self._channels:
             raise ConfigurationError(name, "a topic that is recorded already", "a new topic")
         try:
-            definition(type_name)
+            self._definition(type_name)
         except ConfigurationError as error:
             raise ConfigurationError(name, f"the type {type_name}", error.expected) from None
         channel = self._channels[name] = Channel(name, type_name, list(dump_qos_v9(list(qos))))
         return channel
+
+    def _definition(self, type_name: str) -> Definition:
+        """What is given counts for a type that is not ROS 2 Jazzy's, or is another one there."""
+        given = self._definitions.get(type_name)
+        if given is None:
+            return definition(type_name)
+        try:
+            standard = definition(type_name)
+        except ConfigurationError:
+            return given
+        return standard if not given.text or given.text.split() == standard.text.split() else given
 
     def set_qos(self, channel: Channel, qos: Sequence[Qos]) -> None:
         """Say what the publishers really offer; counts until the topic's first message."""
@@ -142,7 +164,7 @@ class BagWriter:
             channel.qos = list(dump_qos_v9(list(qos)))
 
     def _announce(self, channel: Channel) -> int:
-        text, type_hash = definition(channel.type)
+        text, type_hash = self._definition(channel.type)
         if channel.type not in self._schemas:
             self._schemas[channel.type] = self._file.schema(channel.type, "ros2msg", text)
         described = {
@@ -215,7 +237,7 @@ class BagWriter:
     def _information(self) -> dict[str, Any]:
         return metadata.information(
             [
-                TopicFacts(c.name, c.type, c.count, c.qos, definition(c.type).type_hash)
+                TopicFacts(c.name, c.type, c.count, c.qos, self._definition(c.type).type_hash)
                 for c in self._channels.values()
             ],
             self._files,

@@ -1,0 +1,226 @@
+"""The control chain without ROS and without a plant: recorded sensors in, commands out.
+
+The objects are those of the nodes, in the nodes' order, with the conversions of the wire in between: an angle
+that has travelled as yaw_enu is not the same number as before, in its last bit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from auv_msgs_py import topics
+from auv_msgs_py.conversions import nanoseconds, navigation_from, water_velocity_from
+from auv_msgs_py.errors import ConfigurationError, MessageRefused
+from auv_msgs_py.frames import FrameTable, flip_yaw
+from auv_msgs_py.stamps import StampGuard, Verdict
+from auv_msgs_py.types import STOP, Reference, WaterVelocity
+from auv_path_following.control.autopilot import HeadingAutopilot
+from auv_path_following.guidance.current_observer import CurrentObserver
+from auv_path_following.guidance.path_follower import PathFollower
+from auv_path_following.paths.mission_file import Mission
+from auv_path_following.vehicle import Vehicle
+from auv_sim.recording.bag import Bag, RecordedTopic
+from auv_sim.recording.deserialize import deserializer
+from auv_sim.recording.load import messages_of
+
+
+class Answer(NamedTuple):
+    """What the chain answers to one odometry, as it goes on the wire."""
+
+    rudder_cmd: float
+    thrust_cmd: float
+    desired_yaw: float
+    desired_yaw_rate: float
+    desired_thrust: float
+    path_parameter: float
+
+
+@dataclass(frozen=True)
+class Answers:
+    """One row for each odometry that has an answer; every array has shape (n,).
+
+    Attributes:
+        t: the odometry's stamp, s.
+        recorded, new: by topic name; NaN where nothing was recorded.
+    """
+
+    t: NDArray[np.float64]
+    recorded: dict[str, NDArray[np.float64]]
+    new: dict[str, NDArray[np.float64]]
+
+
+class _Step(NamedTuple):
+    odometry: Any
+    stamp: int
+    log_ns: int
+    water: Any | None
+
+
+def answers(
+    bag: Bag, parameters: dict[str, Any], mission: Mission, vehicle: Vehicle, namespace: str | None
+) -> Answers:
+    """Feed a recording's sensors through the chain.
+
+    Args:
+        bag: the recording.
+        parameters: node name -> settings.
+        mission, vehicle: what is flown.
+        namespace: which vehicle's topics.
+
+    Raises:
+        ConfigurationError: the recording has no odometry, or several vehicles.
+    """
+    lockstep = parameters[topics.GUIDANCE].lockstep
+    timeout = parameters[topics.GUIDANCE].water_velocity_timeout
+    steps = list(_steps(bag, namespace, lockstep, timeout))
+    if not steps:
+        raise ConfigurationError(str(bag.path), "no odometry", f"messages on {topics.ODOM.name}")
+    log_ns = np.array([step.log_ns for step in steps], np.int64)
+    recorded = {name: _column(bag, name, namespace, log_ns, lockstep) for name in Answer._fields}
+    running = _running(bag, namespace, recorded[topics.DESIRED_THRUST.name])
+    rows, kept = [], []
+    chain = _Chain(parameters, mission, vehicle)
+    for k, step in enumerate(steps):
+        answer = chain.step(step, *running[k])
+        if answer is not None:
+            rows.append(answer)
+            kept.append(k)
+    columns = np.array(rows, np.float64).reshape(-1, len(Answer._fields))
+    return Answers(
+        np.array([steps[k].stamp for k in kept]) * 1e-9,
+        {name: column[kept] for name, column in recorded.items()},
+        {name: columns[:, j] for j, name in enumerate(Answer._fields)},
+    )
+
+
+class _Chain:
+    """Observer, guidance and autopilot."""
+
+    def __init__(self, parameters: dict[str, Any], mission: Mission, vehicle: Vehicle) -> None:
+        guidance = parameters[topics.GUIDANCE]
+        self._mission = mission
+        self._frames = FrameTable(guidance.frames)
+        self._guard = StampGuard(ordered=guidance.lockstep)
+        self._observer = CurrentObserver(parameters[topics.OBSERVER].observer)
+        self._follower = PathFollower(mission.path, guidance.guidance)
+        self._autopilot = HeadingAutopilot(vehicle, parameters[topics.AUTOPILOT].autopilot)
+        self._skipped = 0.0
+        self._complete = False
+
+    def step(self, step: _Step, running: bool, begins: bool) -> Answer | None:
+        """The answer; None to an odometry that the nodes refuse too."""
+        if begins:
+            self._follower.reset()
+            self._complete = False
+        try:
+            navigation = navigation_from(step.odometry, self._frames, topics.ODOM.name)
+            water = self._water(step.water)
+        except MessageRefused:
+            return None
+        verdict, dt = self._guard.judge(step.stamp)
+        if verdict is Verdict.REFUSE:
+            return None
+        if verdict is Verdict.RESTART:
+            self._observer.reset()
+            self._follower.reset()
+            self._autopilot.reset()
+        if water is None:
+            self._skipped += dt
+        else:
+            self._observer.update(navigation, water, dt + self._skipped)
+            self._skipped = 0.0
+        running = running and not self._complete
+        if running and water is not None:
+            output = self._follower.update(navigation, water, self._observer.current, dt)
+            self._complete = output.finished
+            running = not output.finished
+        else:
+            output = self._follower.look(navigation)
+        psi_d, r_d = (output.psi_d, output.r_d) if running else (navigation.psi, 0.0)
+        thrust = self._mission.thrust if running else 0.0
+        yaw, rate = flip_yaw(psi_d), -r_d
+        reference = Reference(flip_yaw(yaw), -rate, thrust)
+        command = self._autopilot.update(navigation, reference, dt).command if thrust > 0.0 else STOP
+        if thrust <= 0.0:
+            self._autopilot.reset()
+        return Answer(command.rudder, command.thrust, yaw, rate, thrust, output.s)
+
+    def _water(self, message: Any | None) -> WaterVelocity | None:
+        if message is None:
+            return None
+        return water_velocity_from(message, self._frames, topics.WATER_VELOCITY.name)
+
+
+def _steps(bag: Bag, namespace: str | None, lockstep: bool, timeout: float) -> Iterator[_Step]:
+    """Every odometry with its velocity through water: of the same stamp in lockstep, else the newest one."""
+    odom, through = bag.find(topics.ODOM.name, namespace), bag.find(topics.WATER_VELOCITY.name, namespace)
+    if odom is None:
+        return
+    decode_odometry = deserializer(odom)
+    waters: dict[int, Any] = {}
+    if lockstep and through is not None:
+        waters = {nanoseconds(message.header.stamp): message for _, message in messages_of(through)}
+    decode_water = deserializer(through) if through is not None else None
+    newest: Any | None = None
+    for topic, k in bag.in_order():
+        data = topic.messages[k]
+        if topic is through and data is not None and decode_water is not None and not lockstep:
+            newest = decode_water(data)
+        if topic is not odom or data is None:
+            continue
+        message = decode_odometry(data)
+        stamp = nanoseconds(message.header.stamp)
+        water = waters.get(stamp) if lockstep else newest
+        if water is not None and abs(stamp - nanoseconds(water.header.stamp)) > timeout * 1e9:
+            water = None
+        yield _Step(message, stamp, topic.log_ns[k], water)
+
+
+def _column(
+    bag: Bag, name: str, namespace: str | None, log_ns: NDArray[np.int64], lockstep: bool
+) -> NDArray[np.float64]:
+    """A Float64 topic, one value for each odometry: row by row in lockstep, else the first one after it."""
+    topic: RecordedTopic | None = bag.find(name, namespace)
+    column = np.full(log_ns.size, np.nan)
+    if topic is None or not topic.count:
+        return column
+    times, values = zip(*((at, message.data) for at, message in messages_of(topic)), strict=True)
+    if lockstep:
+        n = min(column.size, len(values))
+        column[:n] = values[:n]
+        return column
+    row = np.searchsorted(np.array(times), log_ns, side="left")
+    there = row < len(values)
+    column[there] = np.array(values)[row[there]]
+    return column
+
+
+def _running(bag: Bag, namespace: str | None, thrust: NDArray[np.float64]) -> list[tuple[bool, bool]]:
+    """For each odometry whether the mission ran, and whether it began anew there.
+
+    The thrust that guidance asked for tells exactly from which odometry on a mission ran. Where it falls to 0
+    because the path's end was reached, that odometry was still guided; after an abort it was not.
+    """
+    topic = bag.find(topics.MISSION_STATE.name, namespace)
+    words = [str(message.data) for _, message in messages_of(topic)] if topic is not None else []
+    place, ran, rows = 0, False, []
+    for value in thrust:
+        runs = bool(value > 0.0)
+        begins = guided = False
+        if runs and not ran:
+            before = words[place - 1] if 0 < place <= len(words) else ""
+            while place < len(words) and words[place] != "running":
+                before = words[place]
+                place += 1
+            begins = before != "holding"
+            place += 1
+        elif ran and not runs:
+            guided = place >= len(words) or words[place] == "complete"
+        rows.append((runs or guided, begins))
+        ran = runs
+    return rows

@@ -1,0 +1,62 @@
+"""`scripts/bag.py`: parses the verb and hands over to its module."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import os
+import sys
+from collections.abc import Sequence
+from typing import NoReturn
+
+from auv_msgs_py.errors import SuiteError
+
+EXIT_OK, EXIT_DIFFERENT, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
+
+#: In the order in which a person needs them.
+VERBS = {
+    "inspect": "what is in a recording, and what happened: topics, mission, events",
+    "rerun": "feed the recorded sensors through guidance and control again, with other gains",
+    "repair": "make a damaged or unfinished recording whole",
+}
+
+
+class _Parser(argparse.ArgumentParser):
+    """One line and exit code 2, without the usage in front of it."""
+
+    def error(self, message: str) -> NoReturn:
+        print(f"{self.prog}: {message} (see --help)", file=sys.stderr)
+        raise SystemExit(EXIT_BAD_INPUT)
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line, every verb with its own options."""
+    top = _Parser(
+        prog="bag.py", description="Look into recordings of missions and work with them.", allow_abbrev=False
+    )
+    verbs = top.add_subparsers(dest="verb", required=True, metavar="VERB", parser_class=_Parser)
+    for name, what in VERBS.items():
+        module = importlib.import_module(f"auv_sim.bags.{name}")
+        verb = verbs.add_parser(
+            name, help=what, description=module.__doc__, allow_abbrev=False,
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+        )  # fmt: skip
+        module.add_arguments(verb)
+        verb.set_defaults(run=module.run)
+    return top
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one verb; returns 0 done, 1 a difference was found, 2 bad input, 130 interrupted."""
+    arguments = parser().parse_args(argv)
+    try:
+        return int(arguments.run(arguments))
+    except SuiteError as error:
+        print(error, file=sys.stderr)
+        return EXIT_BAD_INPUT
+    except KeyboardInterrupt:
+        return EXIT_INTERRUPTED
+    except BrokenPipeError:
+        # Somebody read only the beginning (head, say); nothing is left to say to him.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return EXIT_OK

@@ -1,0 +1,120 @@
+"""Show what is in a recording: duration, topics, mission, events. Damaged and foreign ones are welcome.
+
+A directory with several recordings gets one row for each.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+
+from auv_msgs_py.errors import ConfigurationError
+from auv_sim.bags import inspect_tables
+from auv_sim.bags.events import Event, events_of
+from auv_sim.bags.flight import Flight, flight_of
+from auv_sim.bags.topic_facts import TopicFacts, facts_of
+from auv_sim.recording.bag import Bag, read_bag, storage_of
+from auv_sim.recording.metadata import METADATA_FILE
+
+#: Larger messages are images or point clouds of somebody else: their sizes are enough.
+_HEAVY = ("sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/CompressedImage")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The verb's options."""
+    parser.add_argument(
+        "bag", type=Path, nargs="+", metavar="BAG", help="recording, run directory, or a directory of many"
+    )
+    parser.add_argument("--json", action="store_true", help="for programs")
+    parser.add_argument(
+        "--mission", metavar="FILE", help="the mission that was flown, where the recording does not tell"
+    )
+    parser.add_argument("--namespace", metavar="NAME", help="which vehicle, where there are several")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print; 2 when nothing at all could be read."""
+    bags = [bag for path in arguments.bag for bag in find_bags(path)]
+    console = Console(highlight=False)
+    if len(bags) > 1:
+        return _many(bags, arguments, console)
+    bag = read_bag(bags[0], _wanted)
+    flight = flight_of(bag, arguments.mission, arguments.namespace)
+    facts, events = facts_of(bag), events_of(flight)
+    if arguments.json:
+        print(json.dumps(as_data(flight, facts, events), indent=2, allow_nan=False))
+    else:
+        inspect_tables.show(flight, facts, events, console)
+    return 0
+
+
+def _wanted(_: str, type_name: str) -> bool:
+    return type_name not in _HEAVY
+
+
+def find_bags(path: Path) -> list[Path]:
+    """The recordings below a directory; the path itself when it is one.
+
+    Raises:
+        ConfigurationError: there is nothing.
+    """
+    bag = storage_of(path)
+    if bag.is_file() or _is_bag(bag):
+        return [bag]
+    below = sorted(
+        {file.parent for pattern in ("*.mcap", "*.db3", METADATA_FILE) for file in bag.rglob(pattern)}
+    )
+    return below or [bag]
+
+
+def _is_bag(path: Path) -> bool:
+    return any(any(path.glob(pattern)) for pattern in ("*.mcap", "*.db3", METADATA_FILE))
+
+
+def _many(bags: list[Path], arguments: argparse.Namespace, console: Console) -> int:
+    rows: list[tuple[Path, Flight | None, str]] = []
+    for path in bags:
+        try:
+            flight = flight_of(read_bag(path, _wanted), arguments.mission, arguments.namespace)
+            rows.append((path, flight, "; ".join(flight.bag.notes)))
+        except ConfigurationError as error:
+            rows.append((path, None, f"found {error.found}, expected {error.expected}"))
+    if arguments.json:
+        data = [
+            as_data(flight, facts_of(flight.bag), events_of(flight))
+            if flight
+            else {"path": str(path), "notes": [note]}
+            for path, flight, note in rows
+        ]
+        print(json.dumps(data, indent=2, allow_nan=False))
+    else:
+        inspect_tables.show_many(rows, console)
+    if all(flight is None for _, flight, _ in rows):
+        print("none of them can be read", file=sys.stderr)
+        return 2
+    return 0
+
+
+def as_data(flight: Flight, facts: list[TopicFacts], events: list[Event]) -> dict[str, Any]:
+    """Everything that the tables show, for programs; unknown values are null."""
+    bag: Bag = flight.bag
+    first, last = bag.span_ns
+    summary = flight.summary
+    return {
+        "path": str(bag.path),
+        "files": [file.name for file in bag.files],
+        "bytes": bag.size,
+        "start_s": first * 1e-9,
+        "duration_s": (last - first) * 1e-9,
+        "messages": bag.count,
+        "notes": [*bag.notes, *flight.notes],
+        "topics": [dataclasses.asdict(fact) for fact in facts],
+        "mission": json.loads(summary.to_json()) if summary is not None else None,
+        "events": [dataclasses.asdict(event) for event in events],
+    }

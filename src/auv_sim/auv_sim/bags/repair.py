@@ -1,0 +1,37 @@
+"""Make a damaged or unfinished recording whole: everything that is readable gets an index and metadata.yaml.
+
+It is replaced in its place (files that held more than could be read stay beside it as *.damaged), or
+written anew with --out. A recording that is whole is left as it is.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from auv_sim.recording.repair import repair
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The verb's options."""
+    parser.add_argument("bag", type=Path, metavar="BAG", help="recording, run directory or storage file")
+    parser.add_argument(
+        "--out", type=Path, metavar="DIR", help="write the whole recording there, leave this one"
+    )
+    parser.add_argument(
+        "--compression", choices=("zstd", "none"), default="zstd", help="of the new file (default zstd)"
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Repair and say what was wrong."""
+    done = repair(arguments.bag, arguments.out, arguments.compression)
+    for note in done.notes:
+        print(f"was damaged: {note}")
+    if not done.notes and arguments.out is None:
+        print(f"{done.directory}: whole already, {done.messages} messages")
+        return 0
+    print(f"{done.directory}: whole, {done.messages} messages")
+    for file in done.kept:
+        print(f"{file}: kept, not everything in it could be read")
+    return 0
