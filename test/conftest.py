@@ -1,4 +1,4 @@
-"""What the tests of whole processes share: a ROS domain of their own, short missions, no process left behind."""
+"""What the tests of whole processes share: a ROS domain of their own, short missions, nothing left behind."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def children_of(pid: int) -> list[int]:
 
 @pytest.fixture
 def node_processes() -> Callable[[int], dict[str, int]]:
-    """The nodes that a launcher (its process id) has started: last part of the module's name -> process id."""
+    """The nodes a launcher (its process id) has started: last part of the module's name -> process id."""
 
     def look(pid: int) -> dict[str, int]:
         nodes = {}

@@ -5,7 +5,7 @@ and ROS parameters are read through it (`yaml_file`, `params_file`, `params`) an
 
     @settings
     class NismConfig:
-        k1: float = setting(0.8, "largest rate at which the heading error decays", unit="rad/s", gt=0.0, live=True)
+        k1: float = setting(0.8, "fastest decay of the heading error", unit="rad/s", gt=0.0, live=True)
 """
 
 from __future__ import annotations

@@ -86,7 +86,7 @@ class CurrentObserver:
 
 
 def transition(k_ob1: float, k_ob2: float, dt: float) -> tuple[float, float, float, float]:
-    """The matrix exponential of [[-k_ob2, -1], [k_ob1, 0]] dt, row by row (Eq. (36) with the signs of e, Vhat).
+    """The matrix exponential of [[-k_ob2, -1], [k_ob1, 0]] dt, row by row; Eq. (36) in e and Vhat.
 
     With m = -k_ob2/2 and q = sqrt(k_ob2^2/4 - k_ob1) (real or imaginary) it is
     e^(m dt) (cosh(q dt) I + sinh(q dt)/q (A - m I)). It is put together from powers of e that only fall,

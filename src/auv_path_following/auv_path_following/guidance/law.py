@@ -22,7 +22,7 @@ class LawInputs(NamedTuple):
 
 
 class LawOutput(NamedTuple):
-    """psi_d and its parts: psi_d = chi_p + chi_r - beta_r, Eq. (24), rad; alpha in m; theta_n without unit."""
+    """psi_d and its parts: psi_d = chi_p + chi_r - beta_r, Eq. (24), rad; alpha in m; theta_n is a ratio."""
 
     psi_d: float
     chi_r: float

@@ -7,7 +7,7 @@ import enum
 from auv_msgs_py.settings import setting, settings
 
 
-class State(str, enum.Enum):
+class State(enum.StrEnum):
     """The words on the wire."""
 
     IDLE = "idle"

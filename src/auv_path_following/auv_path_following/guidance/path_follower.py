@@ -102,7 +102,7 @@ class PathFollower:
         self.law.reset()
 
     def look(self, navigation: Navigation) -> GuidanceOutput:
-        """The errors as they stand while no mission runs: P rests, and the vehicle's own heading is desired."""
+        """The errors as they stand while no mission runs: P rests, the vehicle's own heading is desired."""
         P = self.virtual_point
         P.rest()
         point = P.point()

@@ -1,4 +1,4 @@
-"""When the next subpath is followed: the end of the parameter, Eq. (43), or the circle of acceptance, Eq. (44)."""
+"""When the next subpath is followed early: the circle of acceptance, Eq. (44)."""
 
 from __future__ import annotations
 

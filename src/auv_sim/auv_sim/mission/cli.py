@@ -156,8 +156,8 @@ def _fly(options: Options) -> int:
     path = resolved.mission.path
     timing = "lockstep" if resolved.lockstep else "free running"
     console.print(
-        f"[bold]{resolved.mission.name}[/bold]: {path.n} subpaths, {path.length:.1f} m, {resolved.vehicle.name},"
-        f" {timing}, ROS domain {launcher.domain_of(resolved)}, namespace {options.namespace}",
+        f"[bold]{resolved.mission.name}[/bold]: {path.n} subpaths, {path.length:.1f} m,"
+        f" {resolved.vehicle.name}, {timing}, ROS domain {launcher.domain_of(resolved)}, namespace {options.namespace}",
         highlight=False,
     )
     for level, verdicts in (("refused", resolved.verdicts.refusals), ("warning", resolved.verdicts.warnings)):

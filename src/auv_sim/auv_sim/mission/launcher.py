@@ -202,7 +202,7 @@ class _Flight:
         for child in self._children:
             for line in reversed(child.last_lines(20)):
                 if "aborted: " in line:
-                    return line.split("aborted: ", 1)[1]
+                    return str(line.split("aborted: ", 1)[1])
         return "the mission was aborted"
 
     def _check_children(self) -> None:

@@ -55,7 +55,7 @@ class Children:
         log_directory.mkdir(parents=True, exist_ok=True)
 
     def start(self, name: str, module: str, arguments: Sequence[str]) -> None:
-        """Run ``python -m module arguments`` in a session of its own, so that Ctrl-C reaches only the launcher."""
+        """Run ``python -m module arguments`` in its own session: Ctrl-C reaches only the launcher."""
         log = self._directory / f"{name}.log"
         with log.open("wb") as stream:
             process = subprocess.Popen(  # noqa: S603 - our own interpreter, our own modules

@@ -110,8 +110,7 @@ class Lockstep:
         if time.monotonic() - self._open_since > bound:
             culprit, topic = self._culprit()
             self._node.fail(
-                f"step {self._node.steps} (t = {self._node.stamp * 1e-9:.2f} s) got no answer within {bound:g} s:"
-                f" {culprit} did not send {topic}"
+                f"{self._where()} got no answer within {bound:g} s: {culprit} did not send {topic}"
             )
 
     def _check_recorder(self) -> None:
@@ -121,12 +120,15 @@ class Lockstep:
         bound = self._node.parameters.answer_timeout
         if time.monotonic() - self._recorded_at > bound:
             self._node.fail(
-                f"step {self._node.steps} (t = {self._node.stamp * 1e-9:.2f} s) was not recorded within {bound:g} s:"
+                f"{self._where()} was not recorded within {bound:g} s:"
                 f" {topics.RECORDER} did not send {topics.RECORDED_STEPS.name}"
             )
 
+    def _where(self) -> str:
+        return f"step {self._node.steps} (t = {self._node.stamp * 1e-9:.2f} s)"
+
     def _culprit(self) -> tuple[str, str]:
-        """Follow who waits for whom: the first that reports nothing, or that waits for nobody, is to blame."""
+        """Follow who waits for whom: the first that reports nothing, or waits for nobody, is to blame."""
         topic = _BY_NAME[self._missing()[0]]
         for _ in topics.CONTRACT:
             at, waits = self._waits.get(topic.publisher, (0.0, ""))

@@ -17,6 +17,7 @@ from std_srvs.srv import Trigger
 from auv_msgs_py import topics
 from auv_msgs_py.conversions import fill_current, fill_odometry, fill_water_velocity, finite, set_stamp
 from auv_msgs_py.errors import ConfigurationError, MessageRefused
+from auv_msgs_py.frames import FrameIds, FrameTable
 from auv_msgs_py.runtime import SuiteNode, run_nodes
 from auv_msgs_py.types import STOP, Command, Current
 from auv_path_following import vehicle
@@ -45,11 +46,8 @@ class RemusPlantNode(SuiteNode):
         self._released = not p.hold_until_running
         self._commands: dict[str, tuple[float, int]] = {}
         self._reset_wanted = False
-        self._odometry, self._water, self._message_current = (
-            Odometry(),
-            TwistWithCovarianceStamped(),
-            Vector3Stamped(),
-        )
+        self._odometry, self._water = Odometry(), TwistWithCovarianceStamped()
+        self._true_current = Vector3Stamped()
         self._odometry.header.frame_id, self._odometry.child_frame_id = p.world_frame, p.body_frame
         self._water.header.frame_id = p.body_frame
         self._check_frames(p)
@@ -57,8 +55,9 @@ class RemusPlantNode(SuiteNode):
         self._outputs = [
             (self.advertise(topic), message)
             for topic, message in (
-                (topics.CLOCK, self._clock_message), (topics.ODOM, self._odometry), (topics.WATER_VELOCITY, self._water),
-                (topics.RUDDER_STATE, self._rudder_message), (topics.TRUE_CURRENT, self._message_current),
+                (topics.CLOCK, self._clock_message), (topics.ODOM, self._odometry),
+                (topics.WATER_VELOCITY, self._water), (topics.RUDDER_STATE, self._rudder_message),
+                (topics.TRUE_CURRENT, self._true_current),
             )
         ]  # fmt: skip
         self.close_gate()
@@ -74,8 +73,6 @@ class RemusPlantNode(SuiteNode):
             )
 
     def _check_frames(self, p: PlantParameters) -> None:
-        from auv_msgs_py.frames import FrameIds, FrameTable
-
         try:
             FrameTable(FrameIds()).of_pose(topics.ODOM.name, p.world_frame, p.body_frame)
         except MessageRefused as error:
@@ -111,7 +108,7 @@ class RemusPlantNode(SuiteNode):
         fill_odometry(self._odometry, self.plant.navigation, u, v, stamp)
         fill_water_velocity(self._water, self.plant.water_velocity, stamp)
         self._rudder_message.data = self.plant.rudder.angle
-        fill_current(self._message_current, current, stamp)
+        fill_current(self._true_current, current, stamp)
         self.answer(self._publish)
 
     def _publish(self) -> None:

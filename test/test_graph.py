@@ -1,0 +1,103 @@
+"""The graph as a whole against `closed_loop`, against itself, and against time."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rosbags.highlevel import AnyReader
+
+from auv_msgs_py import topics
+from auv_sim import closed_loop
+from auv_sim.mission import plan
+from auv_sim.mission.cli import main
+from auv_sim.mission.plan import Options
+from auv_sim.recording.load import load
+
+CommandLine = Callable[..., list[str]]
+
+_NAMES = {f"/auv/{topic.name}" for topic in topics.PER_STEP}
+
+
+def messages(bag: Path) -> dict[str, list[bytes]]:
+    """The raw messages of every topic that has one per step, in the order in which they were recorded."""
+    found: dict[str, list[bytes]] = {name: [] for name in _NAMES}
+    with AnyReader([bag]) as reader:
+        wanted = [connection for connection in reader.connections if connection.topic in _NAMES]
+        for connection, _, data in reader.messages(connections=wanted):
+            found[connection.topic].append(bytes(data))
+    return found
+
+
+@pytest.fixture(scope="module")
+def paper_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The paper's whole mission in a current, over separate processes."""
+    run = tmp_path_factory.mktemp("paper") / "run"
+    assert main(["--params", "paper", "--current", "0.1", "0.2", "--quiet", "--out", str(run)]) == 0
+    return run
+
+
+def test_the_papers_mission_over_the_graph_equals_closed_loop(paper_run: Path, tmp_path: Path) -> None:
+    options = Options(params="paper", current=(0.1, 0.2))
+    reference = closed_loop.fly(plan.make(options, tmp_path).scenario())
+    flown = load(paper_run / "bag")
+    assert flown.steps == reference.steps
+    for column in ("x", "y", "psi", "rudder", "rudder_cmd", "s", "xe", "ye", "Vx_est", "Vy_est"):
+        difference = np.abs(getattr(flown, column) - getattr(reference, column))
+        if column == "psi":
+            difference = np.minimum(difference, 2.0 * np.pi - difference)
+        assert difference.max() < 1e-9, column
+
+
+def test_nothing_was_lost_and_nothing_came_twice(paper_run: Path) -> None:
+    steps = json.loads((paper_run / "summary.json").read_text())["steps"]
+    counts = {name: len(data) for name, data in messages(paper_run / "bag").items()}
+    assert counts == dict.fromkeys(_NAMES, steps)
+
+
+def test_the_papers_mission_meets_its_bounds(paper_run: Path) -> None:
+    summary = json.loads((paper_run / "summary.json").read_text())
+    assert summary["completed"] is True
+    assert [part["rms_distance"] <= 0.05 for part in summary["subpaths"][2:]] == [True] * 5
+    assert summary["corners"][0]["largest_distance"] <= 1.0
+    assert summary["current_estimate_error"] <= 0.005
+
+
+def test_two_runs_are_bit_identical_in_one_process_or_five(
+    short_mission: Path, tmp_path: Path, domain: int
+) -> None:
+    asked = ["--mission", str(short_mission), "--current", "-0.1", "0.1", "--quiet", "--domain", str(domain)]
+    assert main([*asked, "--out", str(tmp_path / "five")]) == 0
+    assert main([*asked, "--out", str(tmp_path / "one"), "--composed"]) == 0
+    five, one = messages(tmp_path / "five" / "bag"), messages(tmp_path / "one" / "bag")
+    assert Counter({name: len(data) for name, data in five.items()}) == Counter(
+        {name: len(data) for name, data in one.items()}
+    )
+    assert five == one
+
+
+def test_free_running_follows_the_mission_too(short_mission: Path, tmp_path: Path, domain: int) -> None:
+    """Against the wall clock: how near the track is depends on the machine, so the bound is wide."""
+    asked = ["--mission", str(short_mission), "--quiet", "--domain", str(domain)]
+    assert main([*asked, "--out", str(tmp_path / "free"), "--speed", "2"]) == 0
+    summary = json.loads((tmp_path / "free" / "summary.json").read_text())
+    assert (summary["completed"], summary["timing"]) == (True, "free running")
+    assert summary["largest_distance"] < 1.0
+
+
+def test_a_vehicle_that_somebody_else_runs_is_driven_through_the_same_mission(
+    short_mission: Path, tmp_path: Path, domain: int, command_line: CommandLine, spawn: Callable[..., object]
+) -> None:
+    """--no-sim: a simulator that was started by hand stands in for the vehicle, at rest, with its own clock."""
+    wanted = {"speed": "2.0", "hold_until_running": "false", "initial.surge": "0.0"}
+    parameters = [word for name, value in wanted.items() for word in ("-p", f"{name}:={value}")]
+    spawn(command_line("auv_sim.nodes.plant_node", "--ros-args", "-r", "__ns:=/auv", *parameters))
+    asked = ["--mission", str(short_mission), "--no-sim", "--use-sim-time", "--quiet"]
+    assert main([*asked, "--domain", str(domain), "--out", str(tmp_path / "run")]) == 0
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    assert (summary["completed"], summary["timing"]) == (True, "free running")
+    assert summary["largest_distance"] < 2.0
