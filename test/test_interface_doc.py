@@ -1,0 +1,24 @@
+"""docs/interface.md names every topic of the table with its type, and no other."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from auv_msgs_py import topics
+
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "interface.md"
+ROW = re.compile(r"^\| `([^`]+)` \| ([a-z_]+/msg/\w+) \|(?: (\w+) \|)?", re.MULTILINE)
+
+
+def test_the_page_and_the_table_agree() -> None:
+    told = {name: kind for name, kind, _ in ROW.findall(PAGE.read_text(encoding="utf-8"))}
+    table = {topic.name: topic.type for topic in (*topics.CONTRACT, topics.RECORDED_STEPS)}
+    assert told == table
+
+
+def test_the_page_names_the_right_publisher() -> None:
+    publishers = {topic.name: topic.publisher for topic in (*topics.CONTRACT, topics.RECORDED_STEPS)}
+    for name, _, publisher in ROW.findall(PAGE.read_text(encoding="utf-8")):
+        if publisher in {topics.OBSERVER, topics.GUIDANCE, topics.AUTOPILOT, topics.RECORDER}:
+            assert publishers[name] == publisher
