@@ -16,6 +16,7 @@ EXIT_OK, EXIT_DIFFERENT, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
 #: In the order in which a person needs them.
 VERBS = {
     "inspect": "what is in a recording, and what happened: topics, mission, events",
+    "report": "one interactive HTML page, and pictures beside it",
     "rerun": "feed the recorded sensors through guidance and control again, with other gains",
     "repair": "make a damaged or unfinished recording whole",
 }

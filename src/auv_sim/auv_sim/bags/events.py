@@ -125,3 +125,20 @@ def _spells(t: NDArray[np.float64], active: NDArray[np.bool_], kind: str, text: 
         Event(float(t[a]), kind, f"{text} for {t[b] - t[a]:.2f} s" if b > a else text, 1)
         for a, b in zip(firsts, lasts, strict=True)
     ]
+
+
+def diagnostic_spans(bag: Bag) -> dict[str, list[tuple[float, float, int, str]]]:
+    """For each status name: (from, to, level, message) as long as level and message stay the same, s."""
+    spans: dict[str, list[tuple[float, float, int, str]]] = {}
+    for at, array in _messages(bag, topics.DIAGNOSTICS.name):
+        time = at * 1e-9
+        for status in array.status:
+            level = int(status.level[0]) if isinstance(status.level, bytes) else int(status.level)
+            parts = spans.setdefault(status.name, [])
+            if parts and parts[-1][2:] == (level, status.message):
+                parts[-1] = (parts[-1][0], time, level, status.message)
+            else:
+                if parts:
+                    parts[-1] = (parts[-1][0], time, *parts[-1][2:])
+                parts.append((time, time, level, status.message))
+    return spans

@@ -1,0 +1,82 @@
+"""Write one self-contained, interactive HTML page about a recording, and pictures beside it."""
+
+from __future__ import annotations
+
+import argparse
+import html
+import json
+import math
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from auv_msgs_py.errors import ConfigurationError
+from auv_sim.bags.events import events_of
+from auv_sim.bags.flight import Flight, flight_of
+from auv_sim.bags.report_data import page_data
+from auv_sim.bags.report_pictures import pictures
+from auv_sim.recording.bag import Bag, read_bag
+
+PAGE = "report.html"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The verb's options."""
+    parser.add_argument("bag", type=Path, metavar="BAG", help="recording or run directory")
+    parser.add_argument(
+        "--out", type=Path, metavar="DIR", help="where to (default: report/ beside the recording)"
+    )
+    parser.add_argument(
+        "--mission", metavar="FILE", help="the mission that was flown, where the recording does not tell"
+    )
+    parser.add_argument("--namespace", metavar="NAME", help="which vehicle, where there are several")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Write the page and the pictures."""
+    bag = read_bag(arguments.bag)
+    for note in bag.notes:
+        print(f"damaged: {note}")
+    flight = flight_of(bag, arguments.mission, arguments.namespace)
+    directory = arguments.out or _beside(bag)
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        page = directory / PAGE
+        page.write_text(page_of(flight), encoding="utf-8")
+        written = [page, *pictures(flight, directory, _title(flight))]
+    except OSError as error:
+        raise ConfigurationError(str(directory), f"{error.strerror}", "a place to write to") from None
+    for file in written:
+        print(file)
+    return 0
+
+
+def page_of(flight: Flight) -> str:
+    """The page as text: everything is in it."""
+    title = _title(flight)
+    data = json.dumps(_plain(page_data(flight, events_of(flight), title)), allow_nan=False)
+    # The data must not be able to end the element they stand in.
+    data = data.replace("<", "\\u003c")
+    template = resources.files("auv_sim.bags").joinpath("page", "report.html").read_text(encoding="utf-8")
+    return template.replace("{{TITLE}}", html.escape(title)).replace("{{DATA}}", data)
+
+
+def _title(flight: Flight) -> str:
+    path = flight.bag.path
+    name = path.parent.name if path.name == "bag" else path.stem
+    return f"{flight.mission.name}: {name}" if flight.mission is not None else name
+
+
+def _beside(bag: Bag) -> Path:
+    return (
+        bag.path.parent / "report" if bag.path.name == "bag" else bag.path.parent / f"{bag.path.stem}-report"
+    )
+
+
+def _plain(value: Any) -> Any:
+    """Strict JSON knows no NaN."""
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
