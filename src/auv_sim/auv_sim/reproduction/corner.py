@@ -41,7 +41,7 @@ def best(vehicle: Vehicle, angle: float, thrust: float, *, early: bool) -> Bound
     speed = math.sqrt(thrust / -vehicle.hull.Xuu)
     largest = vehicle.rudder.max_angle
     found = Bound(math.inf, 0.0)
-    for duration, push in ((0.55, 0.5), (0.75, 0.4), (0.95, 0.3)):
+    for duration, push in ((0.55, 0.5), (0.75, 0.4)):
         program = np.zeros(_KNOTS)
         program[:2], program[3:5] = -push, 0.6 * push
         lead = speed * duration * 2.0 if early else 0.0

@@ -1,0 +1,11 @@
+#!/usr/bin/env python3
+"""Fly the paper's cases, draw its figures, judge its claims. Sets itself up on first use."""
+
+import _bootstrap
+
+_bootstrap.ensure_environment()
+
+from auv_sim.reproduction.cli import main  # noqa: E402 - only there once the environment is
+
+if __name__ == "__main__":
+    raise SystemExit(main())

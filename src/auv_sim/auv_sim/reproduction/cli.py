@@ -1,0 +1,208 @@
+"""`scripts/reproduce_paper.py`: the paper's figures and claims, and the studies beside them."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.table import Table
+
+from auv_msgs_py.errors import ConfigurationError, SuiteError
+from auv_path_following import vehicle
+from auv_path_following.paths import mission_file
+from auv_sim.analysis.run import Run
+from auv_sim.reproduction import claims_current, claims_following, corner, figures, page, starts
+from auv_sim.reproduction.cases import flights
+from auv_sim.reproduction.claim import FAILS, HOLDS, Claim
+from auv_sim.reproduction.corner import Bound
+from auv_sim.reproduction.flights import MISSION, PLANTS, Flight, each, fly
+
+_BOUNDS = {"the rudder may move before the corner": True, "it may not": False}
+
+
+class _Parser(argparse.ArgumentParser):
+    """One line and exit code 2, without the usage in front of it."""
+
+    def error(self, message: str) -> None:  # type: ignore[override]
+        print(f"{self.prog}: {message} (see --help)", file=sys.stderr)
+        raise SystemExit(2)
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"found '{text}', expected a whole number of at least 1")
+    return int(text)
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    p = _Parser(
+        prog="reproduce_paper.py", allow_abbrev=False,
+        description="Fly the paper's cases, draw its Figures 5 to 12, judge its claims.",
+    )  # fmt: skip
+    p.add_argument("--out", type=Path, default=Path("reproduction"), metavar="DIR", help="where to write (default: reproduction)")
+    p.add_argument("--workers", type=_count, default=2, metavar="N", help="processes (default 2)")
+    p.add_argument("--quick", action="store_true", help="10 instead of 20 odometries a second: half the time")
+    p.add_argument(
+        "--study", choices=("starts", "pictures"),
+        help="instead: starts, the random starts; pictures, those of docs/reproduction.md and docs/tuning.md",
+    )  # fmt: skip
+    p.add_argument("--runs", type=_count, default=1000, metavar="N", help="study starts: how many (default 1000)")
+    p.add_argument("--seed", type=int, default=1, metavar="N", help="study starts: seed (default 1)")
+    p.add_argument("--laws", nargs="+", choices=tuple(starts.LAWS), default=["robust"], help="study starts: which laws")
+    p.add_argument("--plants", nargs="+", choices=tuple(PLANTS), default=list(PLANTS), help="study starts: which hulls")
+    return p
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Returns the exit code: 0 done, 1 failed, 2 bad input, 130 interrupted."""
+    options = parser().parse_args(argv)
+    console = Console()
+    try:
+        _directory(options.out)
+        if options.study == "starts":
+            return _starts(options, console)
+        if options.study == "pictures":
+            from auv_sim.reproduction import pictures
+
+            with _progress(console) as bar:
+                pictures.draw_all(options.out, partial(_tracked, bar, workers=options.workers))
+            console.print(f"Pictures: {options.out}", highlight=False)
+            return 0
+        return _paper(options, console)
+    except ConfigurationError as error:
+        print(error, file=sys.stderr)
+        return 2
+    except SuiteError as error:
+        print(f"reproduction failed: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("interrupted", file=sys.stderr)
+        return 130
+
+
+def _directory(out: Path) -> None:
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ConfigurationError("--out", f"{out} ({error.strerror})", "a directory that can be made") from None
+
+
+def _progress(console: Console) -> Progress:
+    return Progress(
+        TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), console=console
+    )  # fmt: skip
+
+
+def _tracked(bar: Progress, what: str, work: Any, items: Sequence[Any], workers: int) -> list[Any]:
+    """`work` on each item with a bar; results in order."""
+    task = bar.add_task(what, total=len(items))
+    results: list[Any] = [None] * len(items)
+    for index, result in each(work, items, workers, lambda: bar.advance(task)):
+        results[index] = result
+    return results
+
+
+def _bound(early: bool) -> Bound:
+    mission = mission_file.load(MISSION)
+    angle = abs(mission.path.joints[0].angle_step)
+    return corner.best(vehicle.load("remus100"), angle, mission.thrust, early=early)
+
+
+def _work(item: Flight | bool) -> Run | Bound:
+    return _bound(item) if isinstance(item, bool) else fly(item)
+
+
+def _paper(options: argparse.Namespace, console: Console) -> int:
+    named = flights(0.1 if options.quick else 0.05)
+    path = mission_file.load(MISSION).path
+    with _progress(console) as bar:
+        # The searches take longest: they go first.
+        items = [*_BOUNDS.values(), *named.values()]
+        results = _tracked(bar, "flying the paper's cases", _work, items, options.workers)
+        bounds = dict(zip(_BOUNDS, results[: len(_BOUNDS)], strict=True))
+        runs: dict[str, Run] = dict(zip(named, results[len(_BOUNDS) :], strict=True))
+        task = bar.add_task("drawing", total=len(figures.FIGURES))
+        stems = {}
+        for number in figures.FIGURES:
+            stems[number] = figures.draw(number, runs, path, options.out)
+            bar.advance(task)
+        claims = judge(runs, named["1-nism-prestero"])
+    rate = "10" if options.quick else "20"
+    facts = f"{len(named)} flights of {path.n} subpaths, {path.length:.1f} m, at {rate} odometries a second."
+    record = {
+        "made": facts,
+        "claims": [claim.as_json() for claim in claims],
+        "corner_bound_m": {kind: round(bound.deviation, 3) for kind, bound in bounds.items()},
+    }
+    (options.out / "claims.json").write_text(json.dumps(record, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+    page.write(options.out / "reproduction.html", claims, stems, bounds, facts)
+    _show(claims, options.out, console)
+    return 0
+
+
+def judge(runs: dict[str, Run], plain: Flight) -> list[Claim]:
+    """All claims, from the flights; `plain` is one with Table 4's gains."""
+    scenario = plain.scenario()
+    path, hull = scenario.path, scenario.vehicle
+    following = claims_following
+    return [
+        following.following(runs, path),
+        *following.convergence(runs, path),
+        following.robustness(runs, path),
+        following.rudder_rate(runs, hull),
+        following.joints(runs, path),
+        following.early_switching(runs, path),
+        claims_current.observer(runs),
+        claims_current.without_observer(runs, path),
+        *claims_current.decays(
+            runs, scenario.guidance, scenario.autopilot, scenario.observer, hull, scenario.thrust
+        ),
+    ]
+
+
+def _show(claims: Sequence[Claim], out: Path, console: Console) -> None:
+    table = Table(title="The paper's claims", title_justify="left")
+    for heading in ("where", "claim", "verdict"):
+        table.add_column(heading)
+    color = {HOLDS: "green", FAILS: "red"}
+    for c in claims:
+        table.add_row(c.place, c.claim, f"[{color.get(c.verdict, 'yellow')}]{c.verdict}[/]")
+    console.print(table)
+    for name, what in (
+        ("reproduction.html", "claims, numbers, figures on one page"),
+        ("claims.json", "the same for programs"),
+        ("figure-05.png ...", "Figures 5 to 12: .png, .svg, and the data as .csv"),
+    ):
+        console.print(f"  {out / name}  [dim]{what}[/dim]", highlight=False, soft_wrap=True)
+    console.print("\nLook further:  python3 scripts/reproduce_paper.py --study starts --runs 20", highlight=False)
+
+
+def _starts(options: argparse.Namespace, console: Console) -> int:
+    work = starts.jobs(options.runs, options.seed, options.laws, options.plants)
+    with _progress(console) as bar:
+        results = _tracked(bar, "flying from everywhere", starts.judge, work, options.workers)
+    name = f"starts-seed{options.seed}"
+    starts.write(results, options.out / f"{name}.csv")
+    table = Table(title=f"{options.runs} random starts, seed {options.seed}", title_justify="left")
+    for heading in (
+        "law", "hull", "finish", "off after 120 s: median", "worst", "rms on 3-7: median", "worst", "rudder rate",
+    ):  # fmt: skip
+        table.add_column(heading, justify="left" if heading in ("law", "hull") else "right")
+    for row in starts.table(results):
+        table.add_row(
+            row.law, row.plant, f"{100 * row.finished:.1f} %", f"{row.distance_median:.2f} m",
+            f"{row.distance_worst:.2f} m", f"{row.rms_median:.3f} m", f"{row.rms_worst:.3f} m",
+            f"{math.degrees(row.largest_rudder_rate):.2f} °/s",
+        )  # fmt: skip
+    console.print(table)
+    console.print(f"Every start: {options.out / name}.csv", highlight=False)
+    return 0
