@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import ast
 import re
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -136,3 +138,20 @@ def test_nothing_names_a_machine_or_a_registry() -> None:
     for path in texts():
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
             assert not forbidden.search(line), f"{path.relative_to(ROOT)}:{number}: {line.strip()}"
+
+
+@pytest.mark.parametrize(
+    "module",
+    [
+        "auv_path_following.nodes.current_observer_node",
+        "auv_path_following.nodes.guidance_node",
+        "auv_path_following.nodes.heading_autopilot_node",
+        "auv_sim.nodes.plant_node",
+        "auv_sim.nodes.recorder_node",
+    ],
+)
+def test_a_node_does_not_pay_for_what_it_does_not_use(module: str) -> None:
+    """Five of them start at once: each slow import is paid five times before the mission begins."""
+    code = f"import sys, {module}; print(*sorted({{'scipy', 'matplotlib', 'pandas', 'rich'}} & set(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == ""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from typing import TYPE_CHECKING
 
 from auv_msgs_py.frames import FrameIds
 from auv_msgs_py.settings import setting, settings
@@ -11,7 +12,9 @@ from auv_path_following.guidance.current_observer import CurrentObserverConfig
 from auv_path_following.guidance.mission_state import HoldingConfig
 from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.guidance.switching import as_wished
-from auv_path_following.paths.mission_file import Mission
+
+if TYPE_CHECKING:  # reading missions is guidance's affair; the other nodes start faster without it
+    from auv_path_following.paths.mission_file import Mission
 
 
 @settings

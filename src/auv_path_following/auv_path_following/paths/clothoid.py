@@ -6,7 +6,6 @@ import math
 from typing import Any, Final
 
 import numpy as np
-from scipy.special import fresnel
 
 from auv_msgs_py.elementary import functions_of
 from auv_path_following.paths.segment import PathPoint
@@ -52,6 +51,10 @@ class Clothoid:
             self._shift: Final = self._a / self._b
             phase = chi0 - 0.5 * self._a**2 / self._b
             self._cos, self._sin = math.cos(phase), math.sin(phase)
+            # Here, because it takes half a second to import and few missions need it.
+            from scipy.special import fresnel
+
+            self._fresnel: Final = fresnel
             S, C = fresnel(self._grow * self._shift)
             self._S0, self._C0 = float(S), float(C)
 
@@ -59,7 +62,7 @@ class Clothoid:
         """Integrals of cos and sin of the course from 0 to t."""
         if not self._by_fresnel:
             return self._quadrature(t)
-        S, C = fresnel(self._grow * (t + self._shift))
+        S, C = self._fresnel(self._grow * (t + self._shift))
         if not isinstance(t, np.ndarray):
             S, C = float(S), float(C)
         C, S = (C - self._C0) / self._grow, self._side * (S - self._S0) / self._grow

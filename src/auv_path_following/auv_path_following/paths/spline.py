@@ -9,7 +9,6 @@ from typing import Any, Final
 
 import numpy as np
 from numpy.polynomial import Polynomial as Series
-from scipy.interpolate import CubicSpline
 
 from auv_msgs_py.errors import ConfigurationError
 from auv_path_following.paths.arc_length import ArcLength
@@ -51,6 +50,9 @@ class Spline:
                 (1, (total * math.cos(chi), total * math.sin(chi))) if chi is not None else (2, (0.0, 0.0))
             )
             ends.append(along)
+        # Here, because it takes half a second to import and few missions need it.
+        from scipy.interpolate import CubicSpline
+
         fitted = CubicSpline(knots, way, bc_type=tuple(ends))
         self.pieces: Final = len(chords)
         self._inner: Final[list[float]] = knots[1:-1].tolist()
