@@ -10,6 +10,9 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+import rclpy
+
+from node_bench import Bench
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 SHORT_MISSION = Path(__file__).parent / "data" / "short.yaml"
@@ -85,3 +88,13 @@ def node_processes() -> Callable[[int], dict[str, int]]:
         return nodes
 
     return look
+
+
+@pytest.fixture
+def bench(domain: int) -> Iterator[Bench]:
+    """ROS in this process, and a bench in it."""
+    rclpy.init(args=[], domain_id=domain)
+    made = Bench()
+    yield made
+    made.close()
+    rclpy.try_shutdown()

@@ -107,7 +107,7 @@ def texts() -> list[Path]:
     folders = ("src", "scripts", "test", "config", "docs", "requirements", ".ci")
     found = [path for folder in folders for path in (ROOT / folder).rglob("*") if path.is_file()]
     found += [path for path in ROOT.iterdir() if path.is_file()]
-    made = {".mypy_cache", ".pytest_cache", ".ruff_cache", ".hypothesis", "__pycache__", "build"}
+    made = {"node_modules", ".mypy_cache", ".pytest_cache", ".ruff_cache", ".hypothesis", "__pycache__", "build"}
     kinds = {
         "",
         ".py",

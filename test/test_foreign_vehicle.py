@@ -1,4 +1,4 @@
-"""A simulator that is not ours drives the nodes as they run on a vehicle: best effort, no lockstep, its own /clock.
+"""A foreign simulator drives the nodes as they run on a vehicle: best effort, no lockstep, its own /clock.
 
 It paces itself by the answers it gets, so the outcome does not depend on how fast this machine is.
 """

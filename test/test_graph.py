@@ -92,7 +92,7 @@ def test_free_running_follows_the_mission_too(short_mission: Path, tmp_path: Pat
 def test_a_vehicle_that_somebody_else_runs_is_driven_through_the_same_mission(
     short_mission: Path, tmp_path: Path, domain: int, command_line: CommandLine, spawn: Callable[..., object]
 ) -> None:
-    """--no-sim: a simulator that was started by hand stands in for the vehicle, at rest, with its own clock."""
+    """--no-sim: a simulator started by hand stands in for the vehicle, at rest, with its own clock."""
     wanted = {"speed": "2.0", "hold_until_running": "false", "initial.surge": "0.0"}
     parameters = [word for name, value in wanted.items() for word in ("-p", f"{name}:={value}")]
     spawn(command_line("auv_sim.nodes.plant_node", "--ros-args", "-r", "__ns:=/auv", *parameters))

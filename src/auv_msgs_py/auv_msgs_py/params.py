@@ -1,4 +1,4 @@
-"""Settings classes as ROS parameters: described, ranged, read-only unless live, changed whole or not at all."""
+"""Settings classes as ROS parameters: described, ranged, read-only unless live, changed all or none."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ def offered(topic: Topic) -> QoSProfile:
 
 
 def requested(topic: Topic, reliable: bool, depth: int = DEPTH) -> QoSProfile:
-    """What a subscriber asks for: best effort unless `reliable`; latched topics reliable and transient local."""
+    """What a subscriber asks for: best effort unless `reliable`; latched topics both reliable and kept."""
     wanted = ReliabilityPolicy.RELIABLE if reliable or topic.latched else ReliabilityPolicy.BEST_EFFORT
     return _profile(wanted, topic.latched, depth)
 

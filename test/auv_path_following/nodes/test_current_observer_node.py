@@ -1,0 +1,42 @@
+"""current_observer by itself, over real DDS."""
+
+from __future__ import annotations
+
+import pytest
+
+from auv_msgs_py.types import Navigation
+from auv_path_following.nodes.current_observer_node import CurrentObserverNode
+from node_bench import NORTHWARD, Bench
+
+
+def test_the_observer_finds_the_current(bench: Bench) -> None:
+    bench.start(CurrentObserverNode)
+    # 1 m/s to the north through water that itself goes 0.2 m/s to the east.
+    for k in range(60):
+        t = 1.0 + 0.25 * k
+        bench.measurement(t, Navigation(1.0 * t, 0.2 * t, 0.0, 0.0), 1.0, ("map", "base_link"))
+        bench.until(lambda k=k: len(bench.received["current_estimate"]) > k)
+    last = bench.received["current_estimate"][-1]
+    assert last.header.frame_id == "map"
+    assert (last.vector.x, last.vector.y) == pytest.approx((0.2, 0.0), abs=1e-3)
+
+
+def test_a_vehicle_that_speaks_ned_gives_the_same_estimate(bench: Bench) -> None:
+    bench.start(CurrentObserverNode)
+    frames = ("auv1/odom_ned", "auv1/base_link_frd")
+    for k in range(60):
+        t = 1.0 + 0.25 * k
+        bench.measurement(t, Navigation(1.0 * t, 0.2 * t, 0.0, 0.0), 1.0, frames)
+        bench.until(lambda k=k: len(bench.received["current_estimate"]) > k)
+    last = bench.received["current_estimate"][-1]
+    assert (last.vector.x, last.vector.y) == pytest.approx((0.2, 0.0), abs=1e-3)
+
+
+def test_unknown_frames_are_refused_with_both_names(bench: Bench) -> None:
+    node = bench.start(CurrentObserverNode)
+    for k in range(3):
+        bench.odometry(1.0 + k, NORTHWARD, ("map", "base_link_frd"))
+    bench.until(lambda: node.health.refused["odom"] == 3)
+    node.health.publish()
+    bench.until(lambda: bench.diagnosed("frame_id 'map' with child_frame_id 'base_link_frd'"))
+    assert bench.received["current_estimate"] == []

@@ -1,0 +1,59 @@
+"""remus_plant by itself, over real DDS."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from std_msgs.msg import Float64
+
+from auv_msgs_py import qos, topics
+from auv_msgs_py.conversions import nanoseconds
+from auv_msgs_py.topics import Topic
+from auv_sim.nodes.plant_node import RemusPlantNode
+from node_bench import Bench
+
+
+@pytest.mark.parametrize(
+    ("topic", "value"),
+    [
+        (topics.RUDDER_CMD, math.nan),
+        (topics.RUDDER_CMD, 0.7),
+        (topics.RUDDER_CMD, -0.7),
+        (topics.THRUST_CMD, math.inf),
+        (topics.THRUST_CMD, -1.0),
+        (topics.THRUST_CMD, 100.0),
+    ],
+)
+def test_the_plant_refuses_commands_that_no_servo_can_follow(
+    bench: Bench, topic: Topic, value: float
+) -> None:
+    node = bench.start(RemusPlantNode)
+    bench.send(topic, Float64(data=value))
+    bench.until(lambda: node.health.refused[topic.name] == 1)
+    node.health.publish()
+    bench.until(lambda: bench.diagnosed(f"refused: {topic.name}: found"))
+
+
+def test_the_plant_stops_by_itself_when_no_command_comes(bench: Bench) -> None:
+    node = bench.start(RemusPlantNode, hold_until_running=False, speed=20.0, initial__surge=1.9)
+    bench.send(topics.RUDDER_CMD, Float64(data=0.2))
+    bench.send(topics.THRUST_CMD, Float64(data=6.0))
+    bench.until(lambda: node.command.thrust == 6.0)
+    bench.until(lambda: node.command.thrust == 0.0)
+    bench.until(lambda: bench.received["rudder_state"][-1].data == 0.0)
+    bench.until(lambda: bench.diagnosed("for 1 s: stopped"))
+
+
+def test_the_plant_waits_for_the_mission_and_begins_its_clock_at_one_second(bench: Bench) -> None:
+    bench.start(RemusPlantNode, speed=50.0, initial__x=3.0, initial__y=4.0)
+    bench.spin(0.3)
+    assert bench.received["odom"] == []
+    bench.send(topics.MISSION_STATE, qos.message_class(topics.MISSION_STATE.type)(data="running"))
+    bench.until(lambda: len(bench.received["odom"]) > 3)
+    first = bench.received["odom"][0]
+    assert (first.header.stamp.sec, first.header.stamp.nanosec) == (1, 0)
+    assert (first.pose.pose.position.x, first.pose.pose.position.y) == (4.0, 3.0)
+    bench.call("reset")
+    stamps = [nanoseconds(message.header.stamp) for message in bench.received["odom"]]
+    bench.until(lambda: nanoseconds(bench.received["odom"][-1].header.stamp) < stamps[-1])

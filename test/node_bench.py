@@ -1,0 +1,126 @@
+"""A test bench for one node over real DDS: it plays the rest of the vehicle."""
+
+from __future__ import annotations
+
+import time
+from collections import defaultdict
+from collections.abc import Callable
+from typing import Any
+
+import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import TwistWithCovarianceStamped
+from nav_msgs.msg import Odometry
+from rclpy.experimental import EventsExecutor
+from rclpy.parameter import Parameter
+from std_msgs.msg import Float64
+from std_srvs.srv import Trigger
+
+from auv_msgs_py import qos, topics
+from auv_msgs_py.conversions import fill_odometry, fill_water_velocity
+from auv_msgs_py.runtime import SuiteNode
+from auv_msgs_py.topics import Topic
+from auv_msgs_py.types import Navigation, WaterVelocity
+
+NORTHWARD = Navigation(0.0, 0.0, 0.0, 0.0)
+
+
+class Bench:
+    """A node that publishes what the node under test needs and keeps what it answers."""
+
+    def __init__(self) -> None:
+        self.node = rclpy.create_node("bench", namespace="/auv")
+        self.executor = EventsExecutor()
+        self.executor.add_node(self.node)
+        self.received: dict[str, list[Any]] = defaultdict(list)
+        self._publishers: dict[str, Any] = {}
+        self._under_test: list[SuiteNode] = []
+
+    def start(self, make: Callable[..., SuiteNode], **parameters: Any) -> SuiteNode:
+        """Create the node under test and wait until the bench is matched with it."""
+        overrides = [Parameter(name.replace("__", "."), value=value) for name, value in parameters.items()]
+        node = make(namespace="/auv", parameter_overrides=overrides, use_global_arguments=False)
+        self._under_test.append(node)
+        self.executor.add_node(node)
+        for topic in topics.CONTRACT:
+            if topic.publisher == node.get_name() or topic is topics.DIAGNOSTICS:
+                self._listen(topic)
+            elif node.get_name() in topic.subscribers:
+                kind = qos.message_class(topic.type)
+                self._publishers[topic.name] = self.node.create_publisher(
+                    kind, topic.name, qos.offered(topic)
+                )
+        self.until(
+            lambda: (
+                all(publisher.get_subscription_count() for publisher in self._publishers.values())
+                and all(publisher.get_subscription_count() for publisher in node.publishers_by_topic.values())
+            )
+        )
+        return node
+
+    def _listen(self, topic: Topic) -> None:
+        kind = qos.message_class(topic.type)
+        keep = self.received[topic.name].append
+        self.node.create_subscription(kind, topic.name, keep, qos.requested(topic, reliable=True, depth=100))
+
+    def until(self, condition: Callable[[], Any], patience: float = 20.0) -> None:
+        deadline = time.monotonic() + patience
+        while not condition():
+            assert time.monotonic() < deadline, "the node did not do what was waited for"
+            self.executor.spin_once(timeout_sec=0.02)
+
+    def spin(self, seconds: float) -> None:
+        deadline = time.monotonic() + seconds
+        while time.monotonic() < deadline:
+            self.executor.spin_once(timeout_sec=0.02)
+
+    def send(self, topic: Topic, message: Any) -> None:
+        self._publishers[topic.name].publish(message)
+
+    def odometry(
+        self, seconds: float, navigation: Navigation, frames: tuple[str, str] = ("map", "base_link")
+    ) -> None:
+        message = Odometry()
+        message.header.frame_id, message.child_frame_id = frames
+        fill_odometry(message, navigation, 1.9, 0.0, round(seconds * 1e9))
+        self.send(topics.ODOM, message)
+
+    def water(self, seconds: float, ur: float, vr: float = 0.0, frame: str = "base_link") -> None:
+        message = TwistWithCovarianceStamped()
+        message.header.frame_id = frame
+        fill_water_velocity(message, WaterVelocity(ur, vr), round(seconds * 1e9))
+        self.send(topics.WATER_VELOCITY, message)
+
+    def measurement(self, seconds: float, navigation: Navigation, ur: float, frames: tuple[str, str]) -> None:
+        """Water velocity, then odometry: two topics, between which DDS keeps no order."""
+        self.water(seconds, ur, frame=frames[1])
+        self.spin(0.01)
+        self.odometry(seconds, navigation, frames)
+
+    def reference(self, yaw: float, rate: float, thrust: float) -> None:
+        for topic, value in zip(
+            (topics.DESIRED_YAW, topics.DESIRED_YAW_RATE, topics.DESIRED_THRUST),
+            (yaw, rate, thrust),
+            strict=True,
+        ):
+            self.send(topic, Float64(data=value))
+
+    def call(self, service: str) -> Trigger.Response:
+        client = self.node.create_client(Trigger, service)
+        self.until(client.service_is_ready)
+        future = client.call_async(Trigger.Request())
+        self.until(future.done)
+        return future.result()
+
+    def values(self, topic: Topic) -> list[float]:
+        return [message.data for message in self.received[topic.name]]
+
+    def diagnosed(self, text: str) -> bool:
+        arrays: list[DiagnosticArray] = self.received[topics.DIAGNOSTICS.name]
+        return any(text in status.message for array in arrays for status in array.status)
+
+    def close(self) -> None:
+        for node in self._under_test:
+            node.close()
+            node.destroy_node()
+        self.node.destroy_node()
