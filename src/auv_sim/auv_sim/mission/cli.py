@@ -157,7 +157,8 @@ def _fly(options: Options) -> int:
     timing = "lockstep" if resolved.lockstep else "free running"
     console.print(
         f"[bold]{resolved.mission.name}[/bold]: {path.n} subpaths, {path.length:.1f} m,"
-        f" {resolved.vehicle.name}, {timing}, ROS domain {launcher.domain_of(resolved)}, namespace {options.namespace}",
+        f" {resolved.vehicle.name}, {timing}, ROS domain {launcher.domain_of(resolved)},"
+        f" namespace {options.namespace}",
         highlight=False,
     )
     for level, verdicts in (("refused", resolved.verdicts.refusals), ("warning", resolved.verdicts.warnings)):
