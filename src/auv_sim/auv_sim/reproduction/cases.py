@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from auv_path_following.paths import mission_file
 from auv_sim.reproduction.flights import MISSION, PLANT_NAMES, Flight
@@ -37,20 +38,33 @@ def flights(step: float) -> dict[str, Flight]:
     aside = beside(OFFSET)
     for plant in PLANT_NAMES:
         for law, (params, controller) in LAWS.items():
-            common = {"plant": plant, "params": params, "controller": controller, "step": step}
+            common: dict[str, Any] = {
+                "plant": plant,
+                "params": params,
+                "controller": controller,
+                "step": step,
+            }
             found.append(Flight(name=f"1-{law}-{plant}", switching="off", start=aside, **common))
-            if law in ("nism", "robust") or plant == "prestero":
+            if law in ("nism", "robust") or plant != "table2":
                 found.append(Flight(name=f"2-{law}-{plant}", **common))
         found.append(Flight(name=f"1-on-path-{plant}", plant=plant, switching="off", step=step))
-    for name, law, params, compensated in (
+    case_3: tuple[tuple[str, str | None, str, bool], ...] = (
         ("with", None, "paper", True),
         ("without", None, "paper", False),
         ("robust", None, "robust", True),
         ("los", "los", "robust", True),
         ("ilos", "ilos", "robust", True),
-    ):
+    )
+    for name, guidance, params, compensated in case_3:
         found.append(
-            Flight(name=f"3-{name}", params=params, law=law, compensated=compensated, current=CURRENT, step=step)
+            Flight(
+                name=f"3-{name}",
+                params=params,
+                law=guidance,
+                compensated=compensated,
+                current=CURRENT,
+                step=step,
+            )
         )
     found.append(Flight(name="3-aside", start=aside, current=CURRENT, step=step))
     # What the paper leaves to others: Delta and kp by themselves.
@@ -60,5 +74,7 @@ def flights(step: float) -> dict[str, Flight]:
     found.append(Flight(name="4-lookahead-aside", params="robust", changes=adaptive, start=aside, step=step))
     found.append(Flight(name="4-fixed-aside", params="robust", start=aside, step=step))
     for plant in PLANT_NAMES:
-        found.append(Flight(name=f"4-kp-{plant}", plant=plant, switching="off", start=aside, changes=rate, step=step))
+        found.append(
+            Flight(name=f"4-kp-{plant}", plant=plant, switching="off", start=aside, changes=rate, step=step)
+        )
     return {flight.name: flight for flight in found}

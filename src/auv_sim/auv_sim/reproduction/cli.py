@@ -45,20 +45,34 @@ def _count(text: str) -> int:
 def parser() -> argparse.ArgumentParser:
     """The command line."""
     p = _Parser(
-        prog="reproduce_paper.py", allow_abbrev=False,
+        prog="reproduce_paper.py",
+        allow_abbrev=False,
         description="Fly the paper's cases, draw its Figures 5 to 12, judge its claims.",
-    )  # fmt: skip
-    p.add_argument("--out", type=Path, default=Path("reproduction"), metavar="DIR", help="where to write (default: reproduction)")
+    )
+    p.add_argument(
+        "--out",
+        type=Path,
+        default=Path("reproduction"),
+        metavar="DIR",
+        help="where to write (default: reproduction)",
+    )
     p.add_argument("--workers", type=_count, default=2, metavar="N", help="processes (default 2)")
     p.add_argument("--quick", action="store_true", help="10 instead of 20 odometries a second: half the time")
     p.add_argument(
-        "--study", choices=("starts", "pictures"),
+        "--study",
+        choices=("starts", "pictures"),
         help="instead: starts, the random starts; pictures, those of docs/reproduction.md and docs/tuning.md",
-    )  # fmt: skip
-    p.add_argument("--runs", type=_count, default=1000, metavar="N", help="study starts: how many (default 1000)")
+    )
+    p.add_argument(
+        "--runs", type=_count, default=1000, metavar="N", help="study starts: how many (default 1000)"
+    )
     p.add_argument("--seed", type=int, default=1, metavar="N", help="study starts: seed (default 1)")
-    p.add_argument("--laws", nargs="+", choices=tuple(starts.LAWS), default=["robust"], help="study starts: which laws")
-    p.add_argument("--plants", nargs="+", choices=tuple(PLANTS), default=list(PLANTS), help="study starts: which hulls")
+    p.add_argument(
+        "--laws", nargs="+", choices=tuple(starts.LAWS), default=["robust"], help="study starts: which laws"
+    )
+    p.add_argument(
+        "--plants", nargs="+", choices=tuple(PLANTS), default=list(PLANTS), help="study starts: which hulls"
+    )
     return p
 
 
@@ -93,13 +107,19 @@ def _directory(out: Path) -> None:
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise ConfigurationError("--out", f"{out} ({error.strerror})", "a directory that can be made") from None
+        raise ConfigurationError(
+            "--out", f"{out} ({error.strerror})", "a directory that can be made"
+        ) from None
 
 
 def _progress(console: Console) -> Progress:
     return Progress(
-        TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), console=console
-    )  # fmt: skip
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        console=console,
+    )
 
 
 def _tracked(bar: Progress, what: str, work: Any, items: Sequence[Any], workers: int) -> list[Any]:
@@ -143,7 +163,9 @@ def _paper(options: argparse.Namespace, console: Console) -> int:
         "claims": [claim.as_json() for claim in claims],
         "corner_bound_m": {kind: round(bound.deviation, 3) for kind, bound in bounds.items()},
     }
-    (options.out / "claims.json").write_text(json.dumps(record, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+    (options.out / "claims.json").write_text(
+        json.dumps(record, indent=2, allow_nan=False) + "\n", encoding="utf-8"
+    )
     page.write(options.out / "reproduction.html", claims, stems, bounds, facts)
     _show(claims, options.out, console)
     return 0
@@ -183,7 +205,9 @@ def _show(claims: Sequence[Claim], out: Path, console: Console) -> None:
         ("figure-05.png ...", "Figures 5 to 12: .png, .svg, and the data as .csv"),
     ):
         console.print(f"  {out / name}  [dim]{what}[/dim]", highlight=False, soft_wrap=True)
-    console.print("\nLook further:  python3 scripts/reproduce_paper.py --study starts --runs 20", highlight=False)
+    console.print(
+        "\nLook further:  python3 scripts/reproduce_paper.py --study starts --runs 20", highlight=False
+    )
 
 
 def _starts(options: argparse.Namespace, console: Console) -> int:
@@ -194,15 +218,27 @@ def _starts(options: argparse.Namespace, console: Console) -> int:
     starts.write(results, options.out / f"{name}.csv")
     table = Table(title=f"{options.runs} random starts, seed {options.seed}", title_justify="left")
     for heading in (
-        "law", "hull", "finish", "off after 120 s: median", "worst", "rms on 3-7: median", "worst", "rudder rate",
-    ):  # fmt: skip
+        "law",
+        "hull",
+        "finish",
+        "off after 120 s: median",
+        "worst",
+        "rms on 3-7: median",
+        "worst",
+        "rudder rate",
+    ):
         table.add_column(heading, justify="left" if heading in ("law", "hull") else "right")
     for row in starts.table(results):
         table.add_row(
-            row.law, row.plant, f"{100 * row.finished:.1f} %", f"{row.distance_median:.2f} m",
-            f"{row.distance_worst:.2f} m", f"{row.rms_median:.3f} m", f"{row.rms_worst:.3f} m",
+            row.law,
+            row.plant,
+            f"{100 * row.finished:.1f} %",
+            f"{row.distance_median:.2f} m",
+            f"{row.distance_worst:.2f} m",
+            f"{row.rms_median:.3f} m",
+            f"{row.rms_worst:.3f} m",
             f"{math.degrees(row.largest_rudder_rate):.2f} °/s",
-        )  # fmt: skip
+        )
     console.print(table)
     console.print(f"Every start: {options.out / name}.csv", highlight=False)
     return 0

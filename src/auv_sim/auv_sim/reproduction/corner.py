@@ -19,7 +19,8 @@ _STEP = 0.05
 
 @dataclass(frozen=True)
 class Bound:
-    """The best programme found: largest distance to the two legs (m), and where the rudder first moved (m before the corner)."""
+    """The best programme found: largest distance to the two legs (m), and where the rudder first "
+    "moved (m before the corner)."""
 
     deviation: float
     lead: float
@@ -41,7 +42,7 @@ def best(vehicle: Vehicle, angle: float, thrust: float, *, early: bool) -> Bound
     speed = math.sqrt(thrust / -vehicle.hull.Xuu)
     largest = vehicle.rudder.max_angle
     found = Bound(math.inf, 0.0)
-    for duration, push in ((0.55, 0.5), (0.75, 0.4)):
+    for duration, push in ((0.75, 0.4), (0.95, 0.3)):
         program = np.zeros(_KNOTS)
         program[:2], program[3:5] = -push, 0.6 * push
         lead = speed * duration * 2.0 if early else 0.0
@@ -59,9 +60,16 @@ def best(vehicle: Vehicle, angle: float, thrust: float, *, early: bool) -> Bound
 
 
 def _cost(
-    vehicle: Vehicle, angle: float, thrust: float, speed: float, early: bool, v: NDArray[np.float64], largest: float
-) -> float:  # fmt: skip
-    """Largest distance to the legs, plus what is still wrong at the end: 1 m, 0.2 rad or 0.1 rad/s cost a metre."""
+    vehicle: Vehicle,
+    angle: float,
+    thrust: float,
+    speed: float,
+    early: bool,
+    v: NDArray[np.float64],
+    largest: float,
+) -> float:
+    """Largest distance to the legs, plus what is still wrong at the end: 1 m, 0.2 rad or 0.1 rad/s "
+    "cost a metre."""
     duration, lead = float(np.clip(v[0], 0.3, 1.5)), float(np.clip(v[1], 0.0, 15.0)) if early else 0.0
     plant = RemusPlant(vehicle, PlantState(-lead, 0.0, 0.0, speed, 0.0, 0.0))
     cos, sin = math.cos(angle), math.sin(angle)

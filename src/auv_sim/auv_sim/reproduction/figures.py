@@ -22,6 +22,8 @@ Runs = Mapping[str, Run]
 Columns = dict[str, Column]
 
 COLORS = {"nism": BLUE, "pid": ORANGE, "smc": RED, "robust": GREEN}
+#: A longer signal is thinned out in the table, not in the picture.
+_CSV_ROWS = 4000
 _THREE = ("nism", "pid", "smc")
 
 
@@ -37,10 +39,14 @@ class Sheet:
     def __init__(self, rows: int, columns: int, size: tuple[float, float], share: bool = True) -> None:
         self.figure = Figure(figsize=size, dpi=110, facecolor="white", layout="constrained")
         FigureCanvasAgg(self.figure)
-        self.panels: list[list[Axes]] = self.figure.subplots(rows, columns, squeeze=False, sharex=share).tolist()
+        self.panels: list[list[Axes]] = self.figure.subplots(
+            rows, columns, squeeze=False, sharex=share
+        ).tolist()
         self.numbers: Columns = {}
 
-    def line(self, axes: Axes, x: Column, y: Column, color: str, label: str, name: str, width: float = 1.3) -> None:
+    def line(
+        self, axes: Axes, x: Column, y: Column, color: str, label: str, name: str, width: float = 1.3
+    ) -> None:
         """Draw y over x and keep both under `name`."""
         axes.plot(x, y, color=color, label=label, linewidth=width)
         for axis, values in (("x", x), ("y", y)):
@@ -50,42 +56,48 @@ class Sheet:
         """Write `stem`.png, .svg and .csv; columns of different lengths end with empty cells."""
         for row in self.panels:
             for axes in row:
-                if axes.get_legend_handles_labels()[0]:
-                    axes.legend(fontsize=8, frameon=False, loc="best")
+                if axes.get_legend_handles_labels()[0] and not axes.get_legend():
+                    axes.legend(fontsize=8, framealpha=0.85, edgecolor="none", loc="upper right")
         self.figure.savefig(stem.with_suffix(".png"))
         # Without the date the file is the same each time.
         self.figure.savefig(stem.with_suffix(".svg"), metadata={"Date": None})
         with stem.with_suffix(".csv").open("w", newline="", encoding="utf-8") as stream:
             writer = csv.writer(stream)
             writer.writerow(self.numbers)
-            for k in range(max(len(column) for column in self.numbers.values())):
-                cells = [f"{c[k]:.6g}" if k < len(c) and np.isfinite(c[k]) else "" for c in self.numbers.values()]
+            longest = max(len(column) for column in self.numbers.values())
+            for k in range(0, longest, 1 + longest // _CSV_ROWS):
+                cells = [
+                    f"{c[k]:.6g}" if k < len(c) and np.isfinite(c[k]) else "" for c in self.numbers.values()
+                ]
                 writer.writerow(cells)
 
 
 def _time(run: Run) -> Column:
-    return run.t - run.t[0]
+    return np.asarray(run.t - run.t[0])
 
 
-def _track(sheet: Sheet, axes: Axes, path: CompositePath, runs: Mapping[str, tuple[Run, str]]) -> None:
+def _track(
+    sheet: Sheet, axes: Axes, path: CompositePath, plant: str, runs: Mapping[str, tuple[Run, str]]
+) -> None:
     style(axes, "x, north (m)")
     axes.set_xlabel("y, east (m)", color=INK)
     x, y, _ = path.polyline(1.0)
-    sheet.line(axes, y, x, PATH, "desired path", "path", 5.0)
+    sheet.line(axes, y, x, PATH, "desired path", f"{plant} path", 5.0)
     for label, (run, color) in runs.items():
-        sheet.line(axes, run.y, run.x, color, label, label)
+        sheet.line(axes, run.y, run.x, color, label, f"{plant} {label}")
     axes.set_aspect("equal", adjustable="datalim")
 
 
 def figure_5(runs: Runs, path: CompositePath) -> Sheet:
     """Tracks of case 1."""
-    sheet = Sheet(1, 3, (14.0, 5.2), share=False)
+    sheet = Sheet(1, 3, (14.0, 4.2), share=False)
     for axes, plant in zip(sheet.panels[0], PLANT_NAMES, strict=True):
-        tracks = {f"{LAW_LABELS[k]}, {plant}": (runs[f"1-{k}-{plant}"], COLORS[k]) for k in _THREE}
-        _track(sheet, axes, path, tracks)
+        tracks = {f"{LAW_LABELS[k]}": (runs[f"1-{k}-{plant}"], COLORS[k]) for k in _THREE}
+        _track(sheet, axes, path, plant, tracks)
         axes.set_title(PLANTS[plant].label, color=INK, fontsize=10)
-        axes.set_xlim(-40, 560)
-        axes.set_ylim(-190, 330)
+        axes.set_aspect("equal", adjustable="box")
+        axes.set_xlim(-30, 560)
+        axes.set_ylim(-190, 230)
     return sheet
 
 
@@ -109,6 +121,8 @@ def figure_6(runs: Runs, path: CompositePath) -> Sheet:
         ):
             style(axes, text)
             axes.set_ylim(low, high)
+            if axes is not start:
+                axes.set_xlim(0.0, 660.0)
         cross.set_xlabel("t (s)", color=INK)
     return sheet
 
@@ -121,8 +135,11 @@ def figure_7(runs: Runs, path: CompositePath) -> Sheet:
         axes.set_title(PLANTS[plant].label, color=INK, fontsize=10)
         for law in _THREE:
             run = runs[f"1-{law}-{plant}"]
-            sheet.line(axes, _time(run), np.degrees(run.psi_e), COLORS[law], LAW_LABELS[law], f"{plant} {law}")
+            sheet.line(
+                axes, _time(run), np.degrees(run.psi_e), COLORS[law], LAW_LABELS[law], f"{plant} {law}"
+            )
         axes.set_ylim(-8.0, 8.0)
+        axes.set_xlim(0.0, 660.0)
     axes.set_xlabel("t (s); the arc lasts from about 250 s to 400 s, both panels cut at ±8°", color=INK)
     return sheet
 
@@ -148,14 +165,20 @@ def figure_8(runs: Runs, path: CompositePath) -> Sheet:
 
 def figure_9(runs: Runs, path: CompositePath) -> Sheet:
     """Tracks of case 2 at the corner."""
-    sheet = Sheet(1, 3, (14.0, 5.0), share=False)
+    sheet = Sheet(1, 3, (14.0, 4.1), share=False)
     corner = path.joints[0]
     for axes, plant in zip(sheet.panels[0], PLANT_NAMES, strict=True):
-        _track(sheet, axes, path, {
-            f"without (44), {plant}": (runs[f"1-on-path-{plant}"], RED),
-            f"with (44), {plant}": (runs[f"2-nism-{plant}"], BLUE),
-            f"with (44), robust.yaml, {plant}": (runs[f"2-robust-{plant}"], GREEN),
-        })  # fmt: skip
+        _track(
+            sheet,
+            axes,
+            path,
+            plant,
+            {
+                "without (44)": (runs[f"1-on-path-{plant}"], RED),
+                "with (44)": (runs[f"2-nism-{plant}"], BLUE),
+                "with (44), robust.yaml": (runs[f"2-robust-{plant}"], GREEN),
+            },
+        )
         axes.set_title(PLANTS[plant].label, color=INK, fontsize=10)
         axes.set_aspect("equal", adjustable="box")
         axes.set_xlim(corner.y - 14.0, corner.y + 22.0)
@@ -187,9 +210,11 @@ def figure_11(runs: Runs, path: CompositePath) -> Sheet:
     """Errors of case 3 with and without the observer."""
     sheet = Sheet(2, 1, (10.0, 5.8))
     for name, label, color in (
-        ("3-without", "without the observer", RED), ("3-with", "with the observer", BLUE),
-        ("3-los", "proportional LOS", MUTED), ("3-ilos", "integral LOS", ORANGE),
-    ):  # fmt: skip
+        ("3-without", "without the observer", RED),
+        ("3-with", "with the observer", BLUE),
+        ("3-los", "proportional LOS", MUTED),
+        ("3-ilos", "integral LOS", ORANGE),
+    ):
         run = runs[name]
         sheet.line(sheet.panels[0][0], _time(run), run.xe, color, label, f"{label} xe")
         sheet.line(sheet.panels[1][0], _time(run), run.ye, color, label, f"{label} ye")
@@ -205,13 +230,17 @@ def figure_12(runs: Runs, path: CompositePath) -> Sheet:
     """The estimated current."""
     sheet = Sheet(1, 2, (12.0, 4.0), share=False)
     run = runs["3-with"]
-    for axes, span, title in ((sheet.panels[0][0], 30.0, "first half minute"), (sheet.panels[0][1], 1e9, "whole mission")):
+    for axes, span, title in (
+        (sheet.panels[0][0], 30.0, "first half minute"),
+        (sheet.panels[0][1], 1e9, "whole mission"),
+    ):
         style(axes, "current (m/s)")
         rows = _time(run) <= span
         t = _time(run)[rows]
         for true, estimate, label, color in (
-            (run.Vx_true, run.Vx_est, "Vx, north", BLUE), (run.Vy_true, run.Vy_est, "Vy, east", ORANGE),
-        ):  # fmt: skip
+            (run.Vx_true, run.Vx_est, "Vx, north", BLUE),
+            (run.Vy_true, run.Vy_est, "Vy, east", ORANGE),
+        ):
             sheet.line(axes, t, true[rows], PATH, f"{label}, true", f"{title} {label} true", 4.0)
             sheet.line(axes, t, estimate[rows], color, f"{label}, estimated", f"{title} {label} estimated")
         axes.set_title(title, color=INK, fontsize=10)
@@ -238,5 +267,3 @@ def draw(number: int, runs: Runs, path: CompositePath, folder: Path) -> Path:
     stem = folder / f"figure-{number:02d}"
     FIGURES[number][1](runs, path).save(stem)
     return stem
-
-

@@ -22,7 +22,8 @@ def distance(run: Run, path: CompositePath) -> Column:
 
 
 def steady(run: Run, path: CompositePath, subpath: int) -> NDArray[np.bool_]:
-    """Rows on a subpath (from 0), more than `RUN_IN` behind its beginning and before a G0 joint at its end."""
+    """Rows on a subpath (from 0), more than `RUN_IN` behind its beginning and before a G0 joint at "
+    "its end."""
     length = path.segments[subpath].length
     along = (run.s - subpath) * length
     rows = (run.subpath(path.n) == subpath) & (along > min(RUN_IN, 0.5 * length))
@@ -60,7 +61,8 @@ def settling_time(run: Run, path: CompositePath, band: float) -> float:
 
 
 def at_joint(run: Run, path: CompositePath, joint: int) -> float:
-    """Largest distance to the path (m) within `CORNER_RADIUS` of a joint (from 0); infinite if never there."""
+    """Largest distance to the path (m) within `CORNER_RADIUS` of a joint (from 0); infinite if "
+    "never there."""
     j, subpath = path.joints[joint], run.subpath(path.n)
     near = np.hypot(run.x - j.x, run.y - j.y) < CORNER_RADIUS
     near &= (subpath == joint) | (subpath == joint + 1)
@@ -77,6 +79,11 @@ class Decay(NamedTuple):
 
     rate: float
     fit: float
+
+
+def envelope(size: Column) -> Column:
+    """The largest value from each row on: what an oscillation is bounded by."""
+    return np.asarray(np.maximum.accumulate(size[::-1])[::-1])
 
 
 def decay(t: Column, size: Column, largest: float, smallest: float) -> Decay:

@@ -7,11 +7,12 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from auv_sim.reproduction.flights import MISSION, PLANTS, Flight, each, fly
 from auv_path_following.paths import mission_file
+from auv_sim.reproduction.flights import MISSION, PLANTS, Flight, each, fly
 
 #: Starts lie within this distance of the path's start, m; currents are up to this strong, m/s.
 LARGEST_OFFSET = 30.0
@@ -22,7 +23,7 @@ SETTLED = 120.0
 FIRST_SUBPATH = 2
 
 #: Law by name -> what differs from a plain flight.
-LAWS = {
+LAWS: dict[str, dict[str, Any]] = {
     "robust": {"params": "robust"},
     "paper": {"params": "paper"},
     "pid": {"params": "paper", "controller": "pid"},
@@ -87,7 +88,13 @@ def starts(runs: int, seed: int) -> list[tuple[tuple[float, float, float], tuple
 def jobs(runs: int, seed: int, laws: Sequence[str], plants: Sequence[str]) -> list[_Job]:
     """Every flight of the study, run by run, so that a part of it is a smaller study."""
     return [
-        _Job(law, plant, seed, run, Flight(name=f"{law}-{plant}-{run}", plant=plant, start=s, current=c, **LAWS[law]))  # type: ignore[arg-type]
+        _Job(
+            law,
+            plant,
+            seed,
+            run,
+            Flight(name=f"{law}-{plant}-{run}", plant=plant, start=s, current=c, **LAWS[law]),
+        )
         for run, (s, c) in enumerate(starts(runs, seed))
         for law in laws
         for plant in plants

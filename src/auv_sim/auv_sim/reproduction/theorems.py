@@ -30,7 +30,8 @@ class Checked(NamedTuple):
 
 
 def guidance_rate(Delta: float, Ur: float, across: float) -> float:
-    """Rate at which ye decays near the path, from Eqs. (30), (32): Ur / sqrt(Delta^2 + alpha^2) at ye = 0, 1/s."""
+    """Rate at which ye decays near the path, from Eqs. (30), (32): Ur / sqrt(Delta^2 + alpha^2) at "
+    "ye = 0, 1/s."""
     theta_n = across / Ur
     alpha = theta_n * Delta / math.sqrt(1.0 - theta_n * theta_n)
     return Ur / math.hypot(Delta, alpha)
@@ -63,7 +64,7 @@ def theorem_1(config: PathFollowerConfig, current: Current) -> dict[str, Checked
 def theorem_2(config: CurrentObserverConfig, current: Current) -> Checked:
     """The observer on a vehicle that turns, from an estimate of zero.
 
-    With complex poles the error swings; along the left eigenvector of Eq. (36) its size is a pure exponential.
+    With complex poles the error swings; along the left eigenvector of Eq. (36) it is a pure exponential.
     """
     observer = CurrentObserver(config)
     pole = 0.5 * (-config.k_ob2 + cmath.sqrt(config.k_ob2**2 - 4.0 * config.k_ob1))

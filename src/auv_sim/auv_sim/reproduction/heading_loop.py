@@ -1,0 +1,46 @@
+"""Why the heading loop can cycle: the linear hull behind the describing function of a rate limit."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from auv_path_following.control.hull_model import HullModel
+from auv_path_following.vehicle import Vehicle
+
+Array = npt.NDArray[np.float64]
+
+
+def linear_hull(vehicle: Vehicle) -> tuple[Array, Array]:
+    """A (2, 2) and b (2,) of (vr, r)' = A (vr, r) + b delta, straight ahead at cruising speed.
+
+    Central differences over 0.02 m/s and 0.02 rad/s, so the quadratic drags count with a small value.
+    """
+    model = HullModel(vehicle)
+    ur = model.cruise(vehicle.thrust_max)
+    h = 0.02
+    columns = [
+        (np.array(model.accelerations(ur, h * v, h * r)) - np.array(model.accelerations(ur, -h * v, -h * r)))
+        / (2 * h)
+        for v, r in ((1.0, 0.0), (0.0, 1.0))
+    ]
+    return np.column_stack(columns), np.array(model.rudder_gain(ur))
+
+
+def open_loop(vehicle: Vehicle, w: Array) -> npt.NDArray[Any]:
+    """Response from -delta to r at the angular frequencies w (rad/s), shape as w."""
+    A, b = linear_hull(vehicle)
+    return np.array([-np.linalg.solve(1j * x * np.eye(2) - A, b)[1] for x in w])
+
+
+def phase_lag(w: Array, amplitude: float, rate: float) -> Array:
+    """Lag (rad) of a rudder that is asked for amplitude sin(w t) but moves at `rate` at most.
+
+    Deep in the limit the rudder moves in a triangle of height pi rate / (2 w), and turns where it meets what
+    is asked for: it lags by acos(pi rate / (2 w amplitude)). Below the limit it does not lag.
+    """
+    share = np.minimum(math.pi * rate / (2.0 * w * amplitude), 1.0)
+    return np.asarray(np.arccos(share))
