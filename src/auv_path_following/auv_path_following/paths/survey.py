@@ -80,8 +80,9 @@ def _extents(
     take(((across - low) / strip).astype(int), along)
     boundaries = low + strip * np.arange(1, count)
     for a0, c0, a1, c1 in zip(along, across, np.roll(along, -1), np.roll(across, -1), strict=True):
-        inside = np.flatnonzero((boundaries > min(c0, c1)) & (boundaries < max(c0, c1)))
-        if inside.size:
+        # A corner on a boundary belongs to both strips.
+        inside = np.flatnonzero((boundaries >= min(c0, c1)) & (boundaries <= max(c0, c1)))
+        if inside.size and c0 != c1:
             crossing = a0 + (a1 - a0) * (boundaries[inside] - c0) / (c1 - c0)
             take(inside, crossing)
             take(inside + 1, crossing)

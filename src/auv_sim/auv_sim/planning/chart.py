@@ -52,7 +52,8 @@ def _places(mission: Mission, north: Any, east: Any) -> list[Place]:
     if mission.origin is None or not len(north):
         return []
     latitude, longitude = to_geodetic(mission.origin, north, east)
-    return np.column_stack((longitude, latitude)).round(_DIGITS).tolist()
+    places: list[Place] = np.column_stack((longitude, latitude)).round(_DIGITS).tolist()
+    return places
 
 
 def _line(mission: Mission) -> list[Place]:

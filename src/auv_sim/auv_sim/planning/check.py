@@ -123,9 +123,8 @@ def _thrust(mission: Mission, vehicle: Vehicle) -> Iterator[Verdict]:
     if mission.thrust > vehicle.thrust_max * (1.0 + 1e-9):
         if mission.speed is not None:
             fastest = vehicle.speed_at(vehicle.thrust_max)
-            yield Verdict(
-                "refused", "speed", f"{mission.speed:g} m/s", f"{vehicle.name} reaches {fastest:.2f} m/s"
-            )
+            limit = f"at most {fastest:.2f} m/s, all that {vehicle.name} reaches"
+            yield Verdict("refused", "speed", f"{mission.speed:g} m/s", limit)
         else:
             limit = f"at most {vehicle.thrust_max:g} N, all that {vehicle.name} has"
             yield Verdict("refused", "thrust", f"{mission.thrust:g} N", limit)
@@ -161,7 +160,7 @@ class _Survey:
     def _place(self, i: int, t: float) -> str:
         p = self._mission.path.evaluate(i, t)
         kind = self._mission.path.segments[i].kind
-        return f"subpath {i + 1} ({kind}) at north {p.x:.1f}, east {p.y:.1f}"
+        return f"subpath {i + 1} ({kind}) {_at(p.x, p.y)}"
 
     def way(self, current: Current) -> Iterator[Verdict]:
         """A current across that no heading can cancel, or ahead that the vehicle cannot beat."""
@@ -199,28 +198,25 @@ class _Survey:
         limit = 1.0 / turn.radius
         k = int(np.argmax(needed))
         i = int(self._i[k])
-        t, kappa = (
-            tightest(self._mission.path.segments[i])
-            if np.ptp(factor) < 1e-12
-            else (float(self._t[k]), self._kappa[k])
-        )
+        t, kappa = float(self._t[k]), float(self._kappa[k])
+        if np.ptp(factor) < 1e-12:  # no current: the worst place can be found exactly
+            t, kappa = tightest(self._mission.path.segments[i])
         worst = max(float(needed[k]), abs(kappa) * float(factor[k]))
+        refused = worst > limit * (1.0 + 1e-9)
         if worst <= _AMPLE * limit:
             return
-        level: Literal["refused", "warning"] = "refused" if worst > limit else "warning"
-        tight = np.unique(self._i[needed > (limit if level == "refused" else _AMPLE * limit)])
+        tight = np.unique(self._i[needed > (limit if refused else _AMPLE * limit)])
         found = f"a turn of radius {1.0 / abs(kappa):.2f} m"
         if factor[k] > 1.0 + 1e-9:
             found += f", in this current like one of {1.0 / worst:.2f} m"
-        best = f"{name} turns with {turn.radius:.2f} m at best ({turn.source})"
-        expected = (
-            f"{best}, {turn.radius - 1.0 / worst:.2f} m too tight"
-            if level == "refused"
-            else f"{best}, little is left to steer"
-        )
+        expected = f"at least {turn.radius:.2f} m, the tightest of {name} ({turn.source})"
+        if refused:
+            expected += f": {turn.radius - 1.0 / worst:.2f} m too tight"
+        else:
+            expected += ", and some more to steer with"
         if len(tight) > 1:
             expected += f" (likewise on {len(tight) - 1} more)"
-        yield Verdict(level, self._place(i, t), found, expected)
+        yield Verdict("refused" if refused else "warning", self._place(i, t), found, expected)
 
 
 def _corners(mission: Mission) -> Iterator[Verdict]:
@@ -229,7 +225,7 @@ def _corners(mission: Mission) -> Iterator[Verdict]:
         sharpest = max(corners, key=lambda joint: abs(joint.angle_step))
         count = "a corner" if len(corners) == 1 else f"{len(corners)} corners, the sharpest one"
         found = f"{count} of {abs(math.degrees(sharpest.angle_step)):.0f} deg (G0)"
-        place = f"joint {sharpest.index} at north {sharpest.x:.1f}, east {sharpest.y:.1f}"
+        place = f"joint {sharpest.index} {_at(sharpest.x, sharpest.y)}"
         yield Verdict("warning", place, found, "a smoothing, since no vehicle turns on the spot")
 
 
@@ -262,10 +258,15 @@ def _crossings(mission: Mission) -> Iterator[Verdict]:
         times = "once" if len(found) == 1 else f"{len(found)} times"
         if len(found) == _MOST_CROSSINGS:
             times = f"at least {times}"
-        place = f"subpaths {first.first} and {first.second} at north {first.x:.1f}, east {first.y:.1f}"
+        place = f"subpaths {first.first} and {first.second} {_at(first.x, first.y)}"
         yield Verdict(
             "warning",
             place,
             f"a path that crosses itself {times}",
             "this to be meant: subpaths are followed in their order",
         )
+
+
+def _at(x: float, y: float) -> str:
+    """Rounded, and without a minus in front of a zero."""
+    return f"at north {round(x, 1) + 0.0:.1f}, east {round(y, 1) + 0.0:.1f}"

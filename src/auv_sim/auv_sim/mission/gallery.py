@@ -1,0 +1,146 @@
+"""`scripts/gallery.py`: the five kinds of path of Table 1 over the same waypoints, flown, drawn and tabled."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from auv_msgs_py.errors import ConfigurationError, SuiteError
+from auv_path_following.paths import mission_file
+from auv_path_following.paths.mission_file import Mission
+from auv_sim.analysis.metrics import under_way
+from auv_sim.analysis.run import Run
+from auv_sim.planning.gallery_picture import draw
+from auv_sim.recording.load import load
+
+KINDS = ("linear", "circular", "dubins", "clothoid", "fermat")
+CURRENTS = {"none": (0.0, 0.0), "current": (0.1, 0.2)}
+BEGIN, END = "<!-- gallery: begin -->", "<!-- gallery: end -->"
+_TITLES = {
+    "linear": "Piecewise linear",
+    "circular": "Circular smoothing",
+    "dubins": "Dubins",
+    "clothoid": "Clothoid smoothing",
+    "fermat": "Fermat's spiral smoothing",
+}
+
+
+class Flight(NamedTuple):
+    """One mission flown: its rows under way and its figures."""
+
+    run: Run
+    summary: dict[str, Any]
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Fly what is not yet there, draw, and renew the table; 0 done, 1 a flight failed, 2 bad input."""
+    p = argparse.ArgumentParser(prog="gallery.py", description=__doc__, allow_abbrev=False)
+    p.add_argument(
+        "--page",
+        type=Path,
+        default=Path("docs/missions.md"),
+        help="page with the table (default: %(default)s)",
+    )
+    p.add_argument(
+        "--images",
+        type=Path,
+        default=Path("docs/images"),
+        help="folder of the pictures (default: %(default)s)",
+    )
+    p.add_argument(
+        "--runs",
+        type=Path,
+        default=Path("runs/gallery"),
+        help="folder of the flights; those that are there are not flown again (default: %(default)s)",
+    )
+    p.add_argument("--params", default="robust", help="gains (default: %(default)s)")
+    options = p.parse_args(argv)
+    try:
+        _renew(options)
+    except ConfigurationError as error:
+        print(error, file=sys.stderr)
+        return 2
+    except SuiteError as error:
+        print(error, file=sys.stderr)
+        return 1
+    return 0
+
+
+def _renew(options: argparse.Namespace) -> None:
+    page: Path = options.page
+    text = page.read_text(encoding="utf-8") if page.is_file() else ""
+    if BEGIN not in text or END not in text:
+        raise ConfigurationError(
+            "--page", f"{page} without a table to renew", f"a page with {BEGIN} and {END}"
+        )
+    options.images.mkdir(parents=True, exist_ok=True)
+    rows = []
+    for kind in KINDS:
+        mission = mission_file.load(f"course_{kind}")
+        flights = {name: _flown(kind, name, options) for name in CURRENTS}
+        picture = options.images / f"course_{kind}.png"
+        draw(
+            mission,
+            {name: flight.run for name, flight in flights.items()},
+            CURRENTS["current"],
+            _TITLES[kind],
+            picture,
+        )
+        rows.append(_row(kind, mission, flights))
+    head = text.split(BEGIN)[0] + BEGIN
+    page.write_text(f"{head}\n{_table(rows)}\n{END}{text.split(END)[1]}", encoding="utf-8")
+
+
+def _flown(kind: str, name: str, options: argparse.Namespace) -> Flight:
+    """The flight of one mission over the ROS graph, or what an earlier one left behind."""
+    directory = options.runs / f"{kind}-{name}"
+    if not (directory / "summary.json").is_file():
+        print(f"flying course_{kind}, {name}", flush=True)
+        command = [sys.executable, "-c", "from auv_sim.mission.cli import main; raise SystemExit(main())"]
+        command += [
+            "--mission",
+            f"course_{kind}",
+            "--params",
+            options.params,
+            "--out",
+            str(directory),
+            "--quiet",
+        ]
+        if any(CURRENTS[name]):
+            command += ["--current", *map(str, CURRENTS[name])]
+        if subprocess.run(command, check=False).returncode != 0:  # noqa: S603 - our own launcher
+            raise SuiteError(f"course_{kind}: the flight failed, see {directory}")
+    summary = json.loads((directory / "summary.json").read_text(encoding="utf-8"))
+    mission = mission_file.load(f"course_{kind}")
+    return Flight(under_way(load(directory / "bag"), mission.path.n), summary)
+
+
+def _row(kind: str, mission: Mission, flights: dict[str, Flight]) -> list[str]:
+    joints = {joint.geometric for joint in mission.path.joints}
+    cells = [_TITLES[kind], min(joints), f"{mission.path.length:.1f}"]
+    for flight in flights.values():
+        rms, largest = flight.summary["rms_distance"], flight.summary["largest_distance"]
+        travel = flight.summary["rudder_travel_per_metre"]
+        cells += [f"{rms:.3f}", f"{largest:.2f}", f"{travel:.2f}"]
+    return cells
+
+
+def _table(rows: list[list[str]]) -> str:
+    Vx, Vy = CURRENTS["current"]
+    strength = np.hypot(Vx, Vy)
+    heads = ["path", "joints", "length (m)"]
+    for where in ("no current", f"current {strength:.2f} m/s"):
+        heads += [f"rms distance (m), {where}", f"largest (m), {where}", f"rudder (°/m), {where}"]
+    lines = [heads, ["---", "---", *["---:"] * (len(heads) - 2)], *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

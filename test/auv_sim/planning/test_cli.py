@@ -1,0 +1,105 @@
+"""scripts/plan.py: what it says, what it refuses, and with which exit code."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from auv_path_following import config_files
+from auv_sim.planning import cli
+
+ROOT = Path(__file__).resolve().parents[3]
+#: Each begins with a line `# says: ...`: part of the one line that has to come.
+WRONG = sorted((Path(__file__).parent / "wrong_missions").glob("*.yaml"))
+
+
+def _says(path: Path) -> str:
+    return path.read_text(encoding="utf-8").splitlines()[0].removeprefix("# says: ")
+
+
+def test_there_are_thirty_different_mistakes():
+    assert len(WRONG) >= 30
+    assert len({_says(path) for path in WRONG}) == len(WRONG)
+
+
+@pytest.mark.parametrize("path", WRONG, ids=lambda path: path.stem)
+def test_a_wrong_mission_gets_one_helpful_line_and_exit_code_2(path, capsys):
+    assert cli.main([str(path), "--quiet"]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.count("\n") == 1 and err.endswith("\n")
+    assert path.stem.split("_")[0] in err or "nowhere.kml" in err
+    assert _says(path) in err
+
+
+@pytest.mark.parametrize("path", [WRONG[4], WRONG[19]], ids=lambda path: path.stem)
+def test_so_does_the_command(path, tmp_path):
+    places = os.pathsep.join(
+        str(ROOT / "src" / name) for name in ("auv_msgs_py", "auv_path_following", "auv_sim")
+    )
+    command = "from auv_sim.planning.cli import main; raise SystemExit(main())"
+    done = subprocess.run(
+        [sys.executable, "-c", command, path],
+        capture_output=True, text=True, check=False, cwd=tmp_path, env={**os.environ, "PYTHONPATH": places},
+    )  # fmt: skip
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert _says(path) in done.stderr
+
+
+@pytest.mark.parametrize("name", config_files.shipped("missions"))
+def test_every_shipped_mission_is_flyable(name):
+    assert cli.main([name, "--quiet"]) == 0
+
+
+def test_it_tells_draws_and_exports(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["survey_wgs84", "--export", "path.kml", "--current", "0.1", "0.2"]) == 0
+    out = capsys.readouterr().out
+    assert "duration" in out and "tightest turn 4.21 m" in out
+    assert Path("plan-survey_wgs84.png").read_bytes().startswith(b"\x89PNG")
+    assert "<kml" in Path("path.kml").read_text(encoding="utf-8")
+
+
+def test_the_papers_path_is_flyable_with_its_corner_and_its_crossing(tmp_path, capsys):
+    assert cli.main(["paper_composite", "--out", str(tmp_path / "plan.png")]) == 0
+    out = capsys.readouterr().out
+    assert "a corner of 45 deg (G0)" in out and "crosses itself once" in out
+    assert [line.split()[-2] for line in out.splitlines() if line[:2].strip().isdigit() and "," in line] == [
+        "G0", "G1", "G1", "G2", "G2", "G2",
+    ]  # fmt: skip
+
+
+def test_a_current_too_strong_is_refused(capsys):
+    assert cli.main(["loiter", "--quiet", "--current", "2.1", "0"]) == 2
+    err = capsys.readouterr().err
+    assert "a current of 2.10 m/s against a speed of 2.00 m/s" in err and err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["nowhere"], "no such mission file"),
+        (["loiter", "--vehicle", "nowhere"], "no such vehicle file"),
+        (["loiter", "--export", "path.gpx", "--quiet"], "ends with .geojson or .kml"),
+        (["loiter", "--export", "path.kml", "--quiet"], "to place the path on a chart"),
+        (["loiter", "--out", "nowhere/plan.png", "--quiet"], "a picture that can be written"),
+        (["loiter", "--out", "plan.xyz", "--quiet"], "a picture that can be written"),
+    ],
+)
+def test_wrong_options_get_one_line(arguments, said, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(arguments) == 2
+    err = capsys.readouterr().err
+    assert said in err and err.count("\n") == 1
+
+
+def test_a_number_that_is_none_ends_with_code_2(capsys):
+    with pytest.raises(SystemExit) as caught:
+        cli.main(["loiter", "--current", "nan", "0"])
+    assert caught.value.code == 2
+    assert capsys.readouterr().err.count("\n") == 1
