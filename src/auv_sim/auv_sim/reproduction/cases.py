@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from typing import Any
 
@@ -28,11 +29,12 @@ def beside(offset: float) -> tuple[float, float, float]:
     return x - offset * math.sin(chi), y + offset * math.cos(chi), chi
 
 
-def flights(step: float) -> dict[str, Flight]:
+def flights(step: float, time_limit: float = 1500.0) -> dict[str, Flight]:
     """Every flight of the reproduction.
 
     Args:
         step: time between odometries, s.
+        time_limit: every flight ends here at the latest, s.
     """
     found: list[Flight] = []
     aside = beside(OFFSET)
@@ -77,4 +79,4 @@ def flights(step: float) -> dict[str, Flight]:
         found.append(
             Flight(name=f"4-kp-{plant}", plant=plant, switching="off", start=aside, changes=rate, step=step)
         )
-    return {flight.name: flight for flight in found}
+    return {flight.name: dataclasses.replace(flight, time_limit=time_limit) for flight in found}

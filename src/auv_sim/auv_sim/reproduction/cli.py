@@ -42,6 +42,13 @@ def _count(text: str) -> int:
     return int(text)
 
 
+def _seconds(text: str) -> float:
+    value = float(text)
+    if not 10.0 <= value <= 1e5:
+        raise argparse.ArgumentTypeError(f"found {text}, expected a time from 10 to 100000 s")
+    return value
+
+
 def parser() -> argparse.ArgumentParser:
     """The command line."""
     p = _Parser(
@@ -57,7 +64,18 @@ def parser() -> argparse.ArgumentParser:
         help="where to write (default: reproduction)",
     )
     p.add_argument("--workers", type=_count, default=2, metavar="N", help="processes (default 2)")
-    p.add_argument("--quick", action="store_true", help="10 instead of 20 odometries a second: half the time")
+    p.add_argument(
+        "--quick",
+        action="store_true",
+        help="10 instead of 20 odometries a second, a shorter search at the corner",
+    )
+    p.add_argument(
+        "--time-limit",
+        type=_seconds,
+        default=1500.0,
+        metavar="S",
+        help="every flight ends here at the latest; what comes later then counts as never reached",
+    )
     p.add_argument(
         "--study",
         choices=("starts", "pictures"),
@@ -131,22 +149,23 @@ def _tracked(bar: Progress, what: str, work: Any, items: Sequence[Any], workers:
     return results
 
 
-def _bound(early: bool) -> Bound:
+def _bound(early: bool, effort: int) -> Bound:
     mission = mission_file.load(MISSION)
     angle = abs(mission.path.joints[0].angle_step)
-    return corner.best(vehicle.load("remus100"), angle, mission.thrust, early=early)
+    return corner.best(vehicle.load("remus100"), angle, mission.thrust, early=early, effort=effort)
 
 
-def _work(item: Flight | bool) -> Run | Bound:
-    return _bound(item) if isinstance(item, bool) else fly(item)
+def _work(item: Flight | tuple[bool, int]) -> Run | Bound:
+    return fly(item) if isinstance(item, Flight) else _bound(*item)
 
 
 def _paper(options: argparse.Namespace, console: Console) -> int:
-    named = flights(0.1 if options.quick else 0.05)
+    named = flights(0.1 if options.quick else 0.05, options.time_limit)
     path = mission_file.load(MISSION).path
     with _progress(console) as bar:
         # The searches take longest: they go first.
-        items = [*_BOUNDS.values(), *named.values()]
+        effort = 150 if options.quick else 700
+        items = [*((early, effort) for early in _BOUNDS.values()), *named.values()]
         results = _tracked(bar, "flying the paper's cases", _work, items, options.workers)
         bounds = dict(zip(_BOUNDS, results[: len(_BOUNDS)], strict=True))
         runs: dict[str, Run] = dict(zip(named, results[len(_BOUNDS) :], strict=True))

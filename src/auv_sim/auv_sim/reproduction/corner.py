@@ -26,7 +26,7 @@ class Bound:
     lead: float
 
 
-def best(vehicle: Vehicle, angle: float, thrust: float, *, early: bool) -> Bound:
+def best(vehicle: Vehicle, angle: float, thrust: float, *, early: bool, effort: int = 700) -> Bound:
     """Smallest largest distance found at a corner, with the rudder's rate and angle as its only limits.
 
     The programme knows the hull and the corner beforehand, which no feedback law does; afterwards the vehicle
@@ -38,6 +38,7 @@ def best(vehicle: Vehicle, angle: float, thrust: float, *, early: bool) -> Bound
         angle: course change, rad, to starboard.
         thrust: N.
         early: whether the rudder may move before the corner is reached.
+        effort: programmes tried from each of the two first guesses.
     """
     speed = math.sqrt(thrust / -vehicle.hull.Xuu)
     largest = vehicle.rudder.max_angle
@@ -51,7 +52,7 @@ def best(vehicle: Vehicle, angle: float, thrust: float, *, early: bool) -> Bound
             lambda v: _cost(vehicle, angle, thrust, speed, early, v, largest),
             guess,
             method="Nelder-Mead",
-            options={"maxfev": 700, "xatol": 1e-3, "fatol": 1e-4, "adaptive": True},
+            options={"maxfev": effort, "xatol": 1e-3, "fatol": 1e-4, "adaptive": True},
         ).x
         deviation = _cost(vehicle, angle, thrust, speed, early, found_here, largest)
         if deviation < found.deviation:

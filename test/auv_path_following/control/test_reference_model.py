@@ -1,0 +1,100 @@
+"""The reference model: its limits hold for whatever guidance asks, and what it feeds forward is exact."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from auv_msgs_py.angles import wrap
+from auv_path_following import vehicle
+from auv_path_following.control.hull_model import HullModel
+from auv_path_following.control.reference_model import ReferenceConfig, ReferenceModel, limits_of
+
+REMUS = vehicle.load("remus100")
+RATE = REMUS.rudder.max_rate
+CONFIG = ReferenceConfig(enabled=True)
+DT = 0.05
+
+angles = st.floats(-math.pi, math.pi)
+
+
+def model(**changes):
+    return ReferenceModel(dataclasses.replace(CONFIG, **changes), REMUS, RATE)
+
+
+@settings(deadline=None, max_examples=60)
+@given(
+    st.lists(st.tuples(angles, st.floats(-0.1, 0.1)), min_size=5, max_size=60),
+    st.sampled_from([0.02, 0.05, 0.1]),
+)
+def test_rate_acceleration_and_jerk_stay_within_their_limits(wanted, dt):
+    reference = model()
+    limits = reference.limits
+    last = reference.update(0.3, 0.0, 0.3, 0.0, 0.0)
+    for psi_d, r_d in wanted:
+        shaped = reference.update(0.3, 0.0, psi_d, r_d, dt)
+        assert abs(shaped.r_d_dot) <= limits.acceleration * (1 + 1e-9)
+        assert abs(shaped.r_d_dot - last.r_d_dot) <= limits.jerk * dt * (1 + 1e-9)
+        # It brakes with limited jerk, so it may run over the rate a little, never far.
+        assert (
+            abs(shaped.r_d)
+            <= limits.rate + 0.5 * limits.acceleration**2 / limits.jerk + limits.acceleration * dt
+        )
+        last = shaped
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.lists(angles, min_size=5, max_size=60))
+def test_what_is_fed_forward_are_the_exact_derivatives(wanted):
+    reference = model()
+    last = reference.update(0.0, 0.1, 0.0, 0.0, 0.0)
+    for psi_d in wanted:
+        shaped = reference.update(0.0, 0.0, psi_d, 0.0, DT)
+        assert shaped.r_d == pytest.approx(last.r_d + last.r_d_dot * DT, abs=1e-12)
+        moved = last.r_d * DT + 0.5 * last.r_d_dot * DT * DT
+        assert wrap(shaped.psi_d - last.psi_d - moved) == pytest.approx(0.0, abs=1e-12)
+        last = shaped
+
+
+@pytest.mark.parametrize("psi_d", [-3.0, -0.5, 0.2, 3.1])
+def test_it_comes_to_rest_on_what_is_asked_without_running_over_it_far(psi_d):
+    reference = model()
+    furthest = 0.0
+    for _ in range(1200):
+        shaped = reference.update(0.0, 0.0, psi_d, 0.0, DT)
+        furthest = max(furthest, math.copysign(1.0, psi_d) * shaped.psi_d - abs(psi_d))
+    assert shaped.psi_d == pytest.approx(psi_d, abs=1e-6)
+    assert abs(shaped.r_d) < 1e-6
+    assert furthest < 0.06
+
+
+def test_it_starts_from_the_vehicle_and_again_after_a_reset():
+    reference = model()
+    assert reference.update(1.2, 0.15, -1.0, 0.0, 0.0)[:2] == pytest.approx((1.2, 0.15))
+    reference.update(1.2, 0.15, -1.0, 0.0, DT)
+    reference.reset()
+    assert reference.update(-2.0, -0.1, 1.0, 0.0, DT)[:2] == pytest.approx((-2.0, -0.1))
+
+
+def test_it_follows_a_turning_path_without_lag():
+    reference = model()
+    for k in range(800):
+        psi_d = wrap(0.02 * k * DT)
+        shaped = reference.update(0.0, 0.0, psi_d, 0.02, DT)
+    assert wrap(shaped.psi_d - psi_d) == pytest.approx(0.0, abs=1e-3)
+    assert shaped.r_d == pytest.approx(0.02, abs=1e-4)
+
+
+def test_given_limits_are_taken_and_others_follow_from_hull_and_rudder():
+    given_limits = dataclasses.replace(CONFIG, max_rate=0.2, max_acceleration=0.1, max_jerk=0.5)
+    assert limits_of(given_limits, HullModel(REMUS), RATE) == (0.2, 0.1, 0.5)
+    slow, fast = (limits_of(CONFIG, HullModel(REMUS), share * RATE) for share in (0.5, 1.0))
+    assert fast.jerk == pytest.approx(2.0 * slow.jerk)
+    assert fast.acceleration == pytest.approx(2.0 * slow.acceleration)
+    assert slow.rate < fast.rate <= HullModel(REMUS).steady_turn(HullModel(REMUS).cruise(REMUS.thrust_max))
+    weak = limits_of(CONFIG, HullModel(vehicle.load("remus100_mismatch")), RATE)
+    assert weak.jerk < fast.jerk
