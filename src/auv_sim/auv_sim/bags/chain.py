@@ -18,7 +18,7 @@ from auv_msgs_py.conversions import nanoseconds, navigation_from, water_velocity
 from auv_msgs_py.errors import ConfigurationError, MessageRefused
 from auv_msgs_py.frames import FrameTable, flip_yaw
 from auv_msgs_py.stamps import StampGuard, Verdict
-from auv_msgs_py.types import STOP, Reference, WaterVelocity
+from auv_msgs_py.types import Reference, WaterVelocity
 from auv_path_following.control.autopilot import HeadingAutopilot
 from auv_path_following.guidance.current_observer import CurrentObserver
 from auv_path_following.guidance.path_follower import PathFollower
@@ -102,7 +102,7 @@ class _Chain:
     """Observer, guidance and autopilot."""
 
     def __init__(self, parameters: dict[str, Any], mission: Mission, vehicle: Vehicle) -> None:
-        guidance = parameters[topics.GUIDANCE]
+        guidance = parameters[topics.GUIDANCE].with_wishes_of(mission)
         self._mission = mission
         self._frames = FrameTable(guidance.frames)
         self._guard = StampGuard(ordered=guidance.lockstep)
@@ -145,9 +145,7 @@ class _Chain:
         thrust = self._mission.thrust if running else 0.0
         yaw, rate = flip_yaw(psi_d), -r_d
         reference = Reference(flip_yaw(yaw), -rate, thrust)
-        command = self._autopilot.update(navigation, reference, dt).command if thrust > 0.0 else STOP
-        if thrust <= 0.0:
-            self._autopilot.reset()
+        command = self._autopilot.update(navigation, reference, dt).command
         return Answer(command.rudder, command.thrust, yaw, rate, thrust, output.s)
 
     def _water(self, message: Any | None) -> WaterVelocity | None:

@@ -17,7 +17,10 @@ EXIT_OK, EXIT_DIFFERENT, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
 VERBS = {
     "inspect": "what is in a recording, and what happened: topics, mission, events",
     "report": "one interactive HTML page, and pictures beside it",
+    "compare": "several runs laid over each other, and a table of their differences",
+    "replay": "play the recorded topics into a live graph",
     "rerun": "feed the recorded sensors through guidance and control again, with other gains",
+    "export": "one table, as CSV or Parquet",
     "repair": "make a damaged or unfinished recording whole",
 }
 

@@ -18,6 +18,7 @@ from auv_sim.analysis.metrics import MissionSummary, summarise
 from auv_sim.analysis.run import Run
 from auv_sim.parameters import SUITE
 from auv_sim.recording.bag import Bag
+from auv_sim.recording.bag_writer import texts_below
 from auv_sim.recording.load import run_of
 
 #: The files that the launcher writes and the recorder keeps.
@@ -69,15 +70,15 @@ def flight_of(bag: Bag, mission: str | None = None, namespace: str | None = None
             raise
         notes.append(f"no mission figures: {_without_place(error, bag)}")
     flown = hull = None
-    if mission is not None:
-        flown = mission_file.load(str(config_files.find("missions", mission)))
     with configuration(bag) as directory:
-        if flown is None and (directory / MISSION).exists():
-            with _noted(notes):
-                flown = mission_file.load(str(directory / MISSION))
         if (directory / VEHICLE).exists():
             with _noted(notes):
                 hull = vehicle.load(str(directory / VEHICLE))
+        if mission is not None:
+            flown = mission_file.load(str(config_files.find("missions", mission)), hull)
+        elif (directory / MISSION).exists():
+            with _noted(notes):
+                flown = mission_file.load(str(directory / MISSION), hull)
     if flown is None and run is not None:
         notes.append("no mission file in or beside the recording: name one with --mission for the figures")
     return Flight(bag, run, flown, hull, notes)
@@ -88,8 +89,7 @@ def texts_of(bag: Bag) -> dict[str, str]:
     if bag.texts:
         return dict(sorted(bag.texts.items()))
     root = bag.path if bag.path.is_dir() else bag.path.parent
-    files = sorted((root.parent / "config").glob("*.yaml"))
-    return {file.name: file.read_text(encoding="utf-8", errors="replace") for file in files}
+    return texts_below(root.parent / "config")
 
 
 @contextlib.contextmanager
@@ -98,7 +98,10 @@ def configuration(bag: Bag) -> Iterator[Path]:
     with tempfile.TemporaryDirectory(prefix="auv-bag-") as name:
         directory = Path(name)
         for file, text in texts_of(bag).items():
-            (directory / Path(file).name).write_text(text, encoding="utf-8")
+            place = (directory / file).resolve()
+            if place.is_relative_to(directory.resolve()):  # a recording is not to be trusted with a path
+                place.parent.mkdir(parents=True, exist_ok=True)
+                place.write_text(text, encoding="utf-8")
         yield directory
 
 

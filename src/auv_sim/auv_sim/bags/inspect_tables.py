@@ -57,7 +57,8 @@ def _topics(facts: list[TopicFacts]) -> Table:
     for f in facts:
         table.add_row(
             f.name, f.type.replace("/msg/", "/"), str(f.count), _number(f.rate, 2), _alarm(f.gaps),
-            _number(f.longest_gap, 3), _number(f.jitter, 2), _alarm(f.out_of_order), _alarm(f.lost), size(f.bytes),
+            _number(f.longest_gap, 3), _number(f.jitter, 2), _alarm(f.out_of_order), _alarm(f.lost),
+            size(f.bytes),
         )  # fmt: skip
     return table
 

@@ -141,11 +141,13 @@ def _panels(flight: Flight, columns: dict[str, Any], start: float) -> list[dict[
     rate = [math.degrees(hull.rudder.max_rate)] if hull is not None else []
     wanted = [
         ("Distance to the path (m)", 0.2, [], [
-            _series("distance", "geometric distance", "path", 4.0), _series("ye", "cross-track error ye", "blue"),
+            _series("distance", "geometric distance", "path", 4.0),
+            _series("ye", "cross-track error ye", "blue"),
         ]),
         ("Along-track error xe (m)", 0.2, [], [_series("xe", "xe", "blue")]),
         ("Heading (°)", 5.0, [], [
-            _series("psi_d", "desired ψd", "path", 4.0, True), _series("psi", "measured ψ", "blue", 1.5, True),
+            _series("psi_d", "desired ψd", "path", 4.0, True),
+            _series("psi", "measured ψ", "blue", 1.5, True),
         ]),
         ("Heading error (°)", 2.0, [], [_series("psi_e", "ψ − ψd", "blue")]),
         ("Rudder (°)", 2.0, angle, [

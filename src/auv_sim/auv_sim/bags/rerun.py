@@ -104,8 +104,9 @@ def rerun(
                 raise ConfigurationError(
                     str(bag.path), f"no {file} in or beside the recording", f"{option} FILE"
                 )
-        flown = mission_file.load(str(chosen["missions"]))
-        return answers(bag, parameters, flown, vehicle.load(str(chosen["vehicles"])), namespace)
+        known_hull = vehicle.load(str(chosen["vehicles"]))
+        flown = mission_file.load(str(chosen["missions"]), known_hull)
+        return answers(bag, parameters, flown, known_hull, namespace)
 
 
 def _parameters(recorded: Path, new: str | None) -> dict[str, Any]:

@@ -102,13 +102,11 @@ def show(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary,
         ("log", "what each node said"),
     ):
         console.print(f"  {directory / name}  [dim]{what}[/dim]", soft_wrap=True, highlight=False)
-    console.print(f"\nLook further:  {_next_command(plan, directory)}", soft_wrap=True, highlight=False)
+    console.print(f"\nLook further:  {_next_command(directory)}", soft_wrap=True, highlight=False)
 
 
-def _next_command(plan: Plan, directory: Path) -> str:
-    if plan.options.current is None and not plan.options.no_sim:
-        return "python3 scripts/mission.py --current 0.1 0.2"
-    return f"ros2 bag info {shlex.quote(str(directory / 'bag'))}"
+def _next_command(directory: Path) -> str:
+    return f"python3 scripts/bag.py report {shlex.quote(str(directory))}"
 
 
 def _number(value: float, digits: int) -> str:

@@ -17,7 +17,7 @@ from auv_msgs_py import topics
 from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.runtime import SuiteNode, run_nodes
 from auv_sim.parameters import RecorderParameters
-from auv_sim.recording.bag_writer import BagWriter
+from auv_sim.recording.bag_writer import BagWriter, texts_below
 from auv_sim.recording.intake import Taken, Timestamps, drain
 from auv_sim.recording.selection import Selection
 
@@ -157,8 +157,7 @@ class RecorderNode(SuiteNode):
 
 def _configuration(directory: Path) -> dict[str, str]:
     """The configuration that the launcher wrote beside the bag, so that the bag alone tells everything."""
-    files = sorted((directory.parent / "config").glob("*.yaml"))
-    return {file.name: file.read_text(encoding="utf-8", errors="replace") for file in files}
+    return texts_below(directory.parent / "config")
 
 
 def main(args: Sequence[str] | None = None) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
@@ -20,8 +21,20 @@ __all__ = ["METADATA_FILE", "BagWriter", "Channel", "typestore"]
 
 #: Name of the MCAP metadata record that holds the texts kept in a file.
 TEXTS = "auv_sim.texts"
+#: Larger files are no configuration, bytes.
+TEXT_LIMIT = 4_000_000
 #: What may wait in memory for a disk that is full, bytes; further messages are counted and given up.
 PENDING_LIMIT = 16 * 1024 * 1024
+
+
+def texts_below(directory: Path) -> dict[str, str]:
+    """Every text file below a directory, by its path within; what is no text, or large, is left out."""
+    texts = {}
+    for file in sorted(directory.rglob("*")):
+        if file.is_file() and file.stat().st_size < TEXT_LIMIT:
+            with contextlib.suppress(UnicodeDecodeError):
+                texts[file.relative_to(directory).as_posix()] = file.read_text(encoding="utf-8")
+    return texts
 
 
 class Channel:

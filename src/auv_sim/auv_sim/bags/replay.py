@@ -1,0 +1,84 @@
+"""Play recorded topics into a live graph, with their recorded QoS and timing.
+
+While it plays: space pauses and goes on, s plays the next instant while paused, q ends.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+
+from auv_msgs_py.errors import ConfigurationError
+from auv_sim.recording.bag import read_bag
+from auv_sim.recording.playback import Player, Selected, select
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The verb's options."""
+    parser.add_argument("bag", type=Path, metavar="BAG", help="recording or run directory")
+    parser.add_argument(
+        "--rate", type=_positive, default=1.0, metavar="N", help="times the recorded speed (default 1)"
+    )
+    parser.add_argument("--start", type=_not_negative, default=0.0, metavar="S", help="skip so many seconds")
+    parser.add_argument(
+        "--duration", type=_positive, metavar="S", help="play so many seconds of the recording"
+    )
+    parser.add_argument("--loop", action="store_true", help="begin again at the end, until stopped")
+    parser.add_argument("--clock", action="store_true", help="publish the recorded time on /clock")
+    parser.add_argument(
+        "--topics", nargs="+", metavar="NAME", help="only these; a last part of a name will do"
+    )
+    parser.add_argument("--exclude", nargs="+", default=[], metavar="NAME", help="not these")
+    parser.add_argument(
+        "--remap", nargs="+", default=[], metavar="OLD:=NEW", help="publish under another name"
+    )
+    parser.add_argument(
+        "--delay",
+        type=_not_negative,
+        default=1.0,
+        metavar="S",
+        help="wait so long for subscribers first (default 1)",
+    )
+    parser.add_argument("--start-paused", action="store_true", help="wait for the space bar")
+
+
+def _finite(text: str) -> float:
+    value = float(text)
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"found {text}, expected a finite number")
+    return value
+
+
+def _positive(text: str) -> float:
+    value = _finite(text)
+    if value <= 0.0:
+        raise argparse.ArgumentTypeError(f"found {text}, expected a number greater than 0")
+    return value
+
+
+def _not_negative(text: str) -> float:
+    value = _finite(text)
+    if value < 0.0:
+        raise argparse.ArgumentTypeError(f"found {text}, expected a number that is not negative")
+    return value
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Play; 0 at the end, 130 when interrupted."""
+    bag = read_bag(arguments.bag)
+    for note in bag.notes:
+        print(f"damaged: {note}")
+    remaps = {}
+    for text in arguments.remap:
+        old, separator, new = text.partition(":=")
+        if not (old and separator and new):
+            raise ConfigurationError("--remap", f"'{text}'", "OLD:=NEW")
+        remaps[old] = new
+    chosen: Selected = select(
+        bag, arguments.topics, arguments.exclude, remaps, arguments.start, arguments.duration, arguments.clock
+    )
+    length = f"{chosen.length:.1f} s at {arguments.rate:g}x"
+    print(f"{len(chosen.topics)} topics, {len(chosen.messages)} messages, {length}")
+    with Player(chosen, arguments.rate, arguments.clock) as player:
+        return player.play(arguments.delay, arguments.loop, arguments.start_paused)
