@@ -97,7 +97,7 @@ def figure_5(runs: Runs, path: CompositePath) -> Sheet:
         axes.set_title(PLANTS[plant].label, color=INK, fontsize=10)
         axes.set_aspect("equal", adjustable="box")
         axes.set_xlim(-30, 560)
-        axes.set_ylim(-190, 230)
+        axes.set_ylim(-40, 330)
     return sheet
 
 
