@@ -54,6 +54,10 @@ def test_time_that_went_back_is_seen_with_the_second_old_stamp():
     assert verdicts([100, 110, 5, 15, 25]) == [ACCEPT, ACCEPT, REFUSE, RESTART, ACCEPT]
 
 
+def test_one_old_message_sent_again_and_again_is_no_restart():
+    assert verdicts([100, 60, 60, 60, 110]) == [ACCEPT, REFUSE, REFUSE, REFUSE, ACCEPT]
+
+
 def test_old_stamps_apart_from_each_other_are_no_restart():
     assert verdicts([100, 60, 110, 70, 120]) == [ACCEPT, REFUSE, ACCEPT, REFUSE, ACCEPT]
 
