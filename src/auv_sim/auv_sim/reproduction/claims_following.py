@@ -168,7 +168,8 @@ def joints(runs: Runs, path: CompositePath) -> Claim:
             Number(f"{PLANTS[plant].label}: largest distance near {kind} joints", worst[kind], "m")
             for kind in sorted(worst)
         ]
-        held[PLANTS[plant].label] = worst["G0"] >= 3.0 * max(worst["G1"], worst["G2"])
+        others = max(worst["G1"], worst["G2"])
+        held[PLANTS[plant].label] = bool(np.isfinite(others) and worst["G0"] >= 3.0 * others)
     return Claim(
         "joints",
         "Section 5.1",
@@ -192,7 +193,7 @@ def early_switching(runs: Runs, path: CompositePath) -> Claim:
     for label, (without, early) in cases.items():
         a, b = m.at_joint(runs[without], path, 0), m.at_joint(runs[early], path, 0)
         numbers += [Number(f"{label}: without (44)", a, "m", 2), Number(f"{label}: with (44)", b, "m", 2)]
-        held[label] = b <= 0.5 * a
+        held[label] = bool(np.isfinite(a) and b <= 0.5 * a)
     return Claim(
         "early_switching",
         "Section 5.2, Figs. 9 and 10",

@@ -41,6 +41,7 @@ class _Gain(NamedTuple):
     signal: str
     label: str
     seconds: float = 40.0
+    words: tuple[str, str, str] = ("low", "", "high")
 
 
 GAINS = (
@@ -49,7 +50,17 @@ GAINS = (
     _Gain("k1", "autopilot", "nism.k1", "rad/s", (0.05, 0.4, 3.0), "psi_e", "ψe (°)"),
     _Gain("k3", "autopilot", "nism.k3", "rad/s²", (0.03, 0.4, 4.0), "psi_e", "ψe (°)"),
     _Gain("k5", "autopilot", "nism.k5", "s²/rad", (0.5, 15.0, 200.0), "rudder_cmd", "δ (°)"),
-    _Gain("kp", "autopilot", "nism.kp", "rad/s", (0.05, 0.1745, 0.2618), "psi_e", "ψe (°)"),
+    _Gain(
+        "kp",
+        "autopilot",
+        "nism.kp",
+        "rad/s",
+        (0.05, 0.1745, 0.2618),
+        "psi_e",
+        "ψe (°)",
+        40.0,
+        ("low", "Table 4", "the rudder's own"),
+    ),
 )
 
 
@@ -133,7 +144,7 @@ def _phase(file: Path) -> None:
     style(gain, "|r / δ| (1/s)")
     style(phase, "phase (°)")
     gain.legend(fontsize=8, frameon=False)
-    phase.legend(fontsize=8, frameon=False, loc="lower left")
+    phase.legend(fontsize=8, frameon=False, loc="center left")
     phase.set_xlabel("angular frequency (rad/s)")
     figure.savefig(file, **_PNG)
 
@@ -163,7 +174,7 @@ def _gains(folder: Path, run: Runner) -> None:
         axes = figure.subplots()
         style(axes, gain.label)
         axes.set_xlabel("t (s)")
-        for value, color, word in zip(gain.values, (ORANGE, GREEN, RED), ("low", "", "high"), strict=True):
+        for value, color, word in zip(gain.values, (ORANGE, GREEN, RED), gain.words, strict=True):
             result: Run = next(flown)
             signal = getattr(result, gain.signal)
             values = signal if gain.signal == "ye" else np.degrees(signal)
