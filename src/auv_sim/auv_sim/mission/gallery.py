@@ -1,4 +1,4 @@
-"""`scripts/gallery.py`: the five kinds of path of Table 1 over the same waypoints, flown, drawn and tabled."""
+"""`scripts/gallery.py`: Table 1's five kinds of path over the same waypoints, flown, drawn and tabled."""
 
 from __future__ import annotations
 
@@ -9,8 +9,6 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
-
-import numpy as np
 
 from auv_msgs_py.errors import ConfigurationError, SuiteError
 from auv_path_following.paths import mission_file
@@ -74,12 +72,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _renew(options: argparse.Namespace) -> None:
-    page: Path = options.page
-    text = page.read_text(encoding="utf-8") if page.is_file() else ""
-    if BEGIN not in text or END not in text:
-        raise ConfigurationError(
-            "--page", f"{page} without a table to renew", f"a page with {BEGIN} and {END}"
-        )
+    _parts(options.page)  # before ten flights, not after
     options.images.mkdir(parents=True, exist_ok=True)
     rows = []
     for kind in KINDS:
@@ -94,8 +87,17 @@ def _renew(options: argparse.Namespace) -> None:
             picture,
         )
         rows.append(_row(kind, mission, flights))
-    head = text.split(BEGIN)[0] + BEGIN
-    page.write_text(f"{head}\n{_table(rows)}\n{END}{text.split(END)[1]}", encoding="utf-8")
+    before, after = _parts(options.page)
+    options.page.write_text(f"{before}{BEGIN}\n{_table(rows)}\n{END}{after}", encoding="utf-8")
+
+
+def _parts(page: Path) -> tuple[str, str]:
+    """What stands before and behind the table."""
+    text = page.read_text(encoding="utf-8") if page.is_file() else ""
+    if BEGIN not in text or END not in text:
+        found = f"{page} without a table to renew"
+        raise ConfigurationError("--page", found, f"a page with {BEGIN} and {END}")
+    return text.split(BEGIN)[0], text.split(END)[1]
 
 
 def _flown(kind: str, name: str, options: argparse.Namespace) -> Flight:
@@ -133,11 +135,9 @@ def _row(kind: str, mission: Mission, flights: dict[str, Flight]) -> list[str]:
 
 
 def _table(rows: list[list[str]]) -> str:
-    Vx, Vy = CURRENTS["current"]
-    strength = np.hypot(Vx, Vy)
     heads = ["path", "joints", "length (m)"]
-    for where in ("no current", f"current {strength:.2f} m/s"):
-        heads += [f"rms distance (m), {where}", f"largest (m), {where}", f"rudder (°/m), {where}"]
+    for where in ("", " in the current"):
+        heads += [f"rms (m){where}", f"largest (m){where}", f"rudder (°/m){where}"]
     lines = [heads, ["---", "---", *["---:"] * (len(heads) - 2)], *rows]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 

@@ -84,7 +84,7 @@ def _map(axes: Axes, mission: Mission) -> None:
             for number, (n, e) in enumerate(mission.waypoints, start=1):
                 axes.annotate(
                     str(number), (e, n), xytext=(7, 7), textcoords="offset points", color=MUTED, fontsize=10,
-                    path_effects=HALO,
+                    path_effects=HALO, zorder=7,
                 )  # fmt: skip
     axes.plot(y, x, color=BLUE, linewidth=2.4 if few else 1.0, label="path", zorder=3)
     joints = mission.path.joints[: max(mission.once - 1, 0)]

@@ -81,9 +81,10 @@ def _distances(axes: Axes, mission: Mission, runs: Mapping[str, Run]) -> None:
         rms = float(np.sqrt(np.nanmean(distance**2)))
         most = float(np.nanmax(distance))
         largest = max(largest, most)
-        axes.plot(flown, distance, color=color, linewidth=1.2, label=f"rms {rms:.3f} m, largest {most:.2f} m")
+        axes.plot(flown, distance, color=color, linewidth=1.2, label=f"rms {rms:.3f}, largest {most:.2f} m")
     axes.set_ylim(0.0, 1.08 * largest)
     axes.set_xlim(left=0.0)
     axes.legend(
-        loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, fontsize=9, frameon=False, borderpad=0.1
-    )
+        loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, fontsize=8.5, frameon=False, borderpad=0.1,
+        handlelength=1.2, columnspacing=1.2,
+    )  # fmt: skip

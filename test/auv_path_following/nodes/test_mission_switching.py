@@ -1,0 +1,35 @@
+"""ailos_guidance by itself takes over the switching that its mission asks for."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from auv_path_following.nodes.guidance_node import GuidanceNode
+from node_bench import Bench
+
+
+@pytest.fixture
+def mission(tmp_path: Path) -> str:
+    file = tmp_path / "wish.yaml"
+    route = "loiter: {centre: [0, 0], radius: 30}\nswitching: {mode: all, radius: 3}\n"
+    file.write_text(f"version: 1\nname: wish\nframe: ned\nspeed: 1.5\n{route}", encoding="utf-8")
+    return str(file)
+
+
+@pytest.mark.parametrize(("taken", "expected"), [(True, ("all", 3.0)), (False, ("off", 6.0))])
+def test_its_parameters_show_what_counts(
+    bench: Bench, mission: str, taken: bool, expected: tuple[str, float]
+) -> None:
+    wishes = {"mission": mission, "mission_switching": taken, "guidance__switching__mode": "off"}
+    node = bench.start(GuidanceNode, **wishes)
+    names = ("guidance.switching.mode", "guidance.switching.radius")
+    assert tuple(node.get_parameter(name).value for name in names) == expected
+    switching = node.follower.circle.config
+    assert (switching.mode, switching.radius) == expected
+
+
+def test_a_speed_becomes_the_vehicles_thrust(bench: Bench, mission: str) -> None:
+    node = bench.start(GuidanceNode, mission=mission, vehicle="remus100")
+    assert node.mission.thrust == pytest.approx(1.62 * 1.5**2)

@@ -1,0 +1,77 @@
+"""The launcher makes the plan's check, and works out whose switching counts."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from auv_msgs_py import params_file, topics
+from auv_msgs_py.errors import ConfigurationError
+from auv_path_following.paths import mission_file
+from auv_sim.mission import cli, plan
+from auv_sim.mission.plan import Options
+from auv_sim.parameters import SUITE
+
+TIGHT = Path(__file__).parents[1] / "planning" / "wrong_missions" / "20_turn_too_tight.yaml"
+
+
+def _mission(folder: Path, more: str = "") -> str:
+    file = folder / "own.yaml"
+    route = "waypoints: {file: points/a.csv, smoothing: {kind: linear}}\n"
+    file.write_text(f"version: 1\nname: own\nframe: ned\nthrust: 6\n{more}{route}", encoding="utf-8")
+    (folder / "points").mkdir()
+    (folder / "points" / "a.csv").write_text("north,east\n0,0\n50,0\n50,50\n", encoding="utf-8")
+    return str(file)
+
+
+def test_what_cannot_be_flown_is_refused_before_anything_starts(tmp_path, capsys):
+    assert cli.main(["--mission", str(TIGHT), "--out", str(tmp_path / "run")]) == 2
+    err = capsys.readouterr().err
+    assert "1.21 m too tight" in err and "--force" in err and err.count("\n") == 1
+    assert not (tmp_path / "run").exists()
+
+
+def test_force_overrides(tmp_path):
+    made = plan.make(Options(mission=str(TIGHT), force=True), tmp_path)
+    assert len(made.verdicts.refusals) == 1
+
+
+def test_a_current_too_strong_is_refused(tmp_path):
+    with pytest.raises(ConfigurationError, match=r"a current of 2\.50 m/s against a speed of 2\.00 m/s"):
+        plan.make(Options(current=(2.5, 0.0)), tmp_path)
+
+
+def test_the_papers_mission_is_flown_with_warnings_only(tmp_path):
+    made = plan.make(Options(current=(0.1, 0.2)), tmp_path)
+    assert not made.verdicts.refusals
+    assert len(made.verdicts.warnings) == 2
+
+
+@pytest.mark.parametrize(
+    ("wish", "option", "expected"),
+    [
+        ("", None, ("g0", 6.0)),
+        ("switching: {mode: all, radius: 3}\n", None, ("all", 3.0)),
+        ("switching: {mode: all, radius: 3}\n", "off", ("off", 3.0)),
+        ("", "off", ("off", 6.0)),
+    ],
+)
+def test_option_before_mission_before_parameters(tmp_path, wish, option, expected):
+    made = plan.make(Options(mission=_mission(tmp_path, wish), params="paper", switching=option), tmp_path)
+    guidance = made.parameters[topics.GUIDANCE]
+    assert (guidance.guidance.switching.mode, guidance.guidance.switching.radius) == expected
+    assert made.scenario().guidance.switching == guidance.guidance.switching
+
+
+def test_the_written_configuration_flies_the_same_again(tmp_path):
+    wish = "switching: {mode: all, radius: 3}\n"
+    made = plan.make(Options(mission=_mission(tmp_path, wish), switching="off"), tmp_path)
+    written = made.write(tmp_path / "config")
+    again = params_file.load(written, SUITE)[topics.GUIDANCE]
+    copy = mission_file.load(again.mission)
+    assert Path(again.mission).parent == tmp_path / "config"
+    assert copy.waypoints == made.mission.waypoints
+    assert again.with_wishes_of(copy).guidance.switching.mode == "off"
+    third = plan.make(Options(mission=again.mission, params=str(written)), tmp_path)
+    assert third.parameters[topics.GUIDANCE].guidance.switching.mode == "off"
