@@ -82,9 +82,7 @@ class GuidanceParameters(NavigationParameters):
 class AutopilotParameters(NavigationParameters):
     """heading_autopilot."""
 
-    vehicle: str = setting(
-        "remus100", "vehicle file or shipped name: limits of rudder and thrust"
-    )
+    vehicle: str = setting("remus100", "vehicle file or shipped name: limits of rudder and thrust")
     autopilot: AutopilotConfig = setting(factory=AutopilotConfig, doc="controller and gains")
     reference_timeout: float = setting(
         0.5, "guidance silent for this long: rudder and thrust go to 0", unit="s", gt=0.0, le=10.0, live=True
