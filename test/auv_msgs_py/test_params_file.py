@@ -113,3 +113,10 @@ def test_as_ros_is_read_back(tmp_path):
     path = tmp_path / "params.yaml"
     yaml_file.dump(data, path)
     assert params_file.load(path, CLASSES) == configurations
+
+
+def test_a_block_for_all_nodes_and_use_sim_time_are_understood(tmp_path):
+    path = tmp_path / "params.yaml"
+    path.write_text("/**: {ros__parameters: {k1: 0.5, use_sim_time: true}}\n")
+    loaded = params_file.load(path, {"one": Gains, "two": Gains})
+    assert [node.k1 for node in loaded.values()] == [0.5, 0.5]

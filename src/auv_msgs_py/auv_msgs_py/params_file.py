@@ -26,7 +26,8 @@ def load(path: Path, classes: Mapping[str, type[Any]]) -> dict[str, Any]:
         classes: node name -> settings class that holds all of its parameters.
 
     Returns:
-        node name -> settings object; nodes the file does not mention have their defaults.
+        node name -> settings object; nodes the file does not mention have their defaults. A block for
+        ``/**`` is for all of them.
 
     Raises:
         ConfigurationError: naming file and key, what was found and what was expected.
@@ -37,7 +38,7 @@ def load(path: Path, classes: Mapping[str, type[Any]]) -> dict[str, Any]:
     values: dict[str, dict[str, Any]] = {name: {} for name in classes}
     for pattern, body in data.items():
         name = str(pattern).rsplit("/", 1)[-1]
-        if name not in classes:
+        if name not in classes and name != "**":
             known = ", ".join(f"/**/{known}" for known in classes)
             raise ConfigurationError(f"{path}: {pattern}", "an unknown node", f"one of {known}")
         if not isinstance(body, dict) or set(body) != {"ros__parameters"}:
@@ -45,7 +46,9 @@ def load(path: Path, classes: Mapping[str, type[Any]]) -> dict[str, Any]:
         parameters = body["ros__parameters"]
         if not isinstance(parameters, dict):
             raise ConfigurationError(f"{path}: {pattern}.ros__parameters", repr(parameters), "a mapping")
-        values[name] |= _undotted(parameters)
+        for node in classes if name == "**" else (name,):
+            values[node] |= _undotted(parameters)
+            values[node].pop("use_sim_time", None)  # every ROS node's own; who starts a node decides on it
     return {name: validated(cls, nested(values[name]), f"{path}: {name}") for name, cls in classes.items()}
 
 

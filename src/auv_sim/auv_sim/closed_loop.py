@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from auv_msgs_py import topics
-from auv_msgs_py.types import NO_CURRENT, STOP, Current, Reference
+from auv_msgs_py.types import NO_CURRENT, Current, Reference
 from auv_path_following.control.autopilot import AutopilotConfig, HeadingAutopilot
 from auv_path_following.guidance.current_observer import CurrentObserver, CurrentObserverConfig
 from auv_path_following.guidance.path_follower import PathFollower, PathFollowerConfig
@@ -88,8 +88,6 @@ def fly(scenario: Scenario, progress: Callable[[float], None] | None = None) -> 
         g = follower.update(navigation, water, estimate, since)
         thrust = 0.0 if g.finished else c.thrust
         command = autopilot.update(navigation, Reference(g.psi_d, g.r_d, thrust), since).command
-        if g.finished:
-            command = STOP
         rows.append(
             (
                 stamp * 1e-9, navigation.x, navigation.y, navigation.psi, navigation.r, water.ur, water.vr,

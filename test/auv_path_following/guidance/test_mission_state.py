@@ -156,3 +156,10 @@ class Life(RuleBasedStateMachine):
 
 TestLife = Life.TestCase
 TestLife.settings = settings(max_examples=30, stateful_step_count=20, deadline=None)
+
+
+def test_the_first_reason_of_an_abort_stays(mission):
+    mission.start()
+    mission.abort("the geofence was left")
+    mission.abort("abort was called")
+    assert mission.reason == "the geofence was left"

@@ -56,8 +56,8 @@ class MissionState:
         return True
 
     def abort(self, reason: str) -> None:
-        """End a mission that is under way; always possible, harmless otherwise."""
-        if self.state is not State.COMPLETE:
+        """End the mission, begun or not; the first reason stays, and a completed one stays complete."""
+        if self.state not in (State.COMPLETE, State.ABORTED):
             self._to(State.ABORTED, reason)
 
     def complete(self) -> None:

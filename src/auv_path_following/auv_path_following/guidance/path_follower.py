@@ -145,10 +145,11 @@ class PathFollower:
         wanted = tangential_speed(config.virtual_point.k, xe, psi, water, chi_p, current)
         U_P = P.set_speed(wanted, point)
         kappa = point.kappa
-        psi_d = wrap(law.psi_d)
+        # At the end of the path there is nothing more to turn to.
+        psi_d, r_d = (psi, 0.0) if P.finished else (wrap(law.psi_d), kappa * U_P)  # Eq. (9)
         return GuidanceOutput(
             psi_d=psi_d,
-            r_d=kappa * U_P,  # Eq. (9)
+            r_d=r_d,
             xe=xe,
             ye=ye,
             psi_e=wrap(psi - psi_d),

@@ -131,8 +131,6 @@ class GuidanceNode(SuiteNode):
                 self.state.complete()
         else:
             output = self.follower.look(navigation)
-        if not self.state.running:
-            output = output._replace(psi_d=navigation.psi, r_d=0.0)
         self._fill(output, inputs.stamp)
         self.answer(self._publish)
 

@@ -1,39 +1,46 @@
-"""How many steps the wall clock asks for. ROS-free."""
+"""When the wall clock asks for a step. ROS-free."""
 
 from __future__ import annotations
+
+#: How many steps of lag are caught up; time that is lost beyond them stays lost.
+PATIENCE = 4
 
 
 class Pacer:
     """Keeps steps at a fixed period of wall time; a late timer is caught up, no step is left out.
 
-    When the machine cannot keep the pace, time goes slower than asked instead of piling up.
+    One step at a time is due, and asked twice a period the pace can double: what is caught up is never a burst
+    of steps without a command in between. When the machine cannot keep the pace, time goes slower than asked.
 
     Args:
         period: wall time of a step, s.
-        patience: largest lag that is caught up, s.
     """
 
-    def __init__(self, period: float, patience: float = 0.2) -> None:
+    def __init__(self, period: float) -> None:
         self.period = period
-        self.patience = patience
+        #: Wall time by which the steps lag behind what was asked for, for good, s.
         self.behind = 0.0
         self._next: float | None = None
+
+    @property
+    def ask_every(self) -> float:
+        """How often to ask, s."""
+        return 0.5 * self.period
 
     def restart(self, now: float) -> None:
         """Count from now (s, monotonic)."""
         self._next = now
 
-    def due(self, now: float) -> int:
-        """Steps to take now (s, monotonic)."""
+    def due(self, now: float) -> bool:
+        """Whether a step is to be taken now (s, monotonic)."""
         if self._next is None:
             self._next = now
-        if now < self._next:
-            return 0
         lag = now - self._next
-        if lag > self.patience:
-            self.behind += lag - self.patience
-            self._next = now - self.patience
-            lag = self.patience
-        steps = int(lag / self.period) + 1
-        self._next += steps * self.period
-        return steps
+        if lag < 0.0:
+            return False
+        beyond = lag - PATIENCE * self.period
+        if beyond > 0.0:
+            self.behind += beyond
+            self._next += beyond
+        self._next += self.period
+        return True

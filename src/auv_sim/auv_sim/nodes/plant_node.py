@@ -46,6 +46,7 @@ class RemusPlantNode(SuiteNode):
         self._released = not p.hold_until_running
         self._commands: dict[str, tuple[float, int]] = {}
         self._reset_wanted = False
+        self._begun = False
         self._odometry, self._water = Odometry(), TwistWithCovarianceStamped()
         self._true_current = Vector3Stamped()
         self._odometry.header.frame_id, self._odometry.child_frame_id = p.world_frame, p.body_frame
@@ -69,7 +70,7 @@ class RemusPlantNode(SuiteNode):
         self.create_service(Trigger, topics.RESET_SERVICE, self._on_reset)
         if self._pacer is not None:
             self.create_timer(
-                self._pacer.period, self._tick, clock=RosClock(clock_type=ClockType.STEADY_TIME)
+                self._pacer.ask_every, self._tick, clock=RosClock(clock_type=ClockType.STEADY_TIME)
             )
 
     def _check_frames(self, p: PlantParameters) -> None:
@@ -154,15 +155,17 @@ class RemusPlantNode(SuiteNode):
         return response
 
     def _tick(self) -> None:
-        """Free running: as many steps as the wall clock asks for."""
+        """Free running: the next step, when the wall clock asks for it."""
         assert self._pacer is not None
         if not self._released:
             self._pacer.restart(time.monotonic())
             return
-        for _ in range(self._pacer.due(time.monotonic())):
-            self.publish_step()
+        if self._pacer.due(time.monotonic()):
             self.command = self._held_command()
-            self.advance(self.command)
+            if self._begun:
+                self.advance(self.command)
+            self._begun = True
+            self.publish_step()
 
     def _held_command(self) -> Command:
         """The newest commands; a stop when none came for too long, as any vehicle must do by itself."""

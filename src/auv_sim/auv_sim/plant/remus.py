@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from auv_msgs_py.types import NO_CURRENT, STOP, Command, Current, Navigation, WaterVelocity
+from auv_msgs_py.types import NO_CURRENT, Command, Current, Navigation, WaterVelocity
 from auv_path_following.vehicle import Vehicle
 from auv_sim.plant.actuator import RudderServo
 
@@ -93,10 +93,6 @@ class RemusPlant:
         steps = max(1, math.ceil(dt / self.max_step - 1e-9))
         for _ in range(steps):
             self._runge_kutta(thrust, dt / steps, current)
-
-    def coast(self, dt: float, current: Current = NO_CURRENT) -> None:
-        """Let `dt` seconds pass as a vehicle does that hears no commands: propeller off, rudder neutral."""
-        self.advance(STOP, dt, current)
 
     def _runge_kutta(self, thrust: float, h: float, current: Current) -> None:
         f = self.dynamics.derivative
