@@ -114,8 +114,6 @@ def run_directory(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_the_chain_flies_as_the_closed_loop_did(
     run_directory: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    command = ["rerun", str(run_directory), "--params", str(tmp_path / "new.yaml"), "--json", *files]
-    assert cli.main(command) == 0
     cli.main(["rerun", str(run_directory), "--json"])
     found = json.loads(capsys.readouterr().out)["topics"]
     assert found["rudder_cmd"]["compared"] > 500
