@@ -164,7 +164,7 @@ def _paper(options: argparse.Namespace, console: Console) -> int:
     path = mission_file.load(MISSION).path
     with _progress(console) as bar:
         # The searches take longest: they go first.
-        effort = 150 if options.quick else 700
+        effort = 200 if options.quick else 1600
         items = [*((early, effort) for early in _BOUNDS.values()), *named.values()]
         results = _tracked(bar, "flying the paper's cases", _work, items, options.workers)
         bounds = dict(zip(_BOUNDS, results[: len(_BOUNDS)], strict=True))

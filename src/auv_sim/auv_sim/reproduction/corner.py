@@ -7,14 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize
 
 from auv_msgs_py.types import Command
 from auv_path_following.vehicle import Vehicle
 from auv_sim.plant.remus import PlantState, RemusPlant
 
-_KNOTS = 7
+#: Rudder commands of a programme, and how long each is held, s.
+_KNOTS, _KNOT = 12, 0.5
 _STEP = 0.05
+_POPULATION, _ELITE = 40, 8
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,7 @@ class Bound:
     lead: float
 
 
-def best(vehicle: Vehicle, angle: float, thrust: float, *, early: bool, effort: int = 700) -> Bound:
+def best(vehicle: Vehicle, angle: float, thrust: float, *, early: bool, effort: int = 1600) -> Bound:
     """Smallest largest distance found at a corner, with the rudder's rate and angle as its only limits.
 
     The programme knows the hull and the corner beforehand, which no feedback law does; afterwards the vehicle
@@ -38,47 +39,39 @@ def best(vehicle: Vehicle, angle: float, thrust: float, *, early: bool, effort: 
         angle: course change, rad, to starboard.
         thrust: N.
         early: whether the rudder may move before the corner is reached.
-        effort: programmes tried from each of the two first guesses.
+        effort: programmes tried, at least.
     """
     speed = math.sqrt(thrust / -vehicle.hull.Xuu)
-    largest = vehicle.rudder.max_angle
-    found = Bound(math.inf, 0.0)
-    for duration, push in ((0.75, 0.4), (0.95, 0.3)):
-        program = np.zeros(_KNOTS)
-        program[:2], program[3:5] = -push, 0.6 * push
-        lead = speed * duration * 2.0 if early else 0.0
-        guess = np.concatenate([[duration, lead], program])
-        found_here = minimize(
-            lambda v: _cost(vehicle, angle, thrust, speed, early, v, largest),
-            guess,
-            method="Nelder-Mead",
-            options={"maxfev": effort, "xatol": 1e-3, "fatol": 1e-4, "adaptive": True},
-        ).x
-        deviation = _cost(vehicle, angle, thrust, speed, early, found_here, largest)
-        if deviation < found.deviation:
-            found = Bound(deviation, float(found_here[1]) if early else 0.0)
-    return found
+    rng = np.random.default_rng(0)
+    mean = np.concatenate([[4.0 if early else 0.0], [-0.8, -0.8, -0.4, 0.4, 0.4, 0.2], np.zeros(_KNOTS - 6)])
+    spread = np.concatenate([[1.0 if early else 0.0], np.full(_KNOTS, 0.4)])
+    best_cost, best_lead = math.inf, 0.0
+    for _ in range(max(1, effort // _POPULATION)):
+        tried = mean + spread * rng.standard_normal((_POPULATION, _KNOTS + 1))
+        tried[:, 1:] = np.clip(tried[:, 1:], -1.0, 1.0)
+        costs = np.array([_cost(vehicle, angle, thrust, speed, program) for program in tried])
+        elite = tried[np.argsort(costs)[:_ELITE]]
+        # The spread shrinks with the elite's, but not so fast that the search stands still too early.
+        mean, spread = elite.mean(axis=0), 0.3 * spread + 0.7 * elite.std(axis=0)
+        if costs.min() < best_cost:
+            best_cost, best_lead = float(costs.min()), float(elite[0, 0])
+    return Bound(best_cost, best_lead)
 
 
-def _cost(
-    vehicle: Vehicle,
-    angle: float,
-    thrust: float,
-    speed: float,
-    early: bool,
-    v: NDArray[np.float64],
-    largest: float,
-) -> float:
-    """Largest distance to the legs, plus what is still wrong at the end: 1 m, 0.2 rad or 0.1 rad/s "
-    "cost a metre."""
-    duration, lead = float(np.clip(v[0], 0.3, 1.5)), float(np.clip(v[1], 0.0, 15.0)) if early else 0.0
-    plant = RemusPlant(vehicle, PlantState(-lead, 0.0, 0.0, speed, 0.0, 0.0))
+def _cost(vehicle: Vehicle, angle: float, thrust: float, speed: float, program: NDArray[np.float64]) -> float:
+    """Largest distance to the legs, plus a metre for each 0.2 rad off the course at the end, beyond 0.1 rad.
+
+    Args:
+        vehicle, angle, thrust: as for `best`.
+        speed: at the beginning, m/s.
+        program: shape (_KNOTS + 1,): where it begins, m before the corner, then shares of the largest angle.
+    """
+    plant = RemusPlant(vehicle, PlantState(-max(float(program[0]), 0.0), 0.0, 0.0, speed, 0.0, 0.0))
     cos, sin = math.cos(angle), math.sin(angle)
     worst = 0.0
-    steps = max(1, round(duration / _STEP))
-    for knot in [*np.clip(v[2:], -1.0, 1.0).tolist(), 0.0]:
-        for _ in range(steps):
-            plant.advance(Command(knot * largest, thrust), _STEP)
+    for share in program[1:].tolist():
+        for _ in range(round(_KNOT / _STEP)):
+            plant.advance(Command(share * vehicle.rudder.max_angle, thrust), _STEP)
             x, y = plant.state.x, plant.state.y
             first = math.hypot(max(x, 0.0), y)
             along = max(x * cos + y * sin, 0.0)
@@ -87,4 +80,4 @@ def _cost(
     x, y, psi, ur, vr, r = plant.state
     off = abs(-x * sin + y * cos)
     course = abs(psi + math.atan2(vr, ur) - angle)
-    return worst + max(off - worst, 0.0) + max(course - 0.02, 0.0) / 0.2 + max(abs(r) - 0.03, 0.0) / 0.1
+    return max(worst, off) + max(course - 0.1, 0.0) / 0.2 + max(abs(r) - 0.1, 0.0) / 0.1

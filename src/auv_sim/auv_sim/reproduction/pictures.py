@@ -27,7 +27,7 @@ OFFSETS = (-20.0, -10.0, -5.0, 0.0, 5.0, 10.0, 20.0)
 HEADINGS = (-180.0, -135.0, -90.0, -45.0, 0.0, 45.0, 90.0, 135.0)
 #: After this time the map looks at the heading error, s.
 _LOOK = 90.0
-_PNG = {"dpi": 80}
+_DPI = 80
 
 
 class _Gain(NamedTuple):
@@ -85,7 +85,7 @@ def _settles(flight: Flight) -> float:
 
 def _map(file: Path, run: Runner) -> None:
     """Which starts end in the limit cycle."""
-    laws = {"Table 4": {"params": "paper"}, "robust.yaml": {"params": "robust"}}
+    laws: dict[str, dict[str, Any]] = {"Table 4": {"params": "paper"}, "robust.yaml": {"params": "robust"}}
     _, _, course = beside(0.0)
     flights, places = [], []
     for row, law in enumerate(laws):
@@ -96,7 +96,7 @@ def _map(file: Path, run: Runner) -> None:
                     start = (x, y, course + math.radians(heading))
                     flights.append(
                         Flight(name="map", plant=plant, start=start, time_limit=_LOOK, **laws[law])
-                    )  # type: ignore[arg-type]
+                    )
                     places.append((row, column, i, j))
     cycle = np.zeros((len(laws), len(PLANT_NAMES), len(HEADINGS), len(OFFSETS)))
     for place, error in zip(places, run("mapping the starts", _settles, flights), strict=True):
@@ -123,7 +123,7 @@ def _map(file: Path, run: Runner) -> None:
     figure.suptitle(
         "red: a limit cycle still runs after 75 s; green: the heading has settled", fontsize=11, color=INK
     )
-    figure.savefig(file, **_PNG)
+    figure.savefig(file, dpi=_DPI)
 
 
 def _phase(file: Path) -> None:
@@ -146,7 +146,7 @@ def _phase(file: Path) -> None:
     gain.legend(fontsize=8, frameon=False)
     phase.legend(fontsize=8, frameon=False, loc="center left")
     phase.set_xlabel("angular frequency (rad/s)")
-    figure.savefig(file, **_PNG)
+    figure.savefig(file, dpi=_DPI)
 
 
 def _gains(folder: Path, run: Runner) -> None:
@@ -181,7 +181,7 @@ def _gains(folder: Path, run: Runner) -> None:
             label = f"{gain.name.rpartition('.')[2]} = {value:g} {gain.unit}" + (f" ({word})" if word else "")
             axes.plot(result.t - result.t[0], values, color=color, label=label, linewidth=1.3)
         axes.legend(fontsize=8, frameon=False, loc="upper right")
-        figure.savefig(folder / f"tuning_{gain.file}.png", **_PNG)
+        figure.savefig(folder / f"tuning_{gain.file}.png", dpi=_DPI)
 
 
 def _figure(size: tuple[float, float]) -> Figure:
