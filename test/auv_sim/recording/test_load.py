@@ -209,8 +209,7 @@ def test_two_vehicles_need_a_namespace(tmp_path: Path) -> None:
     assert list(load(tmp_path / "bag", namespace="/auv2").x) == [7.0] * 3
 
 
-def nothing(directory: Path) -> None:
-    pass
+def nothing(_: Path) -> None: ...
 
 
 def empty_directory(directory: Path) -> None:
