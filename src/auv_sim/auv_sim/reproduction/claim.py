@@ -73,4 +73,4 @@ def verdict(outcomes: dict[str, bool], kind: str = "with") -> str:
     good = [name for name, held in outcomes.items() if held]
     if len(good) == len(outcomes):
         return HOLDS
-    return f"holds only {kind} {' and '.join(good)}" if good else FAILS
+    return f"holds only {kind} {'; '.join(good)}" if good else FAILS
