@@ -30,6 +30,20 @@ from auv_sim.recording.repair import repair
 #: What a crash may lose at most, s.
 BOUND = 1.0
 
+_STARTED: list[subprocess.Popen[str]] = []
+
+
+@pytest.fixture(autouse=True)
+def nothing_left_running() -> Iterator[None]:
+    """A test that failed half-way leaves no recorder behind."""
+    yield
+    while _STARTED:
+        process = _STARTED.pop()
+        process.kill()
+        process.wait()
+        if process.stdout is not None:
+            process.stdout.close()
+
 
 @pytest.fixture(scope="module")
 def node() -> Iterator[Node]:
@@ -64,9 +78,11 @@ def start(directory: Path, *settings: str, limit: int | None = None) -> subproce
         if limit is not None:
             resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
 
-    return subprocess.Popen(
+    process = subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, preexec_fn=smaller_disk
     )
+    _STARTED.append(process)
+    return process
 
 
 def wait_for(publisher: Any, readers: int = 1) -> None:

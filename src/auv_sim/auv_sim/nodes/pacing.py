@@ -9,7 +9,7 @@ PATIENCE = 4
 class Pacer:
     """Keeps steps at a fixed period of wall time; a late timer is caught up, no step is left out.
 
-    One step at a time is due, and asked twice a period the pace can double: what is caught up is never a burst
+    One step at a time is due, and asked twice a period the pace can double. What is caught up is no burst
     of steps without a command in between. When the machine cannot keep the pace, time goes slower than asked.
 
     Args:
