@@ -79,8 +79,8 @@ WRONG = {
         "hull.surge_coupling",
         "true or false",
     ),
-    "no hull": (GOOD[GOOD.index("hull:") :], "", "hull", "nothing"),
-    "empty hull": (GOOD[GOOD.index("hull:") :], "hull:\n", "hull", "a mapping"),
+    "no hull": (GOOD[GOOD.index("hull:") :], "", "", "nothing under hull"),
+    "empty hull": (GOOD[GOOD.index("hull:") :], "hull:\n", "", "a mapping under hull"),
     "negative length": ("length: 1.6", "length: -1.6", "length", "found -1.6"),
     "rudder beyond a right angle": (
         "max_angle_deg: 35",
@@ -116,3 +116,29 @@ def test_a_missing_vehicle_names_the_shipped_ones():
         ConfigurationError, match=r"remus6000: .*remus100, remus100_mismatch, remus100_table2"
     ):
         vehicle.load("remus6000")
+
+
+MEASURED = """
+name: nobody identified it
+length: 2.0
+thrust_max: 10
+rudder: {max_angle_deg: 25, max_rate_deg_s: 10}
+cruise: {thrust: 8, speed: 2}
+turning: {radius: 9.5}
+"""
+
+
+def test_a_measured_vehicle_does_without_a_hull(tmp_path):
+    path = tmp_path / "measured.yaml"
+    path.write_text(MEASURED)
+    measured = vehicle.load(str(path))
+    assert measured.speed_at(8.0) == pytest.approx(2.0)
+    assert measured.thrust_at(1.0) == pytest.approx(2.0)
+    with pytest.raises(ConfigurationError, match="nobody identified it: hull: found nothing"):
+        _ = measured.coefficients
+
+
+def test_what_was_measured_counts_before_the_hull(tmp_path):
+    path = tmp_path / "both.yaml"
+    path.write_text(GOOD + "\ncruise: {thrust: 6.48, speed: 1.8}\n")
+    assert vehicle.load(str(path)).speed_at(6.48) == pytest.approx(1.8)

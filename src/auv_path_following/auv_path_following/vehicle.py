@@ -8,6 +8,7 @@ import pydantic
 from pydantic_core import PydanticCustomError
 
 from auv_msgs_py import yaml_file
+from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.settings import setting, settings
 from auv_path_following import config_files
 
@@ -89,6 +90,14 @@ class Turning:
 
 
 @settings
+class Cruise:
+    """What was measured straight ahead, in place of what the hull's drag gives."""
+
+    thrust: float = setting(doc="steady thrust", unit="N", gt=0.0)
+    speed: float = setting(doc="steady speed through the water at this thrust", unit="m/s", gt=0.0)
+
+
+@settings
 class Vehicle:
     """One vehicle. The plant reads it, and so may a model-based controller, each for itself."""
 
@@ -96,18 +105,51 @@ class Vehicle:
     length: float = setting(doc="length of the hull", unit="m", gt=0.0)
     thrust_max: float = setting(doc="largest thrust", unit="N", gt=0.0)
     rudder: Rudder = setting(doc="limits of the rudder")
-    hull: Hull = setting(doc="coefficients of the hull")
+    hull: Hull | None = setting(
+        None, "coefficients of the hull; a real vehicle can do without, if it was measured"
+    )
+    cruise: Cruise | None = setting(None, "measured speed at a thrust; from the hull where it is not given")
     turning: Turning | None = setting(
         None, "measured turning ability; found from the hull where it is not given"
     )
 
+    @pydantic.model_validator(mode="after")
+    def _is_known_well_enough(self) -> Vehicle:
+        if self.hull is None and (self.cruise is None or self.turning is None):
+            context = {
+                "found": "nothing under hull, and not both of cruise and turning",
+                "expected": "a mapping under hull, or what was measured under cruise and turning",
+            }
+            raise PydanticCustomError("unfit", "vehicle", context)
+        return self
+
+    @property
+    def coefficients(self) -> Hull:
+        """The hull, for those who cannot do without.
+
+        Raises:
+            ConfigurationError: the vehicle file has none.
+        """
+        if self.hull is None:
+            raise ConfigurationError(
+                f"{self.name}: hull", "nothing", "the hull's coefficients, which a simulator or a model needs"
+            )
+        return self.hull
+
+    @property
+    def _drag(self) -> float:
+        """Drag straight ahead over the speed squared, kg/m."""
+        if self.cruise is not None:
+            return self.cruise.thrust / self.cruise.speed**2
+        return -self.coefficients.Xuu
+
     def speed_at(self, thrust: float) -> float:
         """Steady speed through the water straight ahead, m/s, at a thrust in N: Eq. (19) with SX = 0."""
-        return math.sqrt(max(thrust, 0.0) / -self.hull.Xuu)
+        return math.sqrt(max(thrust, 0.0) / self._drag)
 
     def thrust_at(self, speed: float) -> float:
         """Thrust, N, for a steady speed through the water straight ahead, m/s: inverse of `speed_at`."""
-        return -self.hull.Xuu * speed * speed
+        return self._drag * speed * speed
 
 
 def load(name_or_path: str) -> Vehicle:

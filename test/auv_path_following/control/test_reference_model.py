@@ -91,10 +91,10 @@ def test_it_follows_a_turning_path_without_lag():
 
 def test_given_limits_are_taken_and_others_follow_from_hull_and_rudder():
     given_limits = dataclasses.replace(CONFIG, max_rate=0.2, max_acceleration=0.1, max_jerk=0.5)
-    assert limits_of(given_limits, HullModel(REMUS), RATE) == (0.2, 0.1, 0.5)
-    slow, fast = (limits_of(CONFIG, HullModel(REMUS), share * RATE) for share in (0.5, 1.0))
+    assert limits_of(given_limits, REMUS, RATE) == (0.2, 0.1, 0.5)
+    slow, fast = (limits_of(CONFIG, REMUS, share * RATE) for share in (0.5, 1.0))
     assert fast.jerk == pytest.approx(2.0 * slow.jerk)
     assert fast.acceleration == pytest.approx(2.0 * slow.acceleration)
     assert slow.rate < fast.rate <= HullModel(REMUS).steady_turn(HullModel(REMUS).cruise(REMUS.thrust_max))
-    weak = limits_of(CONFIG, HullModel(vehicle.load("remus100_mismatch")), RATE)
+    weak = limits_of(CONFIG, vehicle.load("remus100_mismatch"), RATE)
     assert weak.jerk < fast.jerk

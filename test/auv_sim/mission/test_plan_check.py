@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from pathlib import Path
 
 import pytest
@@ -75,3 +76,15 @@ def test_the_written_configuration_flies_the_same_again(tmp_path):
     assert again.with_wishes_of(copy).guidance.switching.mode == "off"
     third = plan.make(Options(mission=again.mission, params=str(written)), tmp_path)
     assert third.parameters[topics.GUIDANCE].guidance.switching.mode == "off"
+
+
+def test_a_vehicle_without_a_hull_can_be_planned_for_but_not_simulated(tmp_path, capsys):
+    path = tmp_path / "measured.yaml"
+    path.write_text(
+        "name: measured\nlength: 2.0\nthrust_max: 10\nrudder: {max_angle_deg: 25, max_rate_deg_s: 10}\n"
+        "cruise: {thrust: 8, speed: 2}\nturning: {radius: 9.5}\n"
+    )
+    options = Options(vehicle=str(path), no_sim=True)
+    assert plan.make(options, tmp_path / "run").vehicle.hull is None
+    with pytest.raises(ConfigurationError, match="hull: found nothing, expected the hull's coefficients"):
+        plan.make(dataclasses.replace(options, no_sim=False), tmp_path / "run")

@@ -16,7 +16,7 @@ class HullModel:
 
     def __init__(self, vehicle: Vehicle) -> None:
         self.vehicle = vehicle
-        self.hull = h = vehicle.hull
+        self.hull = h = vehicle.coefficients
         determinant = (h.m - h.Yvd) * (h.Izz - h.Nrd) - h.Yrd * h.Nvd
         self._inv_vv = (h.Izz - h.Nrd) / determinant
         self._inv_vr = h.Yrd / determinant
@@ -25,7 +25,7 @@ class HullModel:
 
     def cruise(self, thrust: float) -> float:
         """Speed at which drag balances `thrust` (N), sqrt(XT / |Xuu|), m/s."""
-        return math.sqrt(max(thrust, 0.0) / -self.hull.Xuu)
+        return self.vehicle.speed_at(thrust)
 
     def accelerations(self, ur: float, vr: float, r: float) -> tuple[float, float]:
         """(dvr/dt, dr/dt) with a neutral rudder, m/s^2 and rad/s^2."""

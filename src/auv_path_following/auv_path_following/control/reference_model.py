@@ -66,7 +66,7 @@ JERK_SHARE = 0.9
 BUILD_UP = 0.4
 
 
-def limits_of(config: ReferenceConfig, model: HullModel, rudder_rate: float) -> Limits:
+def limits_of(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> Limits:
     """The limits to use: those given, and where 0 is given those that hull and rudder allow.
 
     At cruising speed under full thrust a radian of rudder turns the hull with b = |dr/dt per rad|. So
@@ -78,10 +78,16 @@ def limits_of(config: ReferenceConfig, model: HullModel, rudder_rate: float) -> 
 
     Args:
         config: what is given.
-        model: the hull as the controller knows it.
+        vehicle: the hull as the controller knows it; not looked at when all limits are given.
         rudder_rate: the fastest that the controller moves the rudder, rad/s.
+
+    Raises:
+        ConfigurationError: a limit has to be derived, and the vehicle file has no hull.
     """
-    speed = model.cruise(model.vehicle.thrust_max)
+    if config.max_rate and config.max_acceleration and config.max_jerk:
+        return Limits(config.max_rate, config.max_acceleration, config.max_jerk)
+    model = HullModel(vehicle)
+    speed = model.cruise(vehicle.thrust_max)
     jerk = config.max_jerk or JERK_SHARE * abs(model.rudder_gain(speed)[1]) * rudder_rate
     acceleration = config.max_acceleration or BUILD_UP * jerk
     rate = config.max_rate or min(acceleration / config.bandwidth, model.steady_turn(speed))
@@ -98,14 +104,16 @@ class ReferenceModel:
     """
 
     def __init__(self, config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> None:
-        self._model = HullModel(vehicle)
+        self._vehicle = vehicle
         self.configure(config, rudder_rate)
         self.reset()
 
     def configure(self, config: ReferenceConfig, rudder_rate: float) -> None:
         """Take new limits; the reference stays where it is."""
         self.config = config
-        self.limits = limits_of(config, self._model, rudder_rate)
+        self.limits = (
+            limits_of(config, self._vehicle, rudder_rate) if config.enabled else Limits(0.0, 0.0, 0.0)
+        )
 
     def reset(self) -> None:
         """The next update starts from the vehicle."""

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from auv_msgs_py import params_file, topics, yaml_file
+from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.types import NO_CURRENT
 from auv_path_following import config_files, vehicle
 from auv_path_following.paths import mission_file
@@ -138,6 +139,12 @@ def make(options: Options, directory: Path) -> Plan:
     }
     hull = vehicle.load(str(sources["vehicle"]))
     mission = mission_file.load(str(sources["mission"]), hull)
+    if not options.no_sim and hull.hull is None:
+        raise ConfigurationError(
+            f"{sources['vehicle']}: hull",
+            "nothing",
+            "the hull's coefficients, or --no-sim: the simulator needs them",
+        )
     parameters = params_file.load(sources["params"], SUITE)
     timing = {"lockstep": not options.no_sim and options.speed is None}
     timing["recorded"] = timing["lockstep"]

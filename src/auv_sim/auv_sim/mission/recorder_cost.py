@@ -31,7 +31,7 @@ def wall_time(mission: str, recorded: bool, directory: Path) -> float:
 
 
 def main() -> int:
-    """Print both times of each round, and the ratio of the best ones: what else the machine does only adds."""
+    """Print both times of each round, and the ratio of the best: what else the machine does only adds."""
     parser = argparse.ArgumentParser(
         description="Wall time of a lockstep mission with and without the recorder."
     )

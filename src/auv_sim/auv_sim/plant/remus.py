@@ -29,7 +29,7 @@ class RemusDynamics:
     """
 
     def __init__(self, vehicle: Vehicle) -> None:
-        self.hull = h = vehicle.hull
+        self.hull = h = vehicle.coefficients
         determinant = (h.m - h.Yvd) * (h.Izz - h.Nrd) - h.Yrd * h.Nvd
         self._inv_x = 1.0 / (h.m - h.Xud)
         self._inv_vv = (h.Izz - h.Nrd) / determinant

@@ -41,7 +41,7 @@ def best(vehicle: Vehicle, angle: float, thrust: float, *, early: bool, effort: 
         early: whether the rudder may move before the corner is reached.
         effort: programmes tried, at least.
     """
-    speed = math.sqrt(thrust / -vehicle.hull.Xuu)
+    speed = math.sqrt(thrust / -vehicle.coefficients.Xuu)
     rng = np.random.default_rng(0)
     mean = np.concatenate([[4.0 if early else 0.0], [-0.8, -0.8, -0.4, 0.4, 0.4, 0.2], np.zeros(_KNOTS - 6)])
     spread = np.concatenate([[1.0 if early else 0.0], np.full(_KNOTS, 0.4)])
