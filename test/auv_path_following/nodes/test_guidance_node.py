@@ -16,7 +16,7 @@ from node_bench import Bench
 def test_guidance_asks_for_nothing_before_the_start_and_for_thrust_after_it(bench: Bench) -> None:
     bench.start(GuidanceNode)
     bench.until(lambda: [m.data for m in bench.received["mission_state"]] == ["idle"])
-    assert len(bench.received["path"]) == 1
+    bench.until(lambda: len(bench.received["path"]) == 1)
     bench.water(1.0, 1.9)
     bench.odometry(1.0, Navigation(-20.0, 20.0, 0.5, 0.0))
     bench.until(lambda: bench.values(topics.DESIRED_THRUST))
