@@ -143,8 +143,8 @@ class SuiteNode(Node):  # type: ignore[misc]
 _GRACE = 5.0
 
 
-class _Stop:
-    """SIGINT and SIGTERM set a flag; ROS stays up, so that a node can finish what it does."""
+class StopRequest:
+    """SIGINT and SIGTERM set a flag; ROS stays up, so that what is under way can be finished."""
 
     def __init__(self) -> None:
         self.requested = False
@@ -155,7 +155,7 @@ class _Stop:
         self.requested = True
 
 
-def spin(nodes: Sequence[SuiteNode], stop: _Stop) -> int:
+def spin(nodes: Sequence[SuiteNode], stop: StopRequest) -> int:
     """Run nodes in this thread until a signal, a fault, or until one has finished; returns the exit code."""
     executor = EventsExecutor()
     for node in nodes:
@@ -180,7 +180,7 @@ def run_nodes(factories: Sequence[Callable[[], SuiteNode]], args: Sequence[str] 
         0 after a signal or when a node has finished, 1 after a fault, 2 for input that cannot be used.
     """
     rclpy.init(args=list(args) if args is not None else None, signal_handler_options=SignalHandlerOptions.NO)
-    stop = _Stop()
+    stop = StopRequest()
     nodes: list[SuiteNode] = []
     try:
         for factory in factories:

@@ -9,16 +9,16 @@ from nav_msgs.msg import Odometry
 from std_msgs.msg import Float64
 
 from auv_msgs_py import topics
-from auv_msgs_py.conversions import finite, nanoseconds, navigation_from
-from auv_msgs_py.errors import MessageRefused
+from auv_msgs_py.conversions import finite
 from auv_msgs_py.frames import FrameTable, flip_yaw
 from auv_msgs_py.pairing import Pairing
 from auv_msgs_py.runtime import SuiteNode, run_nodes
-from auv_msgs_py.stamps import StampGuard, Verdict
+from auv_msgs_py.stamps import StampGuard
 from auv_msgs_py.topics import Topic
 from auv_msgs_py.types import STOP, Command, Navigation, Reference
 from auv_path_following import vehicle
 from auv_path_following.control.autopilot import HeadingAutopilot
+from auv_path_following.nodes.navigation_input import accept
 from auv_path_following.parameters import AutopilotParameters
 
 _REFERENCES = (topics.DESIRED_YAW, topics.DESIRED_YAW_RATE, topics.DESIRED_THRUST)
@@ -62,12 +62,8 @@ class HeadingAutopilotNode(SuiteNode):
 
     def _on_odometry(self, message: Odometry) -> None:
         topic = topics.ODOM.name
-        stamp = nanoseconds(message.header.stamp)
-        navigation = navigation_from(message, self._frames, topic)
-        verdict, dt = self._guard.judge(stamp)
-        if verdict is Verdict.REFUSE:
-            raise MessageRefused(topic, "a stamp that is not newer than the last", "rising stamps")
-        if verdict is Verdict.RESTART:
+        navigation, dt, stamp, restarted = accept(message, self._frames, self._guard)
+        if restarted:
             self.autopilot.reset()
         self._last_odometry = self.now()
         if not self.parameters.lockstep and topic in self._pairing:

@@ -22,6 +22,30 @@ from auv_msgs_py.stamps import StampGuard, Verdict
 from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
 
 
+class Measured(NamedTuple):
+    """One accepted odometry: dt since the last one (s), stamp (ns), and whether time went back before it."""
+
+    navigation: Navigation
+    dt: float
+    stamp: int
+    restarted: bool
+
+
+def accept(message: Odometry, frames: FrameTable, guard: StampGuard) -> Measured:
+    """Convert and judge an odometry.
+
+    Raises:
+        MessageRefused: frames, values or stamp cannot be used.
+    """
+    topic = topics.ODOM.name
+    stamp = nanoseconds(message.header.stamp)
+    navigation = navigation_from(message, frames, topic)
+    verdict, dt = guard.judge(stamp)
+    if verdict is Verdict.REFUSE:
+        raise MessageRefused(topic, "a stamp that is not newer than the last", "rising stamps")
+    return Measured(navigation, dt, stamp, verdict is Verdict.RESTART)
+
+
 class Inputs(NamedTuple):
     """One step's input. `water` is None when there is none that is fresh enough; the stamp is in ns."""
 
@@ -73,18 +97,13 @@ class NavigationInput:
         return self._pairing.missing
 
     def _on_odometry(self, message: Odometry) -> None:
-        topic = topics.ODOM.name
-        stamp = nanoseconds(message.header.stamp)
-        navigation = navigation_from(message, self._frames, topic)
-        verdict, dt = self._guard.judge(stamp)
-        if verdict is Verdict.REFUSE:
-            raise MessageRefused(topic, "a stamp that is not newer than the last", "rising stamps")
-        if verdict is Verdict.RESTART:
+        navigation, dt, stamp, restarted = accept(message, self._frames, self._guard)
+        if restarted:
             if not self._lockstep:
                 self._water = self._current = None
             self._restart()
         if self._lockstep:
-            if self._pairing.put(topic, (navigation, dt, stamp), stamp):
+            if self._pairing.put(topics.ODOM.name, (navigation, dt, stamp), stamp):
                 self._paired()
             return
         water, current, age = None, NO_CURRENT, float("inf")

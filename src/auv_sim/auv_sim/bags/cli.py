@@ -7,11 +7,9 @@ import importlib
 import os
 import sys
 from collections.abc import Sequence
-from typing import NoReturn
 
 from auv_msgs_py.errors import SuiteError
-
-EXIT_OK, EXIT_DIFFERENT, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
+from auv_sim.command_line import EXIT_BAD_INPUT, EXIT_DONE, EXIT_INTERRUPTED, Parser
 
 #: In the order in which a person needs them.
 VERBS = {
@@ -25,20 +23,12 @@ VERBS = {
 }
 
 
-class _Parser(argparse.ArgumentParser):
-    """One line and exit code 2, without the usage in front of it."""
-
-    def error(self, message: str) -> NoReturn:
-        print(f"{self.prog}: {message} (see --help)", file=sys.stderr)
-        raise SystemExit(EXIT_BAD_INPUT)
-
-
 def parser() -> argparse.ArgumentParser:
     """The command line, every verb with its own options."""
-    top = _Parser(
+    top = Parser(
         prog="bag.py", description="Look into recordings of missions and work with them.", allow_abbrev=False
     )
-    verbs = top.add_subparsers(dest="verb", required=True, metavar="VERB", parser_class=_Parser)
+    verbs = top.add_subparsers(dest="verb", required=True, metavar="VERB", parser_class=Parser)
     for name, what in VERBS.items():
         module = importlib.import_module(f"auv_sim.bags.{name}")
         verb = verbs.add_parser(
@@ -63,4 +53,4 @@ def main(argv: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         # Somebody read only the beginning (head, say); nothing is left to say to him.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return EXIT_OK
+        return EXIT_DONE

@@ -6,10 +6,10 @@ While it plays: space pauses and goes on, s plays the next instant while paused,
 from __future__ import annotations
 
 import argparse
-import math
 from pathlib import Path
 
 from auv_msgs_py.errors import ConfigurationError
+from auv_sim.command_line import not_negative, positive
 from auv_sim.recording.bag import read_bag
 from auv_sim.recording.playback import Player, Selected, select
 
@@ -18,11 +18,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The verb's options."""
     parser.add_argument("bag", type=Path, metavar="BAG", help="recording or run directory")
     parser.add_argument(
-        "--rate", type=_positive, default=1.0, metavar="N", help="times the recorded speed (default 1)"
+        "--rate", type=positive, default=1.0, metavar="N", help="times the recorded speed (default 1)"
     )
-    parser.add_argument("--start", type=_not_negative, default=0.0, metavar="S", help="skip so many seconds")
+    parser.add_argument("--start", type=not_negative, default=0.0, metavar="S", help="skip so many seconds")
     parser.add_argument(
-        "--duration", type=_positive, metavar="S", help="play so many seconds of the recording"
+        "--duration", type=positive, metavar="S", help="play so many seconds of the recording"
     )
     parser.add_argument("--loop", action="store_true", help="begin again at the end, until stopped")
     parser.add_argument("--clock", action="store_true", help="publish the recorded time on /clock")
@@ -35,33 +35,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--delay",
-        type=_not_negative,
+        type=not_negative,
         default=1.0,
         metavar="S",
         help="wait so long for subscribers first (default 1)",
     )
     parser.add_argument("--start-paused", action="store_true", help="wait for the space bar")
-
-
-def _finite(text: str) -> float:
-    value = float(text)
-    if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"found {text}, expected a finite number")
-    return value
-
-
-def _positive(text: str) -> float:
-    value = _finite(text)
-    if value <= 0.0:
-        raise argparse.ArgumentTypeError(f"found {text}, expected a number greater than 0")
-    return value
-
-
-def _not_negative(text: str) -> float:
-    value = _finite(text)
-    if value < 0.0:
-        raise argparse.ArgumentTypeError(f"found {text}, expected a number that is not negative")
-    return value
 
 
 def run(arguments: argparse.Namespace) -> int:

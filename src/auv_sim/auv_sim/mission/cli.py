@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
-import re
 import sys
 import time
 from collections.abc import Sequence
@@ -14,52 +12,27 @@ from rich.console import Console
 
 from auv_msgs_py.errors import ConfigurationError, SuiteError
 from auv_path_following import config_files
+from auv_sim.command_line import (
+    EXIT_BAD_INPUT,
+    EXIT_DONE,
+    EXIT_FAILED,
+    EXIT_INTERRUPTED,
+    Parser,
+    finite,
+    positive,
+    ros_domain,
+    ros_namespace,
+)
 from auv_sim.mission import launcher, plan, results
 from auv_sim.mission.plan import Options
 from auv_sim.mission.progress import Progress
 
-EXIT_COMPLETE, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
-_EXIT = {"complete": EXIT_COMPLETE, "aborted": EXIT_FAILED, "interrupted": EXIT_INTERRUPTED}
-
-
-def _finite(text: str) -> float:
-    value = float(text)
-    if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"found {text}, expected a finite number")
-    return value
-
-
-def _positive(text: str) -> float:
-    value = _finite(text)
-    if value <= 0.0:
-        raise argparse.ArgumentTypeError(f"found {text}, expected a number greater than 0")
-    return value
-
-
-def _namespace(text: str) -> str:
-    name = "/" + text.strip("/")
-    if not re.fullmatch(r"(/[A-Za-z_][A-Za-z0-9_]*)+", name):
-        raise argparse.ArgumentTypeError(f"found '{text}', expected a ROS namespace such as /auv")
-    return name
-
-
-def _domain(text: str) -> int:
-    if not text.isdecimal() or int(text) > 232:
-        raise argparse.ArgumentTypeError(f"found '{text}', expected a ROS domain from 0 to 232")
-    return int(text)
-
-
-class _Parser(argparse.ArgumentParser):
-    """One line and exit code 2, without the usage in front of it."""
-
-    def error(self, message: str) -> None:  # type: ignore[override]
-        print(f"{self.prog}: {message} (see --help)", file=sys.stderr)
-        raise SystemExit(EXIT_BAD_INPUT)
+_EXIT = {"complete": EXIT_DONE, "aborted": EXIT_FAILED, "interrupted": EXIT_INTERRUPTED}
 
 
 def parser() -> argparse.ArgumentParser:
     """The command line."""
-    p = _Parser(
+    p = Parser(
         prog="mission.py", description="Fly a mission over ROS 2, record it, draw it.", allow_abbrev=False
     )
     shipped = {kind: ", ".join(config_files.shipped(kind)) for kind in ("missions", "vehicles", "params")}
@@ -79,19 +52,19 @@ def parser() -> argparse.ArgumentParser:
         "--params", default=plan.DEFAULT_PARAMS, metavar="FILE", help=f"file or one of: {shipped['params']}"
     )
     p.add_argument(
-        "--current", nargs=2, type=_finite, metavar=("VX", "VY"), help="current towards north and east, m/s"
+        "--current", nargs=2, type=finite, metavar=("VX", "VY"), help="current towards north and east, m/s"
     )
     p.add_argument(
         "--initial",
         nargs=3,
-        type=_finite,
+        type=finite,
         metavar=("X", "Y", "PSI_DEG"),
         help="start: north, east (m), heading (deg)",
     )
     p.add_argument("--switching", choices=("off", "g0", "all"), help="joints with a circle of acceptance")
     p.add_argument(
         "--speed",
-        type=_positive,
+        type=positive,
         metavar="N",
         help="free running at N times real time; without it lockstep, as fast as it goes",
     )
@@ -103,9 +76,9 @@ def parser() -> argparse.ArgumentParser:
     )
     p.add_argument("--out", type=Path, metavar="DIR", help="run directory (default: runs/MISSION-DATE)")
     p.add_argument("--composed", action="store_true", help="all nodes in one process")
-    p.add_argument("--namespace", type=_namespace, default="/auv", help="of all nodes (default /auv)")
+    p.add_argument("--namespace", type=ros_namespace, default="/auv", help="of all nodes (default /auv)")
     p.add_argument(
-        "--domain", type=_domain, help="ROS domain (default: one of its own; with --no-sim ROS_DOMAIN_ID)"
+        "--domain", type=ros_domain, help="ROS domain (default: one of its own; with --no-sim ROS_DOMAIN_ID)"
     )
     p.add_argument("--force", action="store_true", help="fly what the check of the plan refuses")
     p.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 import os
-import signal
 import time
 from dataclasses import dataclass
 from pathlib import Path
 
 from auv_msgs_py import topics
 from auv_msgs_py.errors import SuiteError
+from auv_msgs_py.runtime import StopRequest
 from auv_sim.mission.composed import NODES
 from auv_sim.mission.plan import Plan
 from auv_sim.mission.processes import Child, Children
@@ -56,18 +56,6 @@ def domain_of(plan: Plan) -> int:
     return 1 + os.getpid() % 100
 
 
-class _Interrupt:
-    """Ctrl-C sets a flag; the second one is not needed."""
-
-    def __init__(self) -> None:
-        self.requested = False
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, self._request)
-
-    def _request(self, *_: object) -> None:
-        self.requested = True
-
-
 def fly(plan: Plan, directory: Path, progress: Progress) -> Outcome:
     """Run the mission of `plan`, with logs and the bag under `directory`.
 
@@ -78,7 +66,7 @@ def fly(plan: Plan, directory: Path, progress: Progress) -> Outcome:
     if not plan.options.no_sim or "ROS_AUTOMATIC_DISCOVERY_RANGE" not in os.environ:
         environment["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     os.environ.update(environment)
-    interrupt = _Interrupt()
+    interrupt = StopRequest()
     children = Children(directory / "log", environment)
     try:
         _start_nodes(plan, children, plan.write(directory / "config"))
@@ -123,7 +111,7 @@ class _Flight:
         self._children: Children = children
         self._monitor = monitor
         self._progress: Progress = progress
-        self._interrupt: _Interrupt = interrupt
+        self._interrupt: StopRequest = interrupt
 
     def run(self) -> Outcome:
         begin = time.monotonic()

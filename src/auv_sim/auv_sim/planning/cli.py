@@ -22,6 +22,7 @@ from auv_path_following.guidance.switching import SwitchingConfig, as_wished
 from auv_path_following.paths import mission_file
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
+from auv_sim.command_line import Parser, finite
 from auv_sim.parameters import SUITE
 from auv_sim.planning import chart, drawing
 from auv_sim.planning.check import Verdicts, check, refusal
@@ -30,25 +31,10 @@ EXIT_FLYABLE, EXIT_REFUSED = 0, 2
 _ROWS = 40
 
 
-class _Parser(argparse.ArgumentParser):
-    """One line and exit code 2, without the usage in front of it."""
-
-    def error(self, message: str) -> None:  # type: ignore[override]
-        print(f"{self.prog}: {message} (see --help)", file=sys.stderr)
-        raise SystemExit(EXIT_REFUSED)
-
-
-def _finite(text: str) -> float:
-    value = float(text)
-    if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"found {text}, expected a finite number")
-    return value
-
-
 def parser() -> argparse.ArgumentParser:
     """The command line."""
     shipped = {kind: ", ".join(config_files.shipped(kind)) for kind in ("missions", "vehicles", "params")}
-    p = _Parser(
+    p = Parser(
         prog="plan.py",
         description="Check a mission, draw it, and say whether the vehicle can fly it.",
         epilog="Exit code 0: it can be flown, perhaps with warnings. 2: it is refused, or a file is wrong.",
@@ -64,7 +50,7 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument(
         "--current",
         nargs=2,
-        type=_finite,
+        type=finite,
         default=(0.0, 0.0),
         metavar=("VX", "VY"),
         help="current towards north and east, m/s",

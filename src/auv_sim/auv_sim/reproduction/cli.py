@@ -19,6 +19,7 @@ from auv_msgs_py.errors import ConfigurationError, SuiteError
 from auv_path_following import vehicle
 from auv_path_following.paths import mission_file
 from auv_sim.analysis.run import Run
+from auv_sim.command_line import Parser
 from auv_sim.reproduction import claims_current, claims_following, corner, figures, page, starts
 from auv_sim.reproduction.cases import flights
 from auv_sim.reproduction.claim import FAILS, HOLDS, Claim
@@ -26,14 +27,6 @@ from auv_sim.reproduction.corner import Bound
 from auv_sim.reproduction.flights import MISSION, PLANTS, Flight, each, fly
 
 _BOUNDS = {"the rudder may move before the corner": True, "it may not": False}
-
-
-class _Parser(argparse.ArgumentParser):
-    """One line and exit code 2, without the usage in front of it."""
-
-    def error(self, message: str) -> None:  # type: ignore[override]
-        print(f"{self.prog}: {message} (see --help)", file=sys.stderr)
-        raise SystemExit(2)
 
 
 def _count(text: str) -> int:
@@ -51,7 +44,7 @@ def _seconds(text: str) -> float:
 
 def parser() -> argparse.ArgumentParser:
     """The command line."""
-    p = _Parser(
+    p = Parser(
         prog="reproduce_paper.py",
         allow_abbrev=False,
         description="Fly the paper's cases, draw its Figures 5 to 12, judge its claims.",
