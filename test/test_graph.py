@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import signal
 from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
@@ -83,10 +84,12 @@ def test_two_runs_are_bit_identical_in_one_process_or_five(
 def test_free_running_follows_the_mission_too(short_mission: Path, tmp_path: Path, domain: int) -> None:
     """Against the wall clock: how near the track is depends on the machine, so the bound is wide."""
     asked = ["--mission", str(short_mission), "--quiet", "--domain", str(domain)]
+    before = signal.getsignal(signal.SIGINT)
     assert main([*asked, "--out", str(tmp_path / "free"), "--speed", "2"]) == 0
+    assert signal.getsignal(signal.SIGINT) is before  # Ctrl-C is the caller's again
     summary = json.loads((tmp_path / "free" / "summary.json").read_text())
     assert (summary["completed"], summary["timing"]) == (True, "free running")
-    assert summary["largest_distance"] < 1.0
+    assert summary["largest_distance"] < 5.0
 
 
 def test_a_vehicle_that_somebody_else_runs_is_driven_through_the_same_mission(
@@ -100,4 +103,4 @@ def test_a_vehicle_that_somebody_else_runs_is_driven_through_the_same_mission(
     assert main([*asked, "--domain", str(domain), "--out", str(tmp_path / "run")]) == 0
     summary = json.loads((tmp_path / "run" / "summary.json").read_text())
     assert (summary["completed"], summary["timing"]) == (True, "free running")
-    assert summary["largest_distance"] < 2.0
+    assert summary["largest_distance"] < 5.0  # how near depends on the machine, see test_foreign_vehicle

@@ -83,6 +83,7 @@ def fly(plan: Plan, directory: Path, progress: Progress) -> Outcome:
             monitor.close()
     finally:
         children.stop()
+        interrupt.withdraw()
 
 
 def _start_nodes(plan: Plan, children: Children, parameters: Path) -> None:
