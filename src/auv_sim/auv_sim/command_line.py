@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import argparse
 import math
+import os
 import re
 import sys
 from typing import NoReturn
+
+from rich.console import Console
 
 EXIT_DONE, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
 
@@ -60,3 +63,9 @@ def ros_domain(text: str) -> int:
     if not text.isdecimal() or int(text) > 232:
         raise argparse.ArgumentTypeError(f"found '{text}', expected a ROS domain from 0 to 232")
     return int(text)
+
+
+def console(quiet: bool = False) -> Console:
+    """Where tables go: as wide as the terminal; in a pipe or a file wide enough for the widest table."""
+    free = not sys.stdout.isatty() and "COLUMNS" not in os.environ
+    return Console(width=140 if free else None, quiet=quiet, highlight=False)

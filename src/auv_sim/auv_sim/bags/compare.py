@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 from rich import box
-from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
@@ -17,6 +16,7 @@ from auv_msgs_py.errors import ConfigurationError
 from auv_sim.analysis.metrics import MissionSummary
 from auv_sim.bags.compare_picture import draw
 from auv_sim.bags.flight import PARAMS, Flight, configuration, flight_of
+from auv_sim.command_line import console as terminal
 from auv_sim.recording.bag import read_bag
 
 #: Field of the summary, heading, digits.
@@ -73,7 +73,7 @@ def run(arguments: argparse.Namespace) -> int:
         }
         print(json.dumps(data, indent=2, allow_nan=False))
         return 0
-    console = Console(highlight=False)
+    console = terminal()
     console.print(_table(labels, summaries))
     console.print(_subpaths(labels, summaries))
     if settings:

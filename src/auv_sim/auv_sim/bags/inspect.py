@@ -19,6 +19,7 @@ from auv_sim.bags import inspect_tables
 from auv_sim.bags.events import Event, events_of
 from auv_sim.bags.flight import Flight, flight_of
 from auv_sim.bags.topic_facts import TopicFacts, facts_of
+from auv_sim.command_line import console as terminal
 from auv_sim.recording.bag import Bag, read_bag, storage_of
 from auv_sim.recording.metadata import METADATA_FILE
 
@@ -41,7 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Print; 2 when nothing at all could be read."""
     bags = [bag for path in arguments.bag for bag in find_bags(path)]
-    console = Console(highlight=False)
+    console = terminal()
     if len(bags) > 1:
         return _many(bags, arguments, console)
     bag = read_bag(bags[0], _wanted)

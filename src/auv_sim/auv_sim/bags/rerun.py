@@ -15,7 +15,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from rich import box
-from rich.console import Console
 from rich.table import Table
 
 from auv_msgs_py import params_file, topics, yaml_file
@@ -24,6 +23,7 @@ from auv_path_following import config_files, vehicle
 from auv_path_following.paths import mission_file
 from auv_sim.bags.chain import Answers, answers
 from auv_sim.bags.flight import MISSION, PARAMS, VEHICLE, configuration
+from auv_sim.command_line import console as terminal
 from auv_sim.parameters import SUITE
 from auv_sim.recording.bag import read_bag
 from auv_sim.recording.load import USED
@@ -172,7 +172,7 @@ def _shown(name: str, values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _show(found: Answers, figures: dict[str, dict[str, Any]]) -> None:
-    console = Console(highlight=False)
+    console = terminal()
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     table.add_column("recorded against new")
     for heading in ("compared", "same bits", "rms difference", "largest", "at s"):

@@ -8,8 +8,6 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from rich.console import Console
-
 from auv_msgs_py.errors import ConfigurationError, SuiteError
 from auv_path_following import config_files
 from auv_sim.command_line import (
@@ -23,6 +21,7 @@ from auv_sim.command_line import (
     ros_domain,
     ros_namespace,
 )
+from auv_sim.command_line import console as terminal
 from auv_sim.mission import launcher, plan, results
 from auv_sim.mission.plan import Options
 from auv_sim.mission.progress import Progress
@@ -119,7 +118,7 @@ def _options(argv: Sequence[str] | None) -> Options:
 def _fly(options: Options) -> int:
     directory = _run_directory(options)
     resolved = plan.make(options, directory)
-    console = Console(quiet=options.quiet)
+    console = terminal(options.quiet)
     try:
         directory.mkdir(parents=True)
     except OSError as error:

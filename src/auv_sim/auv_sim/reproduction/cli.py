@@ -20,6 +20,7 @@ from auv_path_following import vehicle
 from auv_path_following.paths import mission_file
 from auv_sim.analysis.run import Run
 from auv_sim.command_line import Parser
+from auv_sim.command_line import console as terminal
 from auv_sim.reproduction import claims_current, claims_following, corner, figures, page, starts
 from auv_sim.reproduction.cases import flights
 from auv_sim.reproduction.claim import FAILS, HOLDS, Claim
@@ -90,7 +91,7 @@ def parser() -> argparse.ArgumentParser:
 def main(argv: Sequence[str] | None = None) -> int:
     """Returns the exit code: 0 done, 1 failed, 2 bad input, 130 interrupted."""
     options = parser().parse_args(argv)
-    console = Console()
+    console = terminal()
     try:
         _directory(options.out)
         if options.study == "starts":
