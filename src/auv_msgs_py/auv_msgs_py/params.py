@@ -11,7 +11,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from auv_msgs_py.errors import ConfigurationError
-from auv_msgs_py.settings import SettingInfo, flattened, leaves, nested, validated
+from auv_msgs_py.settings import SettingInfo, leaves, nested, validated
 
 T = TypeVar("T")
 _BUILT_IN = ("use_sim_time", "start_type_description_service", "qos_overrides")
@@ -105,8 +105,3 @@ def _expectation(leaf: SettingInfo) -> str:
     if leaf.maximum is not None:
         text += f" up to {leaf.maximum:g}"
     return text
-
-
-def as_overrides(settings: Any) -> dict[str, Any]:
-    """A settings object as name -> value, to hand to a node."""
-    return {name: list(v) if isinstance(v, tuple) else v for name, v in flattened(settings).items()}
