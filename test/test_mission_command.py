@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from auv_sim.mission.cli import main
+from bag_watch import recorded
 
 CommandLine = Callable[..., list[str]]
 Spawn = Callable[[list[str]], "subprocess.Popen[str]"]
@@ -37,8 +38,8 @@ def alive(pid: int) -> bool:
 
 
 def under_way(run: Path) -> bool:
-    """The recorder has written the first steps."""
-    return any(file.stat().st_size > 20_000 for file in (run / "bag").glob("*.mcap"))
+    """The recorder has written the answer to a step."""
+    return recorded(run / "bag", "/auv/thrust_cmd")
 
 
 def test_a_mission_is_flown_recorded_and_drawn(

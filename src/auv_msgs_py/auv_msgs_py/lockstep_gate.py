@@ -9,6 +9,8 @@ from rclpy.qos import QoSCompatibility, qos_check_compatible
 from auv_msgs_py import qos, topics
 from auv_msgs_py.topics import Topic
 
+_READS = " to subscribe to "
+
 
 class LockstepGate:
     """Open once every publisher of a node is matched with every reader that must not miss a message.
@@ -37,9 +39,14 @@ class LockstepGate:
         for topic, publisher in self._publishers.items():
             missing = self._missing(topic, publisher)
             if missing:
-                return f"{missing} to subscribe to {topic.name}"
+                return f"{missing}{_READS}{topic.name}"
         self._open = True
         return ""
+
+    @staticmethod
+    def lacks_reader(text: str) -> bool:
+        """Whether a `waiting_for` is about a reader that is not there, not about a message."""
+        return _READS in text
 
     def _missing(self, topic: Topic, publisher: Publisher) -> str:
         needed = set(topic.subscribers) | ({topics.RECORDER} if self._recorded else set())

@@ -13,6 +13,7 @@ from rclpy.clock import Clock, ClockType
 from std_msgs.msg import UInt64
 
 from auv_msgs_py import topics
+from auv_msgs_py.lockstep_gate import LockstepGate
 from auv_msgs_py.pairing import Pairing
 from auv_msgs_py.types import Command
 
@@ -108,10 +109,7 @@ class Lockstep:
             return
         bound = self._node.parameters.answer_timeout
         if time.monotonic() - self._open_since > bound:
-            culprit, topic = self._culprit()
-            self._node.fail(
-                f"{self._where()} got no answer within {bound:g} s: {culprit} did not send {topic}"
-            )
+            self._node.fail(f"{self._where()} got no answer within {bound:g} s: {self._culprit()}")
 
     def _check_recorder(self) -> None:
         waits = self._published - self._recorded >= topics.RECORDING_LEAD and self._node.mission_running
@@ -127,7 +125,7 @@ class Lockstep:
     def _where(self) -> str:
         return f"step {self._node.steps} (t = {self._node.stamp * 1e-9:.2f} s)"
 
-    def _culprit(self) -> tuple[str, str]:
+    def _culprit(self) -> str:
         """Follow who waits for whom: the first that reports nothing, or waits for nobody, is to blame."""
         topic = _BY_NAME[self._missing()[0]]
         for _ in topics.CONTRACT:
@@ -135,6 +133,8 @@ class Lockstep:
             reported = self._open_since is not None and at > self._open_since
             following = _BY_NAME.get(waits.split(",")[0]) if reported else None
             if following is None or following.publisher == topics.PLANT:
+                if reported and LockstepGate.lacks_reader(waits):
+                    return f"{topic.publisher} waits for {waits}"
                 break
             topic = following
-        return topic.publisher, topic.name
+        return f"{topic.publisher} did not send {topic.name}"

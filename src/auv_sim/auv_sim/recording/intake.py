@@ -57,6 +57,7 @@ class PolledTopic:
         self.publishers = 1
         self.watch = SequenceWatch()
         self._node = node
+        self._fetched: list[Taken] = []
         self._type = message_class(type_name)
         self.is_clock = name == CLOCK.name
         self._subscribe(profile)
@@ -71,9 +72,11 @@ class PolledTopic:
         self._take = self._subscription.handle.take_message
 
     def resubscribe(self, profile: QoSProfile) -> None:
-        """Ask for another QoS; only before anything has come."""
-        self.close()
-        self._subscribe(profile)
+        """Ask for another QoS, unless something has come by now: it would go with the old subscription."""
+        self._fetch(self._fetched)
+        if not self._fetched:
+            self.close()
+            self._subscribe(profile)
 
     def close(self) -> None:
         """Leave the topic."""
@@ -81,6 +84,12 @@ class PolledTopic:
 
     def take(self, batch: list[Taken]) -> None:
         """Append everything that has come."""
+        if self._fetched:
+            batch += self._fetched
+            self._fetched = []
+        self._fetch(batch)
+
+    def _fetch(self, batch: list[Taken]) -> None:
         take, kind, order = self._take, self._type, 0 if self.is_clock else 1
         while (taken := take(kind, True)) is not None:
             data, info = taken
