@@ -7,8 +7,6 @@ For one test: scripts/test.py -k fermat -x
 from __future__ import annotations
 
 import os
-import random
-import socket
 import subprocess
 import sys
 import time
@@ -20,12 +18,15 @@ CHECKS = {
     "lint": ("ruff", "check", *CODE),
     "format": ("ruff", "format", "--check", *CODE),
     "types": ("mypy",),
-    "tests": ("pytest",),
+    # Whole missions wait more than they compute; a file's tests stay together, as its fixtures do.
+    "tests": ("pytest", "-p", "xdist", "--numprocesses", "2", "--dist", "loadfile"),
 }
 
 
 def main(arguments: list[str]) -> int:
-    checks = {"tests": (*CHECKS["tests"], *arguments)} if arguments else CHECKS
+    from auv_sim.mission.domains import free_domain  # not before there is an environment
+
+    checks = {"tests": ("pytest", *arguments)} if arguments else CHECKS
     environment = {
         **os.environ,
         # Nothing of a test leaves this machine, nor meets another run on it.
@@ -43,23 +44,6 @@ def main(arguments: list[str]) -> int:
     verdicts = ", ".join("{} {}".format(name, "FAILED" if code else "ok") for name, code in results.items())
     print(f"== {verdicts} ({time.monotonic() - began:.0f} s)", flush=True)
     return int(any(results.values()))
-
-
-def free_domain() -> int:
-    """A ROS domain that nobody on this machine uses.
-
-    Its first participant would hold UDP port 7410 + 250 d. Domains above 101 reach into the ports that Linux
-    hands out by itself.
-    """
-    domains = random.sample(range(1, 102), 101)
-    for domain in domains:
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-            try:
-                probe.bind(("127.0.0.1", 7410 + 250 * domain))
-            except OSError:
-                continue
-        return domain
-    return domains[0]
 
 
 if __name__ == "__main__":

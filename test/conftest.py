@@ -12,14 +12,14 @@ from pathlib import Path
 import pytest
 import rclpy
 
+from auv_sim.mission.domains import free_domain
 from node_bench import Bench
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 SHORT_MISSION = Path(__file__).parent / "data" / "short.yaml"
 
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
-_BASE = 1 + os.getpid() % 90
-_DOMAINS = itertools.cycle(range(_BASE, _BASE + 10))
+_ASKED = itertools.count()
 
 
 @pytest.fixture
@@ -30,8 +30,8 @@ def short_mission() -> Path:
 
 @pytest.fixture
 def domain(monkeypatch: pytest.MonkeyPatch) -> int:
-    """A ROS domain that no other test of this run is using."""
-    number = next(_DOMAINS)
+    """A ROS domain that nobody uses, and no other test has just left."""
+    number = free_domain(skip=next(_ASKED) % 10)
     monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
     return number
 

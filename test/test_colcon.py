@@ -14,6 +14,8 @@ import pytest
 import rclpy
 from rclpy.node import Node
 
+from auv_sim.mission.domains import free_domain
+
 ROOT = Path(__file__).resolve().parents[1]
 EXECUTABLES = [
     ("auv_path_following", "current_observer"),
@@ -50,7 +52,7 @@ def install(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def domain() -> Iterator[int]:
     """A ROS domain of this test's own, on this machine only."""
     with pytest.MonkeyPatch.context() as patch:
-        number = os.getpid() % 100 + 1
+        number = free_domain()
         patch.setenv("ROS_DOMAIN_ID", str(number))
         patch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
         yield number

@@ -126,10 +126,11 @@ def _fly(options: Options) -> int:
             "--out", f"{directory} ({error.strerror})", "a directory that can be made"
         ) from None
     path = resolved.mission.path
+    domain = launcher.domain_of(resolved)
     timing = "lockstep" if resolved.lockstep else "free running"
     console.print(
         f"[bold]{resolved.mission.name}[/bold]: {path.n} subpaths, {path.length:.1f} m,"
-        f" {resolved.vehicle.name}, {timing}, ROS domain {launcher.domain_of(resolved)},"
+        f" {resolved.vehicle.name}, {timing}, ROS domain {domain},"
         f" namespace {options.namespace}",
         highlight=False,
     )
@@ -137,7 +138,7 @@ def _fly(options: Options) -> int:
         for verdict in verdicts:
             console.print(f"[yellow]{level}[/yellow] {verdict}", highlight=False, soft_wrap=True)
     with Progress(path, console, options.quiet) as progress:
-        outcome = launcher.fly(resolved, directory, progress)
+        outcome = launcher.fly(resolved, directory, domain, progress)
     if outcome.state != "complete":
         print(f"mission {outcome.state}: {outcome.reason}", file=sys.stderr)
     summary = results.conclude(resolved, directory, outcome)

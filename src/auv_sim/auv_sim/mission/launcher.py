@@ -12,6 +12,7 @@ from auv_msgs_py import topics
 from auv_msgs_py.errors import SuiteError
 from auv_msgs_py.runtime import StopRequest
 from auv_sim.mission.composed import NODES
+from auv_sim.mission.domains import free_domain
 from auv_sim.mission.plan import Plan
 from auv_sim.mission.processes import Child, Children
 from auv_sim.mission.progress import Progress
@@ -53,16 +54,16 @@ def domain_of(plan: Plan) -> int:
         return plan.options.domain
     if plan.options.no_sim:
         return int(os.environ.get("ROS_DOMAIN_ID", "0"))
-    return 1 + os.getpid() % 100
+    return free_domain()
 
 
-def fly(plan: Plan, directory: Path, progress: Progress) -> Outcome:
-    """Run the mission of `plan`, with logs and the bag under `directory`.
+def fly(plan: Plan, directory: Path, domain: int, progress: Progress) -> Outcome:
+    """Run the mission of `plan`, in ROS domain `domain`, with logs and the bag under `directory`.
 
     Raises:
         MissionFailed: a node died or never came up; nothing is left running.
     """
-    environment = {"ROS_DOMAIN_ID": str(domain_of(plan))}
+    environment = {"ROS_DOMAIN_ID": str(domain)}
     if not plan.options.no_sim or "ROS_AUTOMATIC_DISCOVERY_RANGE" not in os.environ:
         environment["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     os.environ.update(environment)

@@ -27,7 +27,7 @@ def wall_time(mission: str, recorded: bool, directory: Path) -> float:
             resolved.parameters[name] = dataclasses.replace(settings, recorded=False)
     directory.mkdir(parents=True)
     with Progress(resolved.mission.path, Console(quiet=True), quiet=True) as progress:
-        return launcher.fly(resolved, directory, progress).wall_time
+        return launcher.fly(resolved, directory, launcher.domain_of(resolved), progress).wall_time
 
 
 def main() -> int:
