@@ -17,10 +17,12 @@ from auv_msgs_py.errors import MessageRefused
 _OK, _WARN, _ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 #: How long a refused message keeps the status at WARN, s of wall time.
 _MEMORY = 5.0
+#: A refusal after so much time without one is reported at once, s of wall time.
+_NEWS = 0.5
 
 
 class Health:
-    """Counts what was refused, and publishes a status twice a second of wall time.
+    """Counts what was refused; publishes a status twice a second of wall time, and news at once.
 
     Wall time, because a health report must also come when the ROS clock stands still.
 
@@ -28,6 +30,7 @@ class Health:
         node: the node that reports.
         values: called for each report; further key-value pairs.
         waiting_for: called for each report; topics a step waits for ("" if none).
+        look: called before each regular report, to set conditions.
     """
 
     def __init__(
@@ -35,11 +38,13 @@ class Health:
         node: Node,
         values: Callable[[], dict[str, Any]] = dict,
         waiting_for: Callable[[], str] = str,
+        look: Callable[[], None] = lambda: None,
         period: float = 0.5,
     ) -> None:
         self._node = node
         self._values = values
         self._waiting_for = waiting_for
+        self._look = look
         self.refused: Counter[str] = Counter()
         self._last_refusal = ""
         self._last_refusal_at = float("-inf")
@@ -47,15 +52,25 @@ class Health:
         self._publisher = node.create_publisher(
             DiagnosticArray, topics.DIAGNOSTICS.name, qos.offered(topics.DIAGNOSTICS)
         )
-        self._timer = node.create_timer(period, self.publish, clock=Clock(clock_type=ClockType.STEADY_TIME))
+        self._timer = node.create_timer(period, self._report, clock=Clock(clock_type=ClockType.STEADY_TIME))
+
+    @property
+    def last_refusal(self) -> str:
+        """What was refused lately; empty when nothing was."""
+        return self._last_refusal if time.monotonic() - self._last_refusal_at < _MEMORY else ""
 
     def refuse(self, error: MessageRefused) -> None:
         """Count a refused message; its kind is logged once, its number is in every report."""
         self.refused[error.topic] += 1
         text = str(error)
-        if self.refused[error.topic] == 1 or text.split(":")[0] not in self._last_refusal:
+        now = time.monotonic()
+        another = text.split(":")[0] not in self._last_refusal
+        if self.refused[error.topic] == 1 or another:
             self._node.get_logger().error(f"refused: {text}")
-        self._last_refusal, self._last_refusal_at = text, time.monotonic()
+        news = another or now - self._last_refusal_at > _NEWS
+        self._last_refusal, self._last_refusal_at = text, now
+        if news:
+            self.publish()
 
     def warn(self, name: str, text: str) -> None:
         """Set or (with an empty text) clear a lasting condition; a new one is logged."""
@@ -69,19 +84,26 @@ class Health:
         if not text:
             self._condition.pop(name, None)
             return
-        if name not in self._condition:
-            self._node.get_logger().warning(text)
+        known = name in self._condition
         self._condition[name] = (level, text)
+        if not known:
+            self._node.get_logger().warning(text)
+            self.publish()
+
+    def _report(self) -> None:
+        self._look()
+        self.publish()
 
     def publish(self) -> None:
         """Send one report."""
         level, message = _OK, "ok"
-        if time.monotonic() - self._last_refusal_at < _MEMORY:
-            level, message = _WARN, f"refused: {self._last_refusal}"
+        if refusal := self.last_refusal:
+            level, message = _WARN, f"refused: {refusal}"
         for condition_level, text in self._condition.values():
             if condition_level > level:
                 level, message = condition_level, text
         values = {"waiting_for": self._waiting_for(), **self._values()}
+        values |= {f"condition {name}": text for name, (_, text) in self._condition.items()}
         values |= {f"refused {topic}": count for topic, count in self.refused.items()}
         status = DiagnosticStatus(
             level=level,

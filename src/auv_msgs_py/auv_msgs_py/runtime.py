@@ -20,6 +20,7 @@ from auv_msgs_py.errors import LockstepBroken, MessageRefused, SuiteError
 from auv_msgs_py.health import Health
 from auv_msgs_py.lockstep_gate import LockstepGate
 from auv_msgs_py.topics import Topic
+from auv_msgs_py.watch import ClockWatch, RateWatch
 
 try:
     from rclpy.experimental import EventsExecutor
@@ -36,7 +37,7 @@ class SuiteNode(Node):  # type: ignore[misc]
 
     Args:
         name: the node's name.
-        parameters: its settings class, which has `lockstep` and `recorded`.
+        parameters: its settings class, which has `lockstep`, `recorded` and `flood_rate`.
         arguments: handed on to `rclpy.node.Node` (namespace, cli_args, ...).
     """
 
@@ -48,7 +49,9 @@ class SuiteNode(Node):  # type: ignore[misc]
         self.finished = False
         self._gate: LockstepGate | None = None
         self._kept: Callable[[], None] | None = None
-        self.health = Health(self, self.report, self.waiting_for)
+        self._rates = RateWatch(self.parameters.flood_rate)
+        self._clock_watch = ClockWatch()
+        self.health = Health(self, self.report, self.waiting_for, self._look)
 
     def report(self) -> dict[str, Any]:
         """Further values for /diagnostics."""
@@ -74,7 +77,10 @@ class SuiteNode(Node):  # type: ignore[misc]
     def listen(self, topic: Topic, callback: Callable[[Any], None]) -> None:
         """A subscription as the contract has it; a refused message is counted and reported, never raised."""
 
+        name, rates = topic.name, self._rates
+
         def guarded(message: Any) -> None:
+            rates.counts[name] += 1
             try:
                 callback(message)
             except MessageRefused as error:
@@ -85,6 +91,18 @@ class SuiteNode(Node):  # type: ignore[misc]
         self.create_subscription(
             qos.message_class(topic.type), topic.name, guarded, qos.requested(topic, self.parameters.lockstep)
         )
+
+    def _look(self) -> None:
+        """Free running: what no single message shows."""
+        if self.parameters.lockstep:
+            return
+        now = self.now()
+        still = self._clock_watch.stands_still(now, time.monotonic())
+        self.health.error("clock", "the clock stands still: is the simulator dead?" if still else "")
+        floods = self._rates.floods(now)
+        if floods is not None:
+            told = ", ".join(f"{name} comes at {rate:.0f} Hz" for name, rate in floods.items())
+            self.health.warn("flood", f"{told}: more than {self._rates.highest:g} Hz" if told else "")
 
     def now(self) -> float:
         """ROS time, s."""

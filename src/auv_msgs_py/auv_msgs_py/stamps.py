@@ -57,3 +57,57 @@ class StampGuard:
         self._refused = stamp
         self.refused += 1
         return Tick(Verdict.REFUSE, 0.0)
+
+
+class Timing(enum.Enum):
+    """How a stamp stands to the clock."""
+
+    PUNCTUAL = "punctual"
+    LATE = "late"
+    EARLY = "early"
+    STEPPED = "stepped"
+
+
+class Punctuality:
+    """Compares stamps with the clock of the one who receives them, without trusting that the two agree.
+
+    The most punctual message so far is the measure of all others, so a vehicle whose clock is wrong can be
+    flown, and one whose messages begin to come late is noticed. A lone stamp from the future is refused; a
+    second one that continues it shows that the sender's clock was set forward, and is the new measure.
+
+    Args:
+        bound: this much later (or earlier) than the measure is too much, s.
+        forget: how fast the measure may rise, s for each second: two clocks never run equally fast.
+    """
+
+    def __init__(self, bound: float, forget: float = 1e-3) -> None:
+        self.bound = bound
+        self.forget = forget
+        self.reset()
+
+    def reset(self) -> None:
+        """The next stamp is the measure."""
+        self._measure: float | None = None
+        self._at = 0.0
+        self._early: int | None = None
+
+    def judge(self, now: float, stamp: int) -> Timing:
+        """Take in a stamp (ns) received at `now` (s); a clock that shows 0 is not set yet."""
+        if now <= 0.0:
+            return Timing.PUNCTUAL
+        age = now - stamp * 1e-9
+        if self._measure is None or now < self._at:  # the first one, or the receiver's clock went back
+            self._measure, self._at, self._early = age, now, None
+            return Timing.PUNCTUAL
+        lateness = age - self._measure
+        if lateness > self.bound:
+            return Timing.LATE
+        if lateness < -self.bound:
+            if self._early is None or stamp <= self._early:
+                self._early = stamp
+                return Timing.EARLY
+            self._measure, self._at, self._early = age, now, None
+            return Timing.STEPPED
+        self._measure = min(age, self._measure + self.forget * (now - self._at))
+        self._at, self._early = now, None
+        return Timing.PUNCTUAL

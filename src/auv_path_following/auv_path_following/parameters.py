@@ -9,9 +9,11 @@ from auv_msgs_py.frames import FrameIds
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.control.autopilot import AutopilotConfig
 from auv_path_following.guidance.current_observer import CurrentObserverConfig
+from auv_path_following.guidance.limits import LimitsConfig
 from auv_path_following.guidance.mission_state import HoldingConfig
 from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.guidance.switching import as_wished
+from auv_path_following.navigation_gate import NavigationGateConfig
 
 if TYPE_CHECKING:  # reading missions is guidance's affair; the other nodes start faster without it
     from auv_path_following.paths.mission_file import Mission
@@ -25,6 +27,7 @@ class NodeParameters:
     recorded: bool = setting(
         False, "in lockstep: a recorder takes part, nothing is published before it listens"
     )
+    flood_rate: float = setting(500.0, "a topic that comes more often is reported", unit="Hz", gt=0.0, le=1e6)
 
 
 @settings
@@ -32,6 +35,16 @@ class NavigationParameters(NodeParameters):
     """What every node that reads the vehicle's navigation has."""
 
     frames: FrameIds = setting(factory=FrameIds, doc="accepted frame ids")
+    vehicle: str = setting("remus100", "vehicle file, or the name of a shipped one: what it can do")
+    gate: NavigationGateConfig = setting(factory=NavigationGateConfig, doc="which odometry is believed")
+    lateness: float = setting(
+        1.0, "odometry that comes so much later after its stamp than it used to is refused", unit="s", gt=0.0,
+        le=60.0,
+    )  # fmt: skip
+    odometry_timeout: float = setting(
+        0.5, "odometry silent for this long is an error; the autopilot sets rudder and thrust to 0", unit="s",
+        gt=0.0, le=10.0, live=True,
+    )  # fmt: skip
 
 
 @settings
@@ -49,14 +62,12 @@ class GuidanceParameters(NavigationParameters):
     """ailos_guidance."""
 
     mission: str = setting("paper_composite", "mission file, or the name of a shipped one")
-    vehicle: str = setting(
-        "remus100", "vehicle file, or the name of a shipped one: thrust for a mission's speed"
-    )
     mission_switching: bool = setting(
         True, "at the start guidance.switching takes over what the mission file asks for"
     )
     guidance: PathFollowerConfig = setting(factory=PathFollowerConfig, doc="virtual point, law and switching")
     holding: HoldingConfig = setting(factory=HoldingConfig, doc="what missing navigation leads to")
+    limits: LimitsConfig = setting(factory=LimitsConfig, doc="what ends a mission")
     water_velocity_timeout: float = setting(
         1.0, "oldest velocity through water that is still used", unit="s", gt=0.0, le=60.0, live=True
     )
@@ -82,11 +93,7 @@ class GuidanceParameters(NavigationParameters):
 class AutopilotParameters(NavigationParameters):
     """heading_autopilot."""
 
-    vehicle: str = setting("remus100", "vehicle file or shipped name: limits of rudder and thrust")
     autopilot: AutopilotConfig = setting(factory=AutopilotConfig, doc="controller and gains")
     reference_timeout: float = setting(
         0.5, "guidance silent for this long: rudder and thrust go to 0", unit="s", gt=0.0, le=10.0, live=True
-    )
-    odometry_timeout: float = setting(
-        0.5, "odometry silent for this long: rudder and thrust go to 0", unit="s", gt=0.0, le=10.0, live=True
     )

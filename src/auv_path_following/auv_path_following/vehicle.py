@@ -147,6 +147,11 @@ class Vehicle:
         """Steady speed through the water straight ahead, m/s, at a thrust in N: Eq. (19) with SX = 0."""
         return math.sqrt(max(thrust, 0.0) / self._drag)
 
+    @property
+    def top_speed(self) -> float:
+        """Speed through the water with all thrust there is, m/s."""
+        return self.speed_at(self.thrust_max)
+
     def thrust_at(self, speed: float) -> float:
         """Thrust, N, for a steady speed through the water straight ahead, m/s: inverse of `speed_at`."""
         return self._drag * speed * speed

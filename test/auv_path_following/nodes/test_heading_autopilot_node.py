@@ -63,4 +63,4 @@ def test_the_autopilot_stops_the_vehicle_when_odometry_falls_silent(bench: Bench
     bench.reference(math.pi / 2, 0.0, 6.0)
     bench.until(lambda: bench.values(topics.THRUST_CMD) == [6.0])
     bench.until(lambda: bench.values(topics.THRUST_CMD)[-1] == 0.0)
-    bench.until(lambda: bench.diagnosed("no odom: rudder and thrust are 0"))
+    bench.until(lambda: bench.diagnosed("no usable odom for 0.3 s: rudder and thrust are 0"))

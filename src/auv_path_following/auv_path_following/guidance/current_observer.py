@@ -52,6 +52,11 @@ class CurrentObserver:
         self._ex = self._ey = 0.0
         self._current = NO_CURRENT
 
+    def relocate(self) -> None:
+        """The next position is not the end of a way from the last one; the current is still the same."""
+        self._last = None
+        self._ex = self._ey = 0.0
+
     @property
     def current(self) -> Current:
         """The latest estimate, m/s, NED."""

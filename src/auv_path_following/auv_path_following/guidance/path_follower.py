@@ -12,6 +12,7 @@ from auv_path_following.guidance.ailos import Ailos, AilosConfig
 from auv_path_following.guidance.ilos import Ilos, IlosConfig
 from auv_path_following.guidance.law import GuidanceLaw, LawInputs
 from auv_path_following.guidance.los import Los, LosConfig
+from auv_path_following.guidance.rejoin import closest_ahead
 from auv_path_following.guidance.switching import CircleOfAcceptance, SwitchingConfig
 from auv_path_following.guidance.virtual_point import (
     VirtualPoint,
@@ -34,6 +35,9 @@ class PathFollowerConfig:
         unit="m/s",
         ge=0.0,
         live=True,
+    )
+    rejoin_reach: float = setting(
+        50.0, "after a hold P is looked for at most so far ahead", unit="m", ge=0.0, le=1000.0, live=True
     )
     ailos: AilosConfig = setting(factory=AilosConfig, doc="AILOS")
     ilos: IlosConfig = setting(factory=IlosConfig, doc="integral line of sight")
@@ -80,6 +84,7 @@ class PathFollower:
         self.circle = CircleOfAcceptance(path)
         config = config or PathFollowerConfig()
         self.law: GuidanceLaw = _law(config)
+        self._at: tuple[float, float] | None = None
         self.configure(config)
 
     def configure(self, config: PathFollowerConfig) -> None:
@@ -99,6 +104,19 @@ class PathFollower:
     def reset(self) -> None:
         """Back to the beginning of the path."""
         self.virtual_point.reset()
+        self.law.reset()
+        self._at = None
+
+    def rejoin(self, navigation: Navigation) -> None:
+        """After a hold: P goes ahead to the closest point of as much path as the vehicle may have come along.
+
+        It is looked for no farther ahead than the vehicle was carried, with half as much again for the
+        path's turns, and never behind: a leg that lies beside this one is not mistaken for it.
+        """
+        P, (x, y) = self.virtual_point, self._at or navigation[:2]
+        carried = math.hypot(navigation.x - x, navigation.y - y)
+        reach = min(1.5 * carried + 1.0, self.config.rejoin_reach)
+        P.advance_to(*closest_ahead(self.path, P.i, P.t, navigation.x, navigation.y, reach))
         self.law.reset()
 
     def look(self, navigation: Navigation) -> GuidanceOutput:
@@ -126,6 +144,7 @@ class PathFollower:
         """
         config, P = self.config, self.virtual_point
         x, y, psi, _ = navigation
+        self._at = (x, y)
         if not config.compensate_current:
             current = NO_CURRENT
 

@@ -90,6 +90,12 @@ class VirtualPoint:
             self.t = 0.0
         return True
 
+    def advance_to(self, i: int, t: float) -> None:
+        """To a place ahead (one behind is ignored), and stay there until the next `set_speed`."""
+        self._t_rate = 0.0
+        if not self.finished and (i, t) > (self.i, self.t):
+            self.i, self.t = i, t
+
     def rest(self) -> None:
         """Stay until the next `set_speed`, however long that takes."""
         self._t_rate = 0.0

@@ -29,6 +29,7 @@ class CurrentObserverNode(SuiteNode):
 
     def configure(self) -> None:
         self.observer.config = self.parameters.observer
+        self._input.odometry.configure()
 
     def waiting_for(self) -> str:
         return self.gate_waits_for() or ", ".join(self._input.missing)
@@ -43,6 +44,9 @@ class CurrentObserverNode(SuiteNode):
             self.health.warn("water", f"no fresh {topics.WATER_VELOCITY.name}: the estimate rests")
             return
         self.health.warn("water", "")
+        if inputs.moved:
+            self.observer.relocate()
+            self._skipped = 0.0
         output = self.observer.update(inputs.navigation, inputs.water, inputs.dt + self._skipped)
         self._skipped = 0.0
         fill_current(self._message, output.current, inputs.stamp)

@@ -15,6 +15,7 @@ from auv_msgs_py.conversions import PATH_FRAME, fill_pose, path_message, set_sta
 from auv_msgs_py.frames import flip_yaw
 from auv_msgs_py.runtime import SuiteNode, run_nodes
 from auv_path_following import vehicle
+from auv_path_following.guidance.limits import Limits
 from auv_path_following.guidance.mission_state import MissionState, State
 from auv_path_following.guidance.path_follower import GuidanceOutput, PathFollower
 from auv_path_following.nodes.navigation_input import Inputs, NavigationInput
@@ -35,9 +36,12 @@ class GuidanceNode(SuiteNode):
         self.mission = mission_file.load(self.parameters.mission, vehicle.load(self.parameters.vehicle))
         self.follower = PathFollower(self.mission.path, self.parameters.guidance)
         self.state = MissionState(self.parameters.holding)
+        self.limits = Limits(self.parameters.limits.stricter(self.mission.limits), self.mission.geofence)
         self._told: State | None = None
         self._output: GuidanceOutput | None = None
         self._last_usable: float | None = None
+        self._rejoining = False
+        self._clock_went_back = False
         self._floats = {
             topic: (self.advertise(topic), Float64())
             for topic in (
@@ -77,6 +81,8 @@ class GuidanceNode(SuiteNode):
     def configure(self) -> None:
         self.follower.configure(self.parameters.guidance)
         self.state.config = self.parameters.holding
+        self.limits.config = self.parameters.limits.stricter(self.mission.limits)
+        self._input.odometry.configure()
 
     def waiting_for(self) -> str:
         return self.gate_waits_for() or ", ".join(self._input.missing)
@@ -90,7 +96,7 @@ class GuidanceNode(SuiteNode):
     def _on_start(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         response.success = self.state.start()
         if response.success:
-            self._restart()
+            self._begin()
         response.message = self.state.reason if response.success else f"already {self.state.state.value}"
         self._tell()
         return response
@@ -102,16 +108,27 @@ class GuidanceNode(SuiteNode):
         self._tell()
         return response
 
-    def _restart(self) -> None:
+    def _begin(self) -> None:
+        """At the beginning of the path, and only when asked to start or when time itself began again."""
         self.follower.reset()
-        self._last_usable = None
+        self.limits.reset()
+        self._last_usable, self._rejoining = None, False
+
+    def _restart(self) -> None:
+        """The odometry's stamps went back. If the clock did not, only the vehicle's clock was set: go on."""
+        if self.parameters.lockstep or self._clock_went_back:
+            self._begin()
+        self._clock_went_back = False
 
     def _watch(self) -> None:
         now = self.now()
         if self._last_usable is None or now < self._last_usable:
+            self._clock_went_back = self._last_usable is not None
             self._last_usable = now
         if now - self._last_usable > self.state.config.hold_after:
-            self.state.navigation_lost(f"no usable navigation for {self.state.config.hold_after:g} s", now)
+            why = self.health.last_refusal
+            reason = f"no usable navigation for {self.state.config.hold_after:g} s"
+            self.state.navigation_lost(f"{reason} ({why})" if why else reason, now)
         self.state.tick(now)
         self._tell()
 
@@ -122,13 +139,21 @@ class GuidanceNode(SuiteNode):
         else:
             self.health.warn("water", "")
             self._last_usable = self.now()
+            self._rejoining = self._rejoining or inputs.moved or self.state.state is State.HOLDING
             self.state.navigation_back()
         late = self.state.running and inputs.current_age > self.parameters.current_timeout
         self.health.warn("current", f"no fresh {topics.CURRENT_ESTIMATE.name}" if late else "")
         if self.state.running and water is not None:
-            output = self.follower.update(navigation, water, inputs.current, inputs.dt)
+            if self._rejoining:
+                self.follower.rejoin(navigation)
+                self.limits.rest()
+            dt, self._rejoining = 0.0 if self._rejoining else inputs.dt, False
+            output = self.follower.update(navigation, water, inputs.current, dt)
+            broken = self.limits.broken(navigation, output.xe, output.ye, inputs.dt)
             if output.finished:
                 self.state.complete()
+            elif broken:
+                self.state.abort(broken)
         else:
             output = self.follower.look(navigation)
         self._fill(output, inputs.stamp)
@@ -159,6 +184,8 @@ class GuidanceNode(SuiteNode):
         if self.state.state is self._told:
             return
         self._told = self.state.state
+        stopped = self._told in (State.HOLDING, State.ABORTED)
+        self.health.error("mission", f"{self._told.value}: {self.state.reason}" if stopped else "")
         self._mission_state.publish(String(data=self._told.value))
         self.get_logger().info(f"{self._told.value}: {self.state.reason}")
 

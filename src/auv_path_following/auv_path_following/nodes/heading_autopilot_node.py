@@ -6,22 +6,24 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from nav_msgs.msg import Odometry
-from std_msgs.msg import Float64
+from std_msgs.msg import Float64, String
 
 from auv_msgs_py import topics
 from auv_msgs_py.conversions import finite
-from auv_msgs_py.frames import FrameTable, flip_yaw
+from auv_msgs_py.errors import MessageRefused
+from auv_msgs_py.frames import flip_yaw
 from auv_msgs_py.pairing import Pairing
 from auv_msgs_py.runtime import SuiteNode, run_nodes
-from auv_msgs_py.stamps import StampGuard
 from auv_msgs_py.topics import Topic
 from auv_msgs_py.types import STOP, Command, Navigation, Reference
 from auv_path_following import vehicle
 from auv_path_following.control.autopilot import HeadingAutopilot
-from auv_path_following.nodes.navigation_input import accept
+from auv_path_following.guidance.mission_state import State
+from auv_path_following.nodes.odometry_intake import OdometryIntake
 from auv_path_following.parameters import AutopilotParameters
 
 _REFERENCES = (topics.DESIRED_YAW, topics.DESIRED_YAW_RATE, topics.DESIRED_THRUST)
+_STATES = tuple(state.value for state in State)
 
 
 class HeadingAutopilotNode(SuiteNode):
@@ -33,26 +35,32 @@ class HeadingAutopilotNode(SuiteNode):
 
     def __init__(self, **arguments: Any) -> None:
         super().__init__(topics.AUTOPILOT, AutopilotParameters, **arguments)
-        self.autopilot = HeadingAutopilot(vehicle.load(self.parameters.vehicle), self.parameters.autopilot)
-        self._frames = FrameTable(self.parameters.frames)
-        self._guard = StampGuard(ordered=self.parameters.lockstep)
+        hull = vehicle.load(self.parameters.vehicle)
+        self.autopilot = HeadingAutopilot(hull, self.parameters.autopilot)
+        #: What no guidance asks for: more than a turn, a whirl, a multiple of the thrust there is.
+        self._largest = dict(zip(_REFERENCES, (6.5, 10.0, 10.0 * hull.thrust_max), strict=True))
+        self._intake = OdometryIntake(self, "rudder and thrust are 0")
         self._pairing = Pairing(
             (topics.ODOM.name, *(topic.name for topic in _REFERENCES)), strict=self.parameters.lockstep
         )
         self._reference: tuple[Reference, float] | None = None
-        self._last_odometry: float | None = None
         self._command = STOP
+        self._missing = ""
+        self._mission = ""
+        self._contradicted: float | None = None
         self._rudder, self._rudder_message = self.advertise(topics.RUDDER_CMD), Float64()
         self._thrust, self._thrust_message = self.advertise(topics.THRUST_CMD), Float64()
         self.close_gate()
         self.listen(topics.ODOM, self._on_odometry)
         for topic in _REFERENCES:
             self.listen(topic, self._on_reference(topic))
+        self.listen(topics.MISSION_STATE, self._on_mission_state)
         if not self.parameters.lockstep:
             self.create_timer(0.1, self._watch)
 
     def configure(self) -> None:
         self.autopilot.configure(self.parameters.autopilot)
+        self._intake.configure()
 
     def waiting_for(self) -> str:
         return self.gate_waits_for() or ", ".join(self._pairing.missing)
@@ -62,19 +70,29 @@ class HeadingAutopilotNode(SuiteNode):
 
     def _on_odometry(self, message: Odometry) -> None:
         topic = topics.ODOM.name
-        navigation, dt, stamp, restarted = accept(message, self._frames, self._guard)
-        if restarted:
+        self._intake.under_way = self._command.thrust > 0.0
+        navigation, dt, stamp, _, moved = self._intake.take(message)
+        if moved:
             self.autopilot.reset()
-        self._last_odometry = self.now()
         if not self.parameters.lockstep and topic in self._pairing:
             self._answer(*self._pairing.take())
         self._put(topic, (navigation, dt), stamp)
 
     def _on_reference(self, topic: Topic) -> Callable[[Float64], None]:
+        largest = self._largest[topic]
+
         def callback(message: Float64) -> None:
-            self._put(topic.name, finite(message.data, topic.name), None)
+            value = finite(message.data, topic.name)
+            if abs(value) > largest:
+                raise MessageRefused(topic.name, f"{value:g}", f"from {-largest:g} to {largest:g}")
+            self._put(topic.name, value, None)
 
         return callback
+
+    def _on_mission_state(self, message: String) -> None:
+        if message.data not in _STATES:
+            raise MessageRefused(topics.MISSION_STATE.name, f"'{message.data}'", ", ".join(_STATES))
+        self._mission = message.data
 
     def _put(self, topic: str, value: Any, stamp: int | None) -> None:
         if self._pairing.put(topic, value, stamp):
@@ -85,6 +103,9 @@ class HeadingAutopilotNode(SuiteNode):
     ) -> None:
         if yaw is not None and rate is not None and thrust is not None:
             self._reference = Reference(flip_yaw(yaw), -rate, thrust), self.now()
+        else:
+            parts = zip(_REFERENCES, (yaw, rate, thrust), strict=True)
+            self._missing = ", ".join(topic.name for topic, value in parts if value is None)
         reference = self._fresh_reference()
         navigation, dt = odometry
         if reference is None:
@@ -98,17 +119,33 @@ class HeadingAutopilotNode(SuiteNode):
         if self._reference is None:
             return None
         reference, at = self._reference
-        silent = not self.parameters.lockstep and self.now() - at > self.parameters.reference_timeout
-        self.health.error("guidance", "guidance is silent: rudder and thrust are 0" if silent else "")
-        return None if silent else reference
+        if self.parameters.lockstep:
+            return reference
+        silent = self.now() - at > self.parameters.reference_timeout
+        text = f"guidance is silent (no {self._missing}): rudder and thrust are 0" if silent else ""
+        self.health.error("guidance", text)
+        return reference if not silent and self._allowed(reference.thrust) else None
+
+    def _allowed(self, thrust: float) -> bool:
+        """False when thrust is desired though the mission has not been running for a while.
+
+        The two come on different topics, so a short contradiction is nothing.
+        """
+        if not thrust > 0.0 or self._mission in ("", State.RUNNING):
+            self._contradicted = None
+            self.health.error("interlock", "")
+            return True
+        if self._contradicted is None:
+            self._contradicted = self.now()
+        if self.now() - self._contradicted <= self.parameters.reference_timeout:
+            return True
+        found = f"{topics.DESIRED_THRUST.name} is {thrust:g} though the mission is {self._mission}"
+        self.health.error("interlock", f"{found}: rudder and thrust are 0")
+        return False
 
     def _watch(self) -> None:
         """Odometry drives everything; without it nobody else would stop the vehicle."""
-        if self._last_odometry is None:
-            return
-        silent = self.now() - self._last_odometry > self.parameters.odometry_timeout
-        self.health.error("odometry", f"no {topics.ODOM.name}: rudder and thrust are 0" if silent else "")
-        if silent:
+        if self._intake.silent:
             self.autopilot.reset()
             self._pairing.clear()
             self._command = STOP

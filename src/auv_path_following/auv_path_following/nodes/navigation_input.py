@@ -13,41 +13,23 @@ from geometry_msgs.msg import TwistWithCovarianceStamped, Vector3Stamped
 from nav_msgs.msg import Odometry
 
 from auv_msgs_py import topics
-from auv_msgs_py.conversions import current_from, nanoseconds, navigation_from, water_velocity_from
+from auv_msgs_py.conversions import current_from, nanoseconds, water_velocity_from
 from auv_msgs_py.errors import MessageRefused
 from auv_msgs_py.frames import FrameTable
 from auv_msgs_py.pairing import Pairing
 from auv_msgs_py.runtime import SuiteNode
 from auv_msgs_py.stamps import StampGuard, Verdict
+from auv_msgs_py.topics import Topic
 from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
-
-
-class Measured(NamedTuple):
-    """One accepted odometry: dt since the last one (s), stamp (ns), and whether time went back before it."""
-
-    navigation: Navigation
-    dt: float
-    stamp: int
-    restarted: bool
-
-
-def accept(message: Odometry, frames: FrameTable, guard: StampGuard) -> Measured:
-    """Convert and judge an odometry.
-
-    Raises:
-        MessageRefused: frames, values or stamp cannot be used.
-    """
-    topic = topics.ODOM.name
-    stamp = nanoseconds(message.header.stamp)
-    navigation = navigation_from(message, frames, topic)
-    verdict, dt = guard.judge(stamp)
-    if verdict is Verdict.REFUSE:
-        raise MessageRefused(topic, "a stamp that is not newer than the last", "rising stamps")
-    return Measured(navigation, dt, stamp, verdict is Verdict.RESTART)
+from auv_path_following import vehicle
+from auv_path_following.nodes.odometry_intake import OdometryIntake
 
 
 class Inputs(NamedTuple):
-    """One step's input. `water` is None when there is none that is fresh enough; the stamp is in ns."""
+    """One step's input. `water` is None when there is none that is fresh enough; the stamp is in ns.
+
+    `moved`: this navigation does not continue the last one.
+    """
 
     navigation: Navigation
     water: WaterVelocity | None
@@ -55,13 +37,18 @@ class Inputs(NamedTuple):
     current_age: float
     dt: float
     stamp: int
+    moved: bool
+
+
+#: Slower than this through the water a vehicle may lie still over ground, m/s.
+_UNDER_WAY = 0.3
 
 
 class NavigationInput:
     """Subscribes, converts, pairs.
 
     Args:
-        node: the node; its parameters have `frames`, `lockstep` and `water_velocity_timeout`.
+        node: the node; its parameters are `NavigationParameters` with `water_velocity_timeout`.
         step: called once per odometry.
         restart: called when time went back, before the step.
         with_current: whether the current estimate belongs to the input.
@@ -79,7 +66,9 @@ class NavigationInput:
         self._restart = restart
         self._lockstep: bool = node.parameters.lockstep
         self._frames = FrameTable(node.parameters.frames)
-        self._guard = StampGuard(ordered=self._lockstep)
+        self.odometry = OdometryIntake(node)
+        self._fastest = vehicle.load(node.parameters.vehicle).top_speed + node.parameters.gate.current
+        self._order = {topic: StampGuard() for topic in (topics.WATER_VELOCITY, topics.CURRENT_ESTIMATE)}
         parts = (topics.ODOM.name, topics.WATER_VELOCITY.name)
         self._pairing = Pairing(
             (*parts, topics.CURRENT_ESTIMATE.name) if with_current else parts, strict=True
@@ -97,10 +86,12 @@ class NavigationInput:
         return self._pairing.missing
 
     def _on_odometry(self, message: Odometry) -> None:
-        navigation, dt, stamp, restarted = accept(message, self._frames, self._guard)
+        navigation, dt, stamp, restarted, moved = self.odometry.take(message)
         if restarted:
             if not self._lockstep:
                 self._water = self._current = None
+                for guard in self._order.values():
+                    guard.reset()
             self._restart()
         if self._lockstep:
             if self._pairing.put(topics.ODOM.name, (navigation, dt, stamp), stamp):
@@ -110,14 +101,24 @@ class NavigationInput:
         bound = self._node.parameters.water_velocity_timeout * 1e9
         if self._water is not None and abs(stamp - self._water[1]) <= bound:
             water = self._water[0]
+            self.odometry.under_way = water.ur > _UNDER_WAY
         if self._current is not None:
             current, age = self._current[0], (stamp - self._current[1]) * 1e-9
-        self._step(Inputs(navigation, water, current, age, dt, stamp))
+        self._step(Inputs(navigation, water, current, age, dt, stamp, moved))
+
+    def _in_order(self, topic: Topic, stamp: int) -> None:
+        """Free running, where an odometry takes the newest: a message that was overtaken is not that."""
+        if not self._lockstep and self._order[topic].judge(stamp).verdict is Verdict.REFUSE:
+            raise MessageRefused(topic.name, "a stamp that is not newer than the last", "rising stamps")
 
     def _on_water(self, message: TwistWithCovarianceStamped) -> None:
         topic = topics.WATER_VELOCITY.name
         water = water_velocity_from(message, self._frames, topic)
+        if abs(water.ur) > self._fastest or abs(water.vr) > self._fastest:
+            found = f"({water.ur:.3g}, {water.vr:.3g}) m/s"
+            raise MessageRefused(topic, found, f"at most {self._fastest:.3g} m/s")
         stamp = nanoseconds(message.header.stamp)
+        self._in_order(topics.WATER_VELOCITY, stamp)
         self._water = water, stamp
         if self._lockstep and self._pairing.put(topic, water, stamp):
             self._paired()
@@ -125,7 +126,11 @@ class NavigationInput:
     def _on_current(self, message: Vector3Stamped) -> None:
         topic = topics.CURRENT_ESTIMATE.name
         current = current_from(message, topic)
+        if abs(current.Vx) > self._fastest or abs(current.Vy) > self._fastest:
+            found = f"({current.Vx:.3g}, {current.Vy:.3g}) m/s"
+            raise MessageRefused(topic, found, f"at most {self._fastest:.3g} m/s")
         stamp = nanoseconds(message.header.stamp)
+        self._in_order(topics.CURRENT_ESTIMATE, stamp)
         self._current = current, stamp
         if self._lockstep and self._pairing.put(topic, current, stamp):
             self._paired()
@@ -133,4 +138,4 @@ class NavigationInput:
     def _paired(self) -> None:
         (navigation, dt, stamp), water, *rest = self._pairing.take()
         current = rest[0] if rest else NO_CURRENT
-        self._step(Inputs(navigation, water, current, 0.0, dt, stamp))
+        self._step(Inputs(navigation, water, current, 0.0, dt, stamp, False))

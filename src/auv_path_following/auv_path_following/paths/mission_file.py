@@ -13,6 +13,7 @@ from auv_msgs_py import yaml_file
 from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.settings import setting, settings
 from auv_path_following import config_files, vehicle
+from auv_path_following.guidance.limits import LimitsConfig
 from auv_path_following.paths import smoothing
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.geodesy import Origin
@@ -47,6 +48,7 @@ class MissionSwitching:
 
 
 _NO_WISHES = MissionSwitching(mode=None, radius=None)
+_NO_LIMITS = LimitsConfig()
 
 
 @dataclasses.dataclass(frozen=True)
@@ -63,6 +65,8 @@ class Mission:
         origin: where north 0, east 0 is; None where the file does not say.
         waypoints: (north, east), m, that the path was made from; empty where it was not made from any.
         once: subpaths of the path before it repeats itself.
+        limits: what ends it early; the parameters may ask for less.
+        geofence: corners (north, east), m, of the area that must not be left; empty for none.
         files: waypoint files that belong to it, in its own folder or below.
     """
 
@@ -77,6 +81,8 @@ class Mission:
     waypoints: tuple[Point, ...] = ()
     once: int = 0
     files: tuple[Path, ...] = ()
+    limits: LimitsConfig = _NO_LIMITS
+    geofence: tuple[Point, ...] = ()
 
 
 _Version = Annotated[Literal[1], pydantic.BeforeValidator(no_boolean)]
@@ -100,6 +106,8 @@ class MissionSpec:
         None, "in place of thrust: speed through the water", unit="m/s", gt=0.0, le=20.0
     )
     switching: MissionSwitching = setting(factory=MissionSwitching, doc="circles of acceptance")
+    limits: LimitsConfig = setting(factory=LimitsConfig, doc="what ends the mission early")
+    geofence: tuple[Point, ...] | None = setting(None, "corners of the area that must not be left")
     reverse: bool = setting(False, "follow the path from its end to its start")
     repeat: _Count = setting(1, "follow a closed path so many times")
     segments: tuple[SegmentSpec, ...] | None = setting(None, "the subpaths, in order")
@@ -147,6 +155,7 @@ def load(name_or_path: str, hull: Vehicle | None = None) -> Mission:
     try:
         route = spec.build(site)
         path, once = _path(spec, route)
+        geofence = _geofence(spec, site)
     except ConfigurationError as error:
         raise ConfigurationError(f"{source}: {error.where}", error.found, error.expected) from None
     if spec.thrust is not None:
@@ -165,7 +174,18 @@ def load(name_or_path: str, hull: Vehicle | None = None) -> Mission:
         waypoints=tuple(route.waypoints),
         once=once,
         files=tuple(site.files),
+        limits=spec.limits,
+        geofence=geofence,
     )
+
+
+def _geofence(spec: MissionSpec, site: Site) -> tuple[Point, ...]:
+    if spec.geofence is None:
+        return ()
+    if len(spec.geofence) < 3:
+        raise ConfigurationError("geofence", f"{len(spec.geofence)} corner(s)", "at least three")
+    with within("geofence", joined=""):
+        return tuple(site.points(spec.geofence))
 
 
 def _path(spec: MissionSpec, route: Route) -> tuple[CompositePath, int]:

@@ -153,6 +153,7 @@ def make(options: Options, directory: Path) -> Plan:
     wishes = parameters[topics.GUIDANCE].with_wishes_of(mission).guidance
     _tell(parameters, topics.GUIDANCE, guidance=wishes, mission_switching=False)
     _tell(parameters, topics.GUIDANCE, mission=str(sources["mission"]), vehicle=str(sources["vehicle"]))
+    _tell(parameters, topics.OBSERVER, vehicle=str(sources["vehicle"]))
     _tell(parameters, topics.AUTOPILOT, vehicle=str(sources["vehicle"]))
     _tell(
         parameters,

@@ -26,6 +26,8 @@ from auv_sim.nodes.pacing import Pacer
 from auv_sim.parameters import PlantParameters
 from auv_sim.plant.remus import PlantState, RemusPlant
 
+#: States of a mission in which the vehicle, free running, obeys no command: it may have come late.
+_OVER = ("holding", "complete", "aborted")
 #: A rudder command may miss the stop by rounding, rad.
 _ROUNDING = 1e-9
 
@@ -42,6 +44,7 @@ class RemusPlantNode(SuiteNode):
         self.step_ns = round(p.step * 1e9)
         self.steps = 0
         self.mission_running = False
+        self._mission_over = False
         self.command = STOP
         self._released = not p.hold_until_running
         self._commands: dict[str, tuple[float, int]] = {}
@@ -144,6 +147,7 @@ class RemusPlantNode(SuiteNode):
 
     def _on_mission_state(self, message: String) -> None:
         self.mission_running = message.data == "running"
+        self._mission_over = message.data in _OVER
         self._released = self._released or self.mission_running
         if self._lockstep is not None:
             self._lockstep.on_mission_state()
@@ -169,6 +173,8 @@ class RemusPlantNode(SuiteNode):
 
     def _held_command(self) -> Command:
         """The newest commands; a stop when none came for too long, as any vehicle must do by itself."""
+        if self._mission_over:  # free running only: whatever the commands say
+            return STOP
         oldest = self.stamp - self.parameters.command_timeout * 1e9
         values = []
         for topic in (topics.RUDDER_CMD.name, topics.THRUST_CMD.name):

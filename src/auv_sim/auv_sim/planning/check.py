@@ -13,6 +13,7 @@ import numpy.typing as npt
 from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.types import NO_CURRENT, Current
 from auv_path_following.guidance.ailos import AilosConfig
+from auv_path_following.guidance.limits import inside
 from auv_path_following.guidance.switching import SwitchingConfig
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.paths.outline import look, tightest
@@ -89,6 +90,7 @@ def check(
     survey = _Survey(mission, current, speed)
     found = [
         *_thrust(mission, vehicle),
+        *_geofence(mission),
         *survey.way(current),
         *survey.turns(turn, vehicle.name),
         *_corners(mission),
@@ -128,6 +130,16 @@ def _thrust(mission: Mission, vehicle: Vehicle) -> Iterator[Verdict]:
         else:
             limit = f"at most {vehicle.thrust_max:g} N, all that {vehicle.name} has"
             yield Verdict("refused", "thrust", f"{mission.thrust:g} N", limit)
+
+
+def _geofence(mission: Mission) -> Iterator[Verdict]:
+    if mission.geofence:
+        x, y, s = mission.path.polyline(1.0)
+        outside = [k for k in range(len(s)) if not inside(mission.geofence, float(x[k]), float(y[k]))]
+        if outside:
+            k = outside[0]
+            found = f"{len(outside)} m of path outside the geofence, the first {_at(x[k], y[k])}"
+            yield Verdict("refused", "geofence", found, "all of the path inside it")
 
 
 class _Survey:

@@ -1,0 +1,125 @@
+"""Odometry as every node takes it in: converted, in order, on time, and believed."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from nav_msgs.msg import Odometry
+
+from auv_msgs_py import topics
+from auv_msgs_py.conversions import nanoseconds, navigation_from
+from auv_msgs_py.errors import MessageRefused
+from auv_msgs_py.frames import FrameTable
+from auv_msgs_py.runtime import SuiteNode
+from auv_msgs_py.stamps import Punctuality, StampGuard, Timing, Verdict
+from auv_msgs_py.types import Navigation
+from auv_path_following import vehicle
+from auv_path_following.navigation_gate import NavigationGate, Passed
+
+
+class Measured(NamedTuple):
+    """One accepted odometry.
+
+    Attributes:
+        navigation: pose and yaw rate, NED.
+        dt: seconds since the last accepted one.
+        stamp: ns.
+        restarted: the stamps went back before it.
+        moved: it does not continue the last one, in place or in time; what lies between was not travelled.
+    """
+
+    navigation: Navigation
+    dt: float
+    stamp: int
+    restarted: bool
+    moved: bool
+
+
+class OdometryIntake:
+    """Converts and judges odometry: frames and numbers, its stamp against clock and order, plausibility.
+
+    In lockstep, where nothing comes late and a refusal would be an answer that never comes, only frames,
+    numbers and order are judged.
+
+    Args:
+        node: the node; its parameters are `NavigationParameters`.
+        consequence: what the node does when it is silent, for people.
+    """
+
+    def __init__(self, node: SuiteNode, consequence: str = "") -> None:
+        p = node.parameters
+        self._node = node
+        self._consequence = f": {consequence}" if consequence else ""
+        self._free = not p.lockstep
+        self._frames = FrameTable(p.frames)
+        self._guard = StampGuard(ordered=p.lockstep)
+        self._punctuality = Punctuality(p.lateness)
+        self._gate = NavigationGate(p.gate, vehicle.load(p.vehicle).top_speed)
+        self._refused_for = 0.0
+        self._accepted_at: float | None = None
+        self._silent = False
+        #: Set by the node: whether the vehicle is known to move, so that a pose that stands still is wrong.
+        self.under_way = False
+        if self._free:
+            node.create_timer(0.1, self._watch)
+
+    def configure(self) -> None:
+        """The node's parameters were changed in flight."""
+        self._gate.config = self._node.parameters.gate
+
+    @property
+    def silent(self) -> bool:
+        """Free running: no odometry was accepted for longer than `odometry_timeout`."""
+        return self._silent
+
+    def _watch(self) -> None:
+        now = self._node.now()
+        if self._accepted_at is None or now < self._accepted_at:
+            self._accepted_at = None if self._accepted_at is None else now
+            return
+        bound = self._node.parameters.odometry_timeout
+        self._silent = now - self._accepted_at > bound
+        if self._silent:
+            text = f"no usable {topics.ODOM.name} for {bound:g} s{self._consequence}"
+            self._node.health.error("odometry", text)
+
+    def take(self, message: Odometry) -> Measured:
+        """Judge one message.
+
+        Raises:
+            MessageRefused: it cannot be used.
+        """
+        stamp = nanoseconds(message.header.stamp)
+        navigation = navigation_from(message, self._frames, topics.ODOM.name)
+        stepped = self._free and self._stepped(stamp)
+        verdict, dt = self._guard.judge(stamp)
+        if verdict is Verdict.REFUSE:
+            raise MessageRefused(topics.ODOM.name, "a stamp that is not newer than the last", "rising stamps")
+        restarted = verdict is Verdict.RESTART
+        if not self._free:
+            return Measured(navigation, dt, stamp, restarted, restarted)
+        if restarted or stepped:
+            self._gate.reset()
+            self._punctuality.reset()
+            dt = self._refused_for = 0.0
+        passed, found, expected = self._gate.judge(navigation, dt, self.under_way)
+        if passed is Passed.REFUSED:
+            self._refused_for += dt
+            raise MessageRefused(topics.ODOM.name, found, expected)
+        dt, self._refused_for = dt + self._refused_for, 0.0
+        moved = passed is Passed.MOVED
+        if moved:
+            self._node.get_logger().warning(f"a new place is believed: {found}")
+        self._accepted_at = self._node.now()
+        if self._silent:
+            self._silent = False
+            self._node.health.error("odometry", "")
+        return Measured(navigation, 0.0 if moved else dt, stamp, restarted, restarted or stepped or moved)
+
+    def _stepped(self, stamp: int) -> bool:
+        timing = self._punctuality.judge(self._node.now(), stamp)
+        if timing is Timing.LATE or timing is Timing.EARLY:
+            kind = "older" if timing is Timing.LATE else "newer"
+            found = f"a stamp more than {self._punctuality.bound:g} s {kind} than it used to be"
+            raise MessageRefused(topics.ODOM.name, found, "stamps that keep up with the clock")
+        return timing is Timing.STEPPED
