@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from auv_msgs_py.stamps import StampGuard, Verdict
+from auv_msgs_py.stamps import Punctuality, StampGuard, Timing, Verdict
 
 ACCEPT, REFUSE, RESTART = Verdict.ACCEPT, Verdict.REFUSE, Verdict.RESTART
 
@@ -78,3 +78,43 @@ def test_reset_makes_the_next_stamp_a_first_one():
     guard.judge(100)
     guard.reset()
     assert guard.judge(1) == (ACCEPT, 0.0)
+
+
+def timings(pairs, bound=1.0):
+    punctuality = Punctuality(bound)
+    return [punctuality.judge(now, round(stamp * 1e9)) for now, stamp in pairs]
+
+
+@pytest.mark.parametrize("offset", [0.0, -1e9, 37.5])
+def test_a_clock_that_is_wrong_is_none_of_our_business(offset):
+    pairs = [(1000.0 + 0.1 * k, 1000.0 + 0.1 * k + offset) for k in range(100)]
+    assert set(timings(pairs)) == {Timing.PUNCTUAL}
+
+
+def test_messages_that_begin_to_come_late_are_late_until_they_come_in_time():
+    good = [(10.0 + 0.1 * k, 10.0 + 0.1 * k) for k in range(20)]
+    late = [(14.0 + 0.1 * k, 12.0 + 0.1 * k) for k in range(300)]
+    again = [(45.0 + 0.1 * k, 45.0 + 0.1 * k) for k in range(3)]
+    verdicts = timings(good + late + again)
+    assert set(verdicts[20:320]) == {Timing.LATE}
+    assert set(verdicts[320:]) == {Timing.PUNCTUAL}
+
+
+def test_two_clocks_may_drift_apart():
+    pairs = [(k * 0.1, k * 0.1 * (1.0 - 5e-4)) for k in range(1, 100_000, 10)]
+    assert set(timings(pairs)) == {Timing.PUNCTUAL}
+
+
+def test_a_lone_stamp_from_the_future_is_refused_and_a_clock_set_forward_is_believed():
+    assert timings([(10.0, 10.0), (10.1, 110.0), (10.2, 10.2)]) == [
+        Timing.PUNCTUAL, Timing.EARLY, Timing.PUNCTUAL,
+    ]  # fmt: skip
+    assert timings([(10.0, 10.0), (10.1, 110.0), (10.2, 110.1), (10.3, 110.2)]) == [
+        Timing.PUNCTUAL, Timing.EARLY, Timing.STEPPED, Timing.PUNCTUAL,
+    ]  # fmt: skip
+
+
+def test_an_unset_clock_judges_nothing_and_one_that_goes_back_begins_anew():
+    assert (
+        timings([(0.0, 500.0), (0.0, 1.0), (500.0, 500.0), (1.0, 1.0), (1.1, 1.1)]) == [Timing.PUNCTUAL] * 5
+    )

@@ -1,0 +1,104 @@
+"""What ends a mission."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from auv_msgs_py.types import Navigation
+from auv_path_following.guidance.limits import Limits, LimitsConfig, inside
+
+SQUARE = ((0.0, 0.0), (100.0, 0.0), (100.0, 50.0), (0.0, 50.0))
+DT = 0.1
+
+
+def at(x, y):
+    return Navigation(x, y, 0.0, 0.0)
+
+
+def first_broken(limits, track, off_path=lambda _: 0.0):
+    """Time and reason of the first broken limit along track(t)."""
+    for k in range(10_000):
+        t = k * DT
+        x, y = track(t)
+        reason = limits.broken(at(x, y), 0.0, off_path(t), DT if k else 0.0)
+        if reason:
+            return t, reason
+    return None
+
+
+def test_without_limits_nothing_ends():
+    assert first_broken(Limits(), lambda t: (1e6 * t, 0.0), lambda t: 1e6) is None
+
+
+def test_duration():
+    t, reason = first_broken(Limits(LimitsConfig(duration=20.0)), lambda t: (t, 0.0))
+    assert t == pytest.approx(20.0, abs=2 * DT)
+    assert "duration" in reason
+
+
+def test_distance_counts_once_the_vehicle_has_been_near():
+    limits = Limits(LimitsConfig(path_distance=10.0))
+    assert limits.broken(at(0.0, 0.0), 0.0, 40.0, DT) == ""  # the way to the path
+    assert limits.broken(at(0.0, 0.0), 0.0, 9.0, DT) == ""
+    assert limits.broken(at(0.0, 0.0), 8.0, 6.1, DT).startswith("limit path_distance: 10.1 m")
+    limits.reset()
+    assert limits.broken(at(0.0, 0.0), 0.0, 40.0, DT) == ""
+
+
+def test_geofence():
+    limits = Limits(geofence=SQUARE)
+    assert limits.broken(at(50.0, 25.0), 0.0, 0.0, DT) == ""
+    assert "geofence" in limits.broken(at(50.0, 51.0), 0.0, 0.0, DT)
+
+
+@given(st.floats(-20.0, 120.0), st.floats(-20.0, 70.0))
+def test_inside_a_rectangle(x, y):
+    on_edge = min(abs(x), abs(x - 100.0), abs(y), abs(y - 50.0)) < 1e-9
+    assert on_edge or inside(SQUARE, x, y) == (0.0 < x < 100.0 and 0.0 < y < 50.0)
+
+
+def test_a_bay_is_outside():
+    bay = ((0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (5.0, 2.0), (0.0, 10.0))
+    assert not inside(bay, 5.0, 5.0)
+    assert inside(bay, 5.0, 1.0)
+
+
+SLOW = LimitsConfig(ground_speed=0.2, ground_speed_window=30.0)
+
+
+def test_a_current_that_is_too_strong_is_found_within_its_window():
+    t, reason = first_broken(Limits(SLOW), lambda t: (0.05 * t, 0.0))
+    assert t == pytest.approx(30.0, abs=1.0)
+    assert reason.startswith("limit ground_speed: 0.05 m/s over 30 s, at least 0.2 m/s")
+
+
+@pytest.mark.parametrize(
+    "track",
+    [
+        lambda t: (0.3 * t, 0.0),
+        lambda t: (9.0 * math.cos(1.9 / 9.0 * t), 9.0 * math.sin(1.9 / 9.0 * t)),  # a circle in 30 s
+        lambda t: (5.0 * math.cos(1.9 / 5.0 * t), 5.0 * math.sin(1.9 / 5.0 * t)),
+    ],
+)
+def test_a_vehicle_that_makes_way_may_also_turn(track):
+    assert first_broken(Limits(SLOW), track) is None
+
+
+def test_a_hold_does_not_count_as_slow():
+    limits = Limits(SLOW)
+    for k in range(250):
+        assert limits.broken(at(0.19 * k, 0.0), 0.0, 0.0, DT) == ""
+    assert limits.broken(at(50.0, 0.0), 0.0, 0.0, 60.0) == ""  # nothing was heard for a minute
+    for _ in range(290):
+        assert limits.broken(at(50.0, 0.0), 0.0, 0.0, DT) == ""
+
+
+def test_the_stricter_of_parameters_and_mission_counts():
+    one = LimitsConfig(path_distance=10.0, duration=0.0, ground_speed=0.1, ground_speed_window=20.0)
+    other = LimitsConfig(path_distance=0.0, duration=60.0, ground_speed=0.3, ground_speed_window=40.0)
+    expected = LimitsConfig(path_distance=10.0, duration=60.0, ground_speed=0.3, ground_speed_window=40.0)
+    assert one.stricter(other) == other.stricter(one) == expected
