@@ -32,6 +32,9 @@ WATER_VELOCITY = Topic(
 )
 RUDDER_STATE = Topic("rudder_state", "std_msgs/msg/Float64", PLANT)
 TRUE_CURRENT = Topic("true_current", "geometry_msgs/msg/Vector3Stamped", PLANT)
+#: Extension of the contract: from a simulator whose own navigation errs. It stands outside `PER_STEP`, for without
+#: a sea it never comes; with one it comes once a step, which `RECORDING_LEAD` has room for.
+TRUE_ODOM = Topic("true_odom", "nav_msgs/msg/Odometry", PLANT)
 CURRENT_ESTIMATE = Topic("current_estimate", "geometry_msgs/msg/Vector3Stamped", OBSERVER, (GUIDANCE,))
 DESIRED_YAW = Topic("desired_yaw", "std_msgs/msg/Float64", GUIDANCE, (AUTOPILOT,))
 DESIRED_YAW_RATE = Topic("desired_yaw_rate", "std_msgs/msg/Float64", GUIDANCE, (AUTOPILOT,))
@@ -54,7 +57,7 @@ PER_STEP = (
     ODOM, WATER_VELOCITY, RUDDER_STATE, TRUE_CURRENT, CURRENT_ESTIMATE, DESIRED_YAW, DESIRED_YAW_RATE,
     DESIRED_THRUST, VIRTUAL_POINT, PATH_PARAMETER, PATH_ERROR, DISTANCE_TO_GO, RUDDER_CMD, THRUST_CMD,
 )  # fmt: skip
-CONTRACT = (CLOCK, *PER_STEP, PATH, MISSION_STATE, DIAGNOSTICS)
+CONTRACT = (CLOCK, *PER_STEP, TRUE_ODOM, PATH, MISSION_STATE, DIAGNOSTICS)
 
 START_SERVICE = "start"
 ABORT_SERVICE = "abort"
@@ -64,7 +67,7 @@ RESET_SERVICE = "reset"
 FIRST_STAMP_NS = 1_000_000_000
 
 #: Lockstep: how many steps the simulator may be ahead of what the recorder has in full. A reader's transport
-#: queue holds 512 messages, and there are 15 a step: within this lead nothing can overflow, however long the
+#: queue holds 512 messages, and there are 16 a step at most: within this lead nothing can overflow, however long the
 #: recorder is starved of processor time. (A reliable writer could not help: it keeps its last 10 messages.)
 RECORDING_LEAD = 30
 #: How often the recorder tells how far it is, steps.

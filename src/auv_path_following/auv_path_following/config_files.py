@@ -8,9 +8,14 @@ from typing import Literal
 
 from auv_msgs_py.errors import ConfigurationError
 
-Kind = Literal["missions", "vehicles", "params"]
+Kind = Literal["missions", "vehicles", "params", "seas"]
 
-_WORD: dict[Kind, str] = {"missions": "mission", "vehicles": "vehicle", "params": "parameter"}
+_WORD: dict[Kind, str] = {
+    "missions": "mission",
+    "vehicles": "vehicle",
+    "params": "parameter",
+    "seas": "sea",
+}
 
 
 def shipped(kind: Kind) -> dict[str, Path]:

@@ -18,7 +18,9 @@ from auv_path_following.paths.composite import CompositePath
 from auv_path_following.vehicle import Vehicle
 from auv_sim.analysis.run import Run
 from auv_sim.parameters import CRUISE
-from auv_sim.plant.remus import PlantState, RemusPlant
+from auv_sim.plant.remus import PlantState
+from auv_sim.plant.sea import Sea
+from auv_sim.plant.simulated import SimulatedVehicle
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,7 +32,9 @@ class Scenario:
         vehicle: the plant's hull.
         thrust: N, while the mission runs.
         initial: the plant's first state; the path's start at cruising speed if None.
-        current: constant current, m/s, NED.
+        current: constant current, m/s, NED; with a sea it comes on top of the sea's own.
+        sea: what is not ideal; None: nothing.
+        seed: of everything that is random in the sea.
         step: time between odometries, s.
         guidance, observer, autopilot: laws and gains.
         controller_vehicle: the hull as the autopilot knows it; the plant's own if None.
@@ -42,6 +46,8 @@ class Scenario:
     thrust: float
     initial: PlantState | None = None
     current: Current = NO_CURRENT
+    sea: Sea | None = None
+    seed: int = 0
     step: float = 0.05
     guidance: PathFollowerConfig = field(default_factory=PathFollowerConfig)
     observer: CurrentObserverConfig = field(default_factory=CurrentObserverConfig)
@@ -54,6 +60,7 @@ _COLUMNS = (
     "t", "x", "y", "psi", "r", "ur", "vr", "rudder", "rudder_cmd", "thrust_cmd", "psi_d", "r_d",
     "xe", "ye", "psi_e", "s", "Vx_est", "Vy_est", "Vx_true", "Vy_true",
 )  # fmt: skip
+_TRUTH = ("x_true", "y_true", "psi_true")
 
 
 def start_of(path: CompositePath) -> PlantState:
@@ -73,7 +80,7 @@ def fly(scenario: Scenario, progress: Callable[[float], None] | None = None) -> 
         One row per step. A mission that was completed ends with the row at which it was.
     """
     c = scenario
-    plant = RemusPlant(c.vehicle, c.initial or start_of(c.path))
+    plant = SimulatedVehicle(c.vehicle, c.initial or start_of(c.path), c.sea, c.seed, c.current)
     observer = CurrentObserver(c.observer)
     follower = PathFollower(c.path, c.guidance)
     autopilot = HeadingAutopilot(c.controller_vehicle or c.vehicle, c.autopilot)
@@ -88,16 +95,20 @@ def fly(scenario: Scenario, progress: Callable[[float], None] | None = None) -> 
         g = follower.update(navigation, water, estimate, since)
         thrust = 0.0 if g.finished else c.thrust
         command = autopilot.update(navigation, Reference(g.psi_d, g.r_d, thrust), since).command
+        current = plant.current
+        truth = plant.truth[0][:3] if c.sea is not None else ()
         rows.append(
             (
                 stamp * 1e-9, navigation.x, navigation.y, navigation.psi, navigation.r, water.ur, water.vr,
-                plant.rudder.angle, command.rudder, command.thrust, g.psi_d, g.r_d,
-                g.xe, g.ye, g.psi_e, g.s, estimate.Vx, estimate.Vy, c.current.Vx, c.current.Vy,
+                plant.rudder, command.rudder, command.thrust, g.psi_d, g.r_d,
+                g.xe, g.ye, g.psi_e, g.s, estimate.Vx, estimate.Vy, current.Vx, current.Vy,
+                *truth,
             )
         )  # fmt: skip
         if g.finished:
             break
         if progress is not None and k % 20 == 0:
             progress(g.s)
-        plant.advance(command, dt, c.current)
-    return Run.from_columns(dict(zip(_COLUMNS, zip(*rows, strict=True), strict=True)))
+        plant.advance(command, dt)
+    names = _COLUMNS if c.sea is None else (*_COLUMNS, *_TRUTH)
+    return Run.from_columns(dict(zip(names, zip(*rows, strict=True), strict=True)))

@@ -46,6 +46,13 @@ def not_negative(text: str) -> float:
     return value
 
 
+def whole(text: str) -> int:
+    """A whole number of at least 0."""
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"found '{text}', expected a whole number of at least 0")
+    return int(text)
+
+
 # argparse names the type in its message when float() itself fails.
 finite.__name__ = positive.__name__ = not_negative.__name__ = "number"
 

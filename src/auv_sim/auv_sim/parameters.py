@@ -47,7 +47,9 @@ class PlantParameters(NodeParameters):
 
     vehicle: str = setting("remus100", "vehicle file, or the name of a shipped one")
     initial: InitialPose = setting(factory=InitialPose, doc="initial state")
-    current: ConstantCurrent = setting(factory=ConstantCurrent, doc="water current")
+    current: ConstantCurrent = setting(factory=ConstantCurrent, doc="water current, on top of the sea's own")
+    sea: str = setting("", "sea file, or the name of a shipped one: what is not ideal; empty: nothing")
+    seed: int = setting(0, "of everything that is random in the sea", ge=0)
     step: float = setting(0.05, "time between two odometries", unit="s", ge=0.001, le=1.0)
     speed: float = setting(1.0, "free running: how many times faster than the wall clock", gt=0.0, le=1000.0)
     hold_until_running: bool = setting(True, "stay at the initial state until the mission runs")

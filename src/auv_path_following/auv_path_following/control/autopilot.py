@@ -10,6 +10,7 @@ from auv_msgs_py.angles import wrap
 from auv_msgs_py.settings import setting, settings
 from auv_msgs_py.types import STOP, Command, Navigation, Reference
 from auv_path_following.control.controller import HeadingController, HeadingInputs
+from auv_path_following.control.derivative import Derivative, DerivativeConfig
 from auv_path_following.control.nism import Nism, NismConfig
 from auv_path_following.control.pid import Pid, PidConfig
 from auv_path_following.control.reference_model import ReferenceConfig, ReferenceModel
@@ -25,6 +26,7 @@ class AutopilotConfig:
     nism: NismConfig = setting(factory=NismConfig, doc="NISM")
     pid: PidConfig = setting(factory=PidConfig, doc="PID")
     smc: SmcConfig = setting(factory=SmcConfig, doc="conventional sliding mode")
+    derivative: DerivativeConfig = setting(factory=DerivativeConfig, doc="dr/dt from the measured yaw rate")
     reference: ReferenceConfig = setting(
         factory=ReferenceConfig, doc="what the controller is asked to follow"
     )
@@ -42,7 +44,7 @@ class AutopilotOutput(NamedTuple):
 class HeadingAutopilot:
     """Turns a reference into rudder and thrust.
 
-    dr/dt and d r_d/dt are differences of what came in; a shaped reference knows its own. Outside a running
+    dr/dt comes from `Derivative`, d r_d/dt is the difference of what came in; a shaped reference knows its own. Outside a running
     mission (thrust 0) the rudder is neutral and the controller forgets, so that a new start begins clean.
 
     Args:
@@ -54,12 +56,14 @@ class HeadingAutopilot:
         self.vehicle = vehicle
         self.config = config or AutopilotConfig()
         self.controller: HeadingController = self._controller()
+        self.derivative = Derivative(self.config.derivative)
         self.reference = ReferenceModel(self.config.reference, vehicle, self._rudder_rate)
         self.reset()
 
     def configure(self, config: AutopilotConfig) -> None:
         """Take new gains; the rudder stays where it is."""
         before, self.config = self.config, config
+        self.derivative.config = config.derivative
         self.reference.configure(config.reference, self._rudder_rate)
         if config.controller != before.controller:
             self.controller = self._controller()
@@ -97,8 +101,9 @@ class HeadingAutopilot:
     def reset(self) -> None:
         """Forget all state."""
         self.controller.reset()
+        self.derivative.reset()
         self.reference.reset()
-        self._last: tuple[float, float] | None = None
+        self._last: float | None = None
 
     def update(self, navigation: Navigation, reference: Reference, dt: float) -> AutopilotOutput:
         """One step.
@@ -113,13 +118,13 @@ class HeadingAutopilot:
             self.reset()
             return AutopilotOutput(STOP, psi_e, 0.0, 0.0)
         r, r_d = navigation.r, reference.r_d
-        r_dot = r_d_dot = 0.0
+        r_d_dot = 0.0
         if self._last is None:
             dt = 0.0
         elif dt > 0.0:
-            r_dot = (r - self._last[0]) / dt
-            r_d_dot = (r_d - self._last[1]) / dt
-        self._last = (r, r_d)
+            r_d_dot = (r_d - self._last) / dt
+        self._last = r_d
+        r_dot = self.derivative.update(r, dt)
         error = psi_e
         if self.config.reference.enabled:
             shaped = self.reference.update(navigation.psi, r, reference.psi_d, r_d, dt)

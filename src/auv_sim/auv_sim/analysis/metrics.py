@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from auv_path_following.paths.composite import CompositePath
+from auv_path_following.paths.composite import CompositePath, Joint
 from auv_sim.analysis.run import Column, Run
 
 #: A corner's figure looks this far around its joint, m.
@@ -79,6 +79,8 @@ class MissionSummary:
             start on, m/s.
         subpaths: one for each subpath of the path.
         corners: one for each G0 joint.
+        largest_distance_off_corners: to the path, farther than `CORNER_RADIUS` from every G0 joint, m.
+        navigation_error: largest distance of the odometry from the truth, m.
     """
 
     completed: bool
@@ -95,6 +97,8 @@ class MissionSummary:
     current_estimate_error: float
     subpaths: tuple[SubpathSummary, ...]
     corners: tuple[CornerSummary, ...]
+    largest_distance_off_corners: float
+    navigation_error: float
 
     def to_json(self) -> str:
         """Strict JSON, indented; NaN becomes null."""
@@ -102,7 +106,7 @@ class MissionSummary:
 
 
 def summarise(run: Run, path: CompositePath) -> MissionSummary:
-    """Judge a run against the path it followed.
+    """Judge a run against the path it followed: by where the vehicle really was, if that is known.
 
     Only the rows under way count (see `under_way`). Averages are over rows. What happens between two
     rows belongs to the subpath of the earlier one.
@@ -113,8 +117,9 @@ def summarise(run: Run, path: CompositePath) -> MissionSummary:
     """
     flown = under_way(run, path.n)
     i = flown.subpath(path.n)
-    distance = path.distance(flown.x, flown.y, i)
-    covered = np.hypot(np.diff(flown.x), np.diff(flown.y))
+    x, y = flown.track
+    distance = path.distance(x, y, i)
+    covered = np.hypot(np.diff(x), np.diff(y))
     moved = np.degrees(np.abs(np.diff(flown.rudder)))
     elapsed = np.diff(flown.t)
     heading_error = np.degrees(flown.psi_e)
@@ -133,12 +138,11 @@ def summarise(run: Run, path: CompositePath) -> MissionSummary:
         }
 
     whole = figures(np.ones(flown.steps, bool))
-    corners = []
+    corners, free = [], np.ones(flown.steps, bool)
     for joint in (joint for joint in path.joints if joint.geometric == "G0"):
-        near = np.hypot(flown.x - joint.x, flown.y - joint.y) <= CORNER_RADIUS
-        # The path may pass here again later: only the two subpaths that meet count.
-        near &= (i == joint.index - 1) | (i == joint.index)
+        near = _near(joint, x, y, i)
         corners.append(CornerSummary(joint.index, joint.x, joint.y, _largest(distance[near])))
+        free &= ~near
     return MissionSummary(
         completed=bool((run.s >= path.n).any()),
         steps=run.steps,
@@ -150,8 +154,16 @@ def summarise(run: Run, path: CompositePath) -> MissionSummary:
             for k, segment in enumerate(path.segments)
         ),
         corners=tuple(corners),
+        largest_distance_off_corners=_largest(distance[free]),
+        navigation_error=_largest(np.hypot(flown.x_true - flown.x, flown.y_true - flown.y)),
         **whole,
     )
+
+
+def _near(joint: Joint, x: Column, y: Column, i: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """The rows around a joint. The path may pass there again later: only the two subpaths that meet count."""
+    near: NDArray[np.bool_] = np.hypot(x - joint.x, y - joint.y) <= CORNER_RADIUS
+    return near & ((i == joint.index - 1) | (i == joint.index))
 
 
 def under_way(run: Run, n: int) -> Run:

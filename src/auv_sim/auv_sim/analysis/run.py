@@ -33,6 +33,7 @@ class Run:
         s: path parameter, Eq. (1), in [0, number of subpaths].
         Vx_est, Vy_est: current estimate, Eq. (35) (north, east).
         Vx_true, Vy_true: the true current, from a simulator only.
+        x_true, y_true, psi_true: where the vehicle really was, from a simulator whose navigation errs.
     """
 
     t: Column
@@ -55,6 +56,9 @@ class Run:
     Vy_est: Column
     Vx_true: Column
     Vy_true: Column
+    x_true: Column
+    y_true: Column
+    psi_true: Column
 
     @classmethod
     def from_columns(cls, columns: Mapping[str, ArrayLike]) -> Run:
@@ -81,6 +85,12 @@ class Run:
     def steps(self) -> int:
         """Number of rows n."""
         return int(self.t.size)
+
+    @property
+    def track(self) -> tuple[Column, Column]:
+        """The truest position there is, (north, east): the truth where it was told, else the odometry's."""
+        told = np.isfinite(self.x_true)
+        return np.where(told, self.x_true, self.x), np.where(told, self.y_true, self.y)
 
     def subpath(self, n: int) -> NDArray[np.int64]:
         """The active subpath of each row, counted from 0: min(floor(s), n - 1); -1 where s is NaN.

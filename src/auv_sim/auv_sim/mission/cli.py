@@ -20,6 +20,7 @@ from auv_sim.command_line import (
     positive,
     ros_domain,
     ros_namespace,
+    whole,
 )
 from auv_sim.command_line import console as terminal
 from auv_sim.mission import launcher, plan, results
@@ -34,7 +35,7 @@ def parser() -> argparse.ArgumentParser:
     p = Parser(
         prog="mission.py", description="Fly a mission over ROS 2, record it, draw it.", allow_abbrev=False
     )
-    shipped = {kind: ", ".join(config_files.shipped(kind)) for kind in ("missions", "vehicles", "params")}
+    shipped = {kind: ", ".join(config_files.shipped(kind)) for kind in ("missions", "vehicles", "params", "seas")}
     p.add_argument(
         "--mission",
         default=plan.DEFAULT_MISSION,
@@ -60,6 +61,13 @@ def parser() -> argparse.ArgumentParser:
         metavar=("X", "Y", "PSI_DEG"),
         help="start: north, east (m), heading (deg)",
     )
+    p.add_argument(
+        "--sea",
+        metavar="FILE",
+        help="what is not ideal: noise, fixes, currents, rudder;"
+        f" file or one of: {shipped['seas']} (default: all is ideal)",
+    )
+    p.add_argument("--seed", type=whole, metavar="N", help="of all that is random in the sea (default 0)")
     p.add_argument("--switching", choices=("off", "g0", "all"), help="joints with a circle of acceptance")
     p.add_argument(
         "--speed",
@@ -101,7 +109,13 @@ def _options(argv: Sequence[str] | None) -> Options:
     for name in ("current", "initial"):
         given[name] = tuple(given[name]) if given[name] is not None else None
     options = Options(**given)
-    conflicts = {"--speed": options.speed, "--initial": options.initial, "--current": options.current}
+    conflicts = {
+        "--speed": options.speed,
+        "--initial": options.initial,
+        "--current": options.current,
+        "--sea": options.sea,
+        "--seed": options.seed,
+    }
     if options.no_sim:
         for flag, value in conflicts.items():
             if value is not None:

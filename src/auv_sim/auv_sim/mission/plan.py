@@ -11,7 +11,8 @@ from typing import Any
 
 from auv_msgs_py import params_file, topics, yaml_file
 from auv_msgs_py.errors import ConfigurationError
-from auv_msgs_py.types import NO_CURRENT
+from auv_msgs_py.settings import Pair
+from auv_msgs_py.types import NO_CURRENT, Current
 from auv_path_following import config_files, vehicle
 from auv_path_following.paths import mission_file
 from auv_path_following.paths.mission_file import Mission
@@ -19,6 +20,7 @@ from auv_path_following.vehicle import Vehicle
 from auv_sim.closed_loop import Scenario
 from auv_sim.parameters import SUITE
 from auv_sim.planning.check import Verdicts, check, refusal
+from auv_sim.plant import sea
 from auv_sim.plant.remus import PlantState
 
 DEFAULT_MISSION = "paper_composite"
@@ -35,6 +37,8 @@ class Options:
     params: str = DEFAULT_PARAMS
     current: tuple[float, float] | None = None
     initial: tuple[float, float, float] | None = None
+    sea: str | None = None
+    seed: int | None = None
     switching: str | None = None
     speed: float | None = None
     no_sim: bool = False
@@ -55,7 +59,7 @@ class Plan:
         options: what was asked for.
         mission, vehicle: as read from their files.
         parameters: node name -> settings object, for the nodes that are started.
-        sources: what each input was read from: "mission", "vehicle", "params" -> path.
+        sources: what each input was read from: "mission", "vehicle", "params", with a sea "sea" -> path.
         verdicts: what was found when the mission was checked.
     """
 
@@ -92,6 +96,8 @@ class Plan:
             thrust=self.mission.thrust,
             initial=PlantState(start.x, start.y, start.psi, start.surge, 0.0, 0.0),
             current=plant.current.value,
+            sea=sea.load(plant.sea) if plant.sea else None,
+            seed=plant.seed,
             step=plant.step,
             guidance=self.parameters[topics.GUIDANCE].guidance,
             observer=self.parameters[topics.OBSERVER].observer,
@@ -106,7 +112,9 @@ class Plan:
         """
         directory.mkdir(parents=True)
         here: dict[str, Path] = {}
-        for kind in ("mission", "vehicle"):
+        for kind in ("mission", "vehicle", "sea"):
+            if kind not in self.sources:
+                continue
             here[kind] = directory / f"{kind}.yaml"
             shutil.copyfile(self.sources[kind], here[kind])
         for file in self.mission.files:
@@ -164,6 +172,7 @@ def make(options: Options, directory: Path) -> Plan:
     _tell(parameters, topics.RECORDER, directory=str(directory / "bag"))
     if options.speed is not None:
         _tell(parameters, topics.PLANT, speed=options.speed)
+    water = _sea(options, parameters, sources)
     if options.current is not None:
         current = parameters[topics.PLANT].current
         changed = dataclasses.replace(current, Vx=options.current[0], Vy=options.current[1])
@@ -173,13 +182,29 @@ def make(options: Options, directory: Path) -> Plan:
         switching = dataclasses.replace(guidance.switching, mode=options.switching)
         _tell(parameters, topics.GUIDANCE, guidance=dataclasses.replace(guidance, switching=switching))
     switching = parameters[topics.GUIDANCE].guidance.switching
-    current = NO_CURRENT if options.no_sim else parameters[topics.PLANT].current.value
+    current = NO_CURRENT
+    if not options.no_sim:
+        told = parameters[topics.PLANT].current.value
+        current = Current(told.Vx + water[0], told.Vy + water[1])
     verdicts = check(mission, hull, current, switching)
     if verdicts.refusals and not options.force:
         raise refusal(mission, verdicts, "--force flies it all the same")
     if options.no_sim:
         del parameters[topics.PLANT]
     return Plan(options, mission, hull, parameters, sources, verdicts)
+
+
+def _sea(options: Options, parameters: dict[str, Any], sources: dict[str, Path]) -> Pair:
+    """Tell the simulator its sea, as asked for or as the parameter file has it; the sea's mean current, m/s."""
+    name = options.sea if options.sea is not None else parameters[topics.PLANT].sea
+    if not name or options.no_sim:
+        if options.seed is not None:
+            raise ConfigurationError("--seed", "without a sea", "--sea with it: nothing else is random")
+        return 0.0, 0.0
+    sources["sea"] = config_files.find("seas", name).absolute()
+    seed = options.seed if options.seed is not None else parameters[topics.PLANT].seed
+    _tell(parameters, topics.PLANT, sea=str(sources["sea"]), seed=seed)
+    return sea.load(str(sources["sea"])).current.mean
 
 
 def _tell(parameters: dict[str, Any], node: str, **changes: Any) -> None:

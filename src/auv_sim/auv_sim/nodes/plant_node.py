@@ -19,12 +19,14 @@ from auv_msgs_py.conversions import fill_current, fill_odometry, fill_water_velo
 from auv_msgs_py.errors import ConfigurationError, MessageRefused
 from auv_msgs_py.frames import FrameIds, FrameTable
 from auv_msgs_py.runtime import SuiteNode, run_nodes
-from auv_msgs_py.types import STOP, Command, Current
+from auv_msgs_py.types import STOP, Command
 from auv_path_following import vehicle
 from auv_sim.nodes.lockstep import Lockstep
 from auv_sim.nodes.pacing import Pacer
 from auv_sim.parameters import PlantParameters
-from auv_sim.plant.remus import PlantState, RemusPlant
+from auv_sim.plant import sea
+from auv_sim.plant.remus import PlantState
+from auv_sim.plant.simulated import SimulatedVehicle
 
 #: States of a mission in which the vehicle, free running, obeys no command: it may have come late.
 _OVER = ("holding", "complete", "aborted")
@@ -40,7 +42,9 @@ class RemusPlantNode(SuiteNode):
         p: PlantParameters = self.parameters
         self.vehicle = vehicle.load(p.vehicle)
         start = p.initial
-        self.plant = RemusPlant(self.vehicle, PlantState(start.x, start.y, start.psi, start.surge, 0.0, 0.0))
+        state = PlantState(start.x, start.y, start.psi, start.surge, 0.0, 0.0)
+        at_sea = sea.load(p.sea) if p.sea else None
+        self.simulated = SimulatedVehicle(self.vehicle, state, at_sea, p.seed, p.current.value)
         self.step_ns = round(p.step * 1e9)
         self.steps = 0
         self.mission_running = False
@@ -54,6 +58,7 @@ class RemusPlantNode(SuiteNode):
         self._true_current = Vector3Stamped()
         self._odometry.header.frame_id, self._odometry.child_frame_id = p.world_frame, p.body_frame
         self._water.header.frame_id = p.body_frame
+        self._truth = Odometry(header=self._odometry.header, child_frame_id=p.body_frame) if at_sea else None
         self._check_frames(p)
         self._clock_message, self._rudder_message = Clock(), Float64()
         self._outputs = [
@@ -61,8 +66,9 @@ class RemusPlantNode(SuiteNode):
             for topic, message in (
                 (topics.CLOCK, self._clock_message), (topics.ODOM, self._odometry),
                 (topics.WATER_VELOCITY, self._water), (topics.RUDDER_STATE, self._rudder_message),
-                (topics.TRUE_CURRENT, self._true_current),
+                (topics.TRUE_CURRENT, self._true_current), (topics.TRUE_ODOM, self._truth),
             )
+            if message is not None
         ]  # fmt: skip
         self.close_gate()
         self._lockstep = Lockstep(self) if p.lockstep else None
@@ -98,36 +104,37 @@ class RemusPlantNode(SuiteNode):
         """The present step's time, ns."""
         return topics.FIRST_STAMP_NS + self.steps * self.step_ns
 
-    @property
-    def current(self) -> Current:
-        """The true current, m/s, NED."""
-        value: Current = self.parameters.current.value
-        return value
+    def configure(self) -> None:
+        self.simulated.constant_current = self.parameters.current.value
 
     def publish_step(self) -> None:
         """Publish the present state, once the readers are there."""
-        current, stamp = self.current, self.stamp
+        vehicle, stamp = self.simulated, self.stamp
         set_stamp(self._clock_message.clock, stamp)
-        u, v = self.plant.ground_velocity(current)
-        fill_odometry(self._odometry, self.plant.navigation, u, v, stamp)
-        fill_water_velocity(self._water, self.plant.water_velocity, stamp)
-        self._rudder_message.data = self.plant.rudder.angle
-        fill_current(self._true_current, current, stamp)
+        fill_odometry(self._odometry, vehicle.navigation, *vehicle.ground_velocity, stamp)
+        fill_water_velocity(self._water, vehicle.water_velocity, stamp)
+        self._rudder_message.data = vehicle.rudder
+        fill_current(self._true_current, vehicle.current, stamp)
+        if self._truth is not None:
+            fill_odometry(self._truth, *vehicle.truth, stamp)
         self.answer(self._publish)
 
     def _publish(self) -> None:
+        # In lockstep every step has its message, and a log that is blind repeats itself.
+        blind = self._lockstep is None and not self.simulated.water_lock
         for publisher, message in self._outputs:
-            publisher.publish(message)
+            if not (blind and message is self._water):
+                publisher.publish(message)
 
     def advance(self, command: Command) -> None:
         """One step of the plant, or back to the beginning if a reset was asked for."""
         if self._reset_wanted:
             self._reset_wanted = False
-            self.plant.reset()
+            self.simulated.reset()
             self.steps = 0
             self._commands.clear()
             return
-        self.plant.advance(command, self.step_ns * 1e-9, self.current)
+        self.simulated.advance(command, self.step_ns * 1e-9)
         self.steps += 1
 
     def _on_rudder(self, message: Float64) -> None:

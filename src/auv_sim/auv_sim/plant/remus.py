@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from auv_msgs_py.types import NO_CURRENT, Command, Current, Navigation, WaterVelocity
 from auv_path_following.vehicle import Vehicle
-from auv_sim.plant.actuator import RudderServo
+from auv_sim.plant.actuator import RudderFlaws, RudderServo
 
 
 class PlantState(NamedTuple):
@@ -72,24 +72,42 @@ class RemusPlant:
         vehicle: hull, rudder, thruster.
         initial: state to begin with, and to go back to on reset.
         max_step: longest Runge-Kutta step, s; longer steps are divided.
+        flaws: of the rudder's servo; none if None.
     """
 
-    def __init__(self, vehicle: Vehicle, initial: PlantState, max_step: float = 0.05) -> None:
+    def __init__(
+        self,
+        vehicle: Vehicle,
+        initial: PlantState,
+        max_step: float = 0.05,
+        flaws: RudderFlaws | None = None,
+    ) -> None:
         self.vehicle = vehicle
         self.dynamics = RemusDynamics(vehicle)
         self.initial = initial
         self.max_step = max_step
+        self.flaws = flaws
         self.reset()
 
     def reset(self) -> None:
         """Back to the initial state, rudder neutral."""
         self.state = self.initial
-        self.rudder = RudderServo(self.vehicle.rudder.max_angle, self.vehicle.rudder.max_rate)
+        limits = self.vehicle.rudder
+        self.rudder = RudderServo(limits.max_angle, limits.max_rate, self.flaws)
 
-    def advance(self, command: Command, dt: float, current: Current = NO_CURRENT) -> None:
-        """Let `dt` seconds pass under a held command and current."""
+    def advance(
+        self, command: Command, dt: float, current: Current = NO_CURRENT, efficiency: float = 1.0
+    ) -> None:
+        """Let `dt` seconds pass under a held command and current.
+
+        Args:
+            command: rudder and thrust.
+            dt: s.
+            current: m/s, NED.
+            efficiency: what the propeller makes of its thrust; 1 is all of it.
+        """
         self.rudder.command(command.rudder)
-        thrust = min(max(command.thrust, 0.0), self.vehicle.thrust_max)
+        thrust = min(max(command.thrust, 0.0), self.vehicle.thrust_max) * efficiency
         steps = max(1, math.ceil(dt / self.max_step - 1e-9))
         for _ in range(steps):
             self._runge_kutta(thrust, dt / steps, current)
@@ -97,7 +115,8 @@ class RemusPlant:
     def _runge_kutta(self, thrust: float, h: float, current: Current) -> None:
         f = self.dynamics.derivative
         state = self.state
-        delta, delta_half, delta_end = self.rudder.angle, self.rudder.after(0.5 * h), self.rudder.after(h)
+        rudder = self.rudder
+        delta, delta_half, delta_end = rudder.fin, rudder.fin_after(0.5 * h), rudder.fin_after(h)
         k1 = f(state, delta, thrust, current)
         k2 = f(_moved(state, k1, 0.5 * h), delta_half, thrust, current)
         k3 = f(_moved(state, k2, 0.5 * h), delta_half, thrust, current)

@@ -22,13 +22,14 @@ from auv_sim.recording.deserialize import deserializer
 
 #: Every topic that a `Run` takes something from.
 USED = (
-    topics.ODOM, topics.WATER_VELOCITY, topics.RUDDER_STATE, topics.TRUE_CURRENT, topics.CURRENT_ESTIMATE,
+    topics.ODOM, topics.WATER_VELOCITY, topics.RUDDER_STATE, topics.TRUE_CURRENT, topics.TRUE_ODOM,
+    topics.CURRENT_ESTIMATE,
     topics.DESIRED_YAW, topics.DESIRED_YAW_RATE, topics.PATH_PARAMETER, topics.PATH_ERROR,
     topics.RUDDER_CMD, topics.THRUST_CMD,
 )  # fmt: skip
 
 # Columns of the decoded Odometry: x y z, quaternion x y z w, 36, linear x y z, angular x y z, 36.
-_POSITION_X, _POSITION_Y, _QUATERNION, _ANGULAR_Z = 0, 1, slice(3, 7), 48
+_POSE, _ANGULAR_Z = slice(0, 7), 48
 
 
 class _Recorded(NamedTuple):
@@ -148,10 +149,8 @@ def _assemble(recorded: dict[Topic, _Recorded], table: FrameTable, bag: Path) ->
     values = odometry.columns.values
     world, body = _frames(topics.ODOM, odometry.columns, bag)
     convention = table.of_pose(topics.ODOM.name, world, body)
-    yaw = yaw_of_quaternion(*values[:, _QUATERNION].T)
-    x, y, turn = values[:, _POSITION_X], values[:, _POSITION_Y], values[:, _ANGULAR_Z]
-    if convention is Convention.ENU_FLU:
-        (x, y), yaw, turn = swap_axes(x, y), flip_yaw(yaw), -turn
+    x, y, psi = _pose(list(values[:, _POSE].T), convention)
+    turn = -values[:, _ANGULAR_Z] if convention is Convention.ENU_FLU else values[:, _ANGULAR_Z]
 
     def aligned(topic: Topic, column: int = 0) -> Any:
         return _aligned(odometry, recorded.get(topic), column)
@@ -164,12 +163,13 @@ def _assemble(recorded: dict[Topic, _Recorded], table: FrameTable, bag: Path) ->
             sway = -sway
     Vx_est, Vy_est = swap_axes(aligned(topics.CURRENT_ESTIMATE, 0), aligned(topics.CURRENT_ESTIMATE, 1))
     Vx_true, Vy_true = swap_axes(aligned(topics.TRUE_CURRENT, 0), aligned(topics.TRUE_CURRENT, 1))
+    x_true, y_true, psi_true = _pose([aligned(topics.TRUE_ODOM, k) for k in range(7)], convention)
     run = Run.from_columns(
         {
             "t": odometry.columns.stamp_ns * 1e-9,
             "x": x,
             "y": y,
-            "psi": wrap(yaw),
+            "psi": psi,
             "r": turn,
             "ur": aligned(topics.WATER_VELOCITY, 0),
             "vr": sway,
@@ -186,9 +186,20 @@ def _assemble(recorded: dict[Topic, _Recorded], table: FrameTable, bag: Path) ->
             "Vy_est": Vy_est,
             "Vx_true": Vx_true,
             "Vy_true": Vy_true,
+            "x_true": x_true,
+            "y_true": y_true,
+            "psi_true": psi_true,
         }
     )
     return run.select(_first_flight(odometry.columns.stamp_ns))
+
+
+def _pose(columns: list[Any], convention: Convention) -> tuple[Any, Any, Any]:
+    """x, y (m) and psi (rad), NED, from the seven numbers of a pose."""
+    x, y, yaw = columns[0], columns[1], yaw_of_quaternion(*columns[3:7])
+    if convention is Convention.ENU_FLU:
+        (x, y), yaw = swap_axes(x, y), flip_yaw(yaw)
+    return x, y, wrap(yaw)
 
 
 def _first_flight(stamp: NDArray[np.int64]) -> NDArray[np.bool_]:
