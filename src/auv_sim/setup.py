@@ -43,6 +43,7 @@ setup(
         "console_scripts": [
             "remus_plant = auv_sim.nodes.plant_node:main",
             "recorder = auv_sim.nodes.recorder_node:main",
+            "fault_relay = auv_sim.faults.relay:main",
         ]
     },
 )

@@ -106,6 +106,12 @@ def test_a_frozen_pose_is_refused_until_it_changes(gate):
     assert fly(gate, [at(1.1), at(1.2)]) == [BELIEVED, BELIEVED]
 
 
+def test_after_a_freeze_the_vehicle_may_be_where_it_can_have_come_to(gate):
+    fly(gate, [at(k * DT) for k in range(11)])
+    fly(gate, [at(1.0)] * 50)
+    assert fly(gate, [at(6.0, psi=1.5), at(6.1, psi=1.6)]) == [BELIEVED, BELIEVED]
+
+
 def test_a_vehicle_that_lies_still_may_say_so(gate):
     assert set(fly(gate, [at(1.0)] * 1000, under_way=False)) == {BELIEVED}
 

@@ -17,8 +17,8 @@ from auv_msgs_py.errors import MessageRefused
 _OK, _WARN, _ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 #: How long a refused message keeps the status at WARN, s of wall time.
 _MEMORY = 5.0
-#: A refusal after so much time without one is reported at once, s of wall time.
-_NEWS = 0.5
+#: News are told at once, but for those that come sooner after a report than this, s of wall time.
+_NEWS = 0.1
 
 
 class Health:
@@ -48,6 +48,7 @@ class Health:
         self.refused: Counter[str] = Counter()
         self._last_refusal = ""
         self._last_refusal_at = float("-inf")
+        self._reported_at = float("-inf")
         self._condition: dict[str, tuple[bytes, str]] = {}
         self._publisher = node.create_publisher(
             DiagnosticArray, topics.DIAGNOSTICS.name, qos.offered(topics.DIAGNOSTICS)
@@ -63,31 +64,33 @@ class Health:
         """Count a refused message; its kind is logged once, its number is in every report."""
         self.refused[error.topic] += 1
         text = str(error)
-        now = time.monotonic()
-        another = text.split(":")[0] not in self._last_refusal
-        if self.refused[error.topic] == 1 or another:
+        if self.refused[error.topic] == 1 or text.split(":")[0] not in self._last_refusal:
             self._node.get_logger().error(f"refused: {text}")
-        news = another or now - self._last_refusal_at > _NEWS
-        self._last_refusal, self._last_refusal_at = text, now
-        if news:
-            self.publish()
+        self._last_refusal, self._last_refusal_at = text, time.monotonic()
+        self._news()
 
     def warn(self, name: str, text: str) -> None:
         """Set or (with an empty text) clear a lasting condition; a new one is logged."""
         self._set(name, _WARN, text)
 
-    def error(self, name: str, text: str) -> None:
-        """As `warn`, one level higher."""
-        self._set(name, _ERROR, text)
+    def error(self, name: str, text: str, log: bool = True) -> None:
+        """As `warn`, one level higher; `log`: False where the caller has his own words for the log."""
+        self._set(name, _ERROR, text, log)
 
-    def _set(self, name: str, level: bytes, text: str) -> None:
+    def _set(self, name: str, level: bytes, text: str, log: bool = True) -> None:
         if not text:
             self._condition.pop(name, None)
             return
-        known = name in self._condition
+        known = self._condition.get(name)
+        if known == (level, text):
+            return
         self._condition[name] = (level, text)
-        if not known:
+        if known is None and log:
             self._node.get_logger().warning(text)
+        self._news()
+
+    def _news(self) -> None:
+        if time.monotonic() - self._reported_at > _NEWS:
             self.publish()
 
     def _report(self) -> None:
@@ -97,12 +100,16 @@ class Health:
     def publish(self) -> None:
         """Send one report."""
         level, message = _OK, "ok"
-        if refusal := self.last_refusal:
+        self._reported_at = time.monotonic()
+        refusal = self.last_refusal
+        if refusal:
             level, message = _WARN, f"refused: {refusal}"
         for condition_level, text in self._condition.values():
             if condition_level > level:
                 level, message = condition_level, text
         values = {"waiting_for": self._waiting_for(), **self._values()}
+        if refusal:
+            values["condition refused"] = refusal
         values |= {f"condition {name}": text for name, (_, text) in self._condition.items()}
         values |= {f"refused {topic}": count for topic, count in self.refused.items()}
         status = DiagnosticStatus(

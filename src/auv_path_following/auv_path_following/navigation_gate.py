@@ -97,7 +97,7 @@ class NavigationGate:
         if last is None:
             wrong = self._impossible(navigation, navigation, dt, dt)
         else:
-            wrong = self._impossible(navigation, last, self._since, dt)
+            wrong = self._impossible(navigation, last, self._since, dt + self._still)
         if wrong is None:
             return self._moving_or_frozen(navigation, dt, under_way)
         other, self._other = self._other, navigation
@@ -113,9 +113,9 @@ class NavigationGate:
         self._since = self._agreed = self._still = 0.0
 
     def _impossible(
-        self, navigation: Navigation, before: Navigation, since: float, dt: float
+        self, navigation: Navigation, before: Navigation, since: float, turning: float
     ) -> Judgement | None:
-        """Position may have changed since `before`; heading only counts the time without any message."""
+        """What is wrong if `before` was so long ago; of turning only the time without news counts."""
         c = self.config
         speed = self.top_speed + c.current
         if abs(navigation.r) > c.yaw_rate:
@@ -127,7 +127,7 @@ class NavigationGate:
             found = f"a position {jump:.1f} m from the last that was believed"
             return Judgement(Passed.REFUSED, found, f"at most {allowed:.1f} m after {since:.2f} s")
         turn = abs(wrap(navigation.psi - before.psi))
-        allowed = c.heading_margin + c.yaw_rate * dt
+        allowed = c.heading_margin + c.yaw_rate * turning
         if turn > allowed:
             found = f"a heading {math.degrees(turn):.0f} deg from the last that was believed"
             return Judgement(Passed.REFUSED, found, f"at most {math.degrees(allowed):.0f} deg")
@@ -135,16 +135,14 @@ class NavigationGate:
 
     def _moving_or_frozen(self, navigation: Navigation, dt: float, under_way: bool) -> Judgement:
         bound = self.config.frozen_after
-        last = self._last
-        same = last is not None and navigation[:3] == last[:3]
-        if same:
-            frozen = self._still >= bound
-            # Once frozen it stays so until the pose changes: the vehicle has been stopped since.
-            still = self._still + dt if under_way or frozen else 0.0
+        if self._last is None or navigation[:3] != self._last[:3]:
             self._believe(navigation)
-            self._still = still
-            if still >= bound:
-                return Judgement(Passed.REFUSED, f"the same pose for {still:.1f} s under way", "a new one")
             return _BELIEVED
-        self._believe(navigation)
+        # Once frozen it stays so until the pose changes: the vehicle has been stopped since.
+        if under_way or self._still >= bound:
+            self._still += dt
+        else:
+            self._since = self._still = 0.0
+        if self._still >= bound:
+            return Judgement(Passed.REFUSED, f"the same pose for {self._still:.1f} s under way", "a new one")
         return _BELIEVED

@@ -27,7 +27,7 @@ class NodeParameters:
     recorded: bool = setting(
         False, "in lockstep: a recorder takes part, nothing is published before it listens"
     )
-    flood_rate: float = setting(500.0, "a topic that comes more often is reported", unit="Hz", gt=0.0, le=1e6)
+    flood_rate: float = setting(200.0, "a topic that comes more often is reported", unit="Hz", gt=0.0, le=1e6)
 
 
 @settings

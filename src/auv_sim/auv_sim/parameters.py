@@ -85,6 +85,28 @@ class RecorderParameters(NodeParameters):
     )
 
 
+#: What `fault_relay` can do to a topic; `auv_sim.faults.injection` says what each does.
+Fault = Literal["none", "stop", "delay", "nan", "freeze", "jump", "reverse", "flood", "frameless"]
+
+
+@settings
+class FaultRelayParameters(NodeParameters):
+    """fault_relay. It reads each topic as <topic>_raw; with fault none it only passes on."""
+
+    topics: str = setting(
+        "odom velocity_through_water current_estimate desired_yaw desired_yaw_rate desired_thrust"
+        " rudder_cmd thrust_cmd mission_state",
+        "the topics it stands between, separated by blanks",
+    )
+    fault: Fault = setting(
+        "none", "stop, delay, nan, freeze, jump, reverse, flood, frameless, or none", live=True
+    )  # fmt: skip
+    on: str = setting("", "only these of the topics have the fault; all if empty", live=True)
+    delay: float = setting(2.0, "of fault delay", unit="s", gt=0.0, le=600.0, live=True)
+    jump: float = setting(100.0, "of fault jump, in the unit of the topic", live=True)
+    copies: int = setting(100, "of each message in a flood", ge=1, le=10_000, live=True)
+
+
 #: Node name -> the class of its parameters: what a parameter file may contain.
 SUITE: dict[str, type[Any]] = {
     topics.PLANT: PlantParameters,

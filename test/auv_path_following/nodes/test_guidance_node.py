@@ -65,3 +65,80 @@ def test_guidance_aborts_when_it_had_to_hold_for_too_long(bench: Bench) -> None:
     bench.start(GuidanceNode, holding__hold_after=0.2, holding__abort_after=0.4)
     bench.call("start")
     bench.until(lambda: [m.data for m in bench.received["mission_state"]][-1:] == ["aborted"])
+
+
+NORTH = (
+    "version: 1\nname: north\nframe: ned\nthrust: 6\nlimits: {path_distance: 20}\n"
+    "segments: [{line: {start: [0, 0], length: 100, course_deg: 0}}]\n"
+)
+
+
+def states(bench: Bench) -> list[str]:
+    return [message.data for message in bench.received["mission_state"]]
+
+
+def fly_north(bench: Bench, tmp_path: Any, **parameters: Any) -> Any:
+    """A started mission that has flown the first five metres."""
+    mission = tmp_path / "north.yaml"
+    mission.write_text(NORTH)
+    node = bench.start(GuidanceNode, mission=str(mission), **parameters)
+    bench.call("start")
+    for k in range(26):
+        step(bench, 1.0 + 0.1 * k, 0.2 * k)
+    return node
+
+
+def step(bench: Bench, seconds: float, north: float, east: float = 0.0) -> float:
+    """One measurement; the path parameter that is answered."""
+    before = len(bench.values(topics.PATH_PARAMETER))
+    bench.measurement(seconds, Navigation(north, east, 0.0, 0.0), 1.9, ("map", "base_link"))
+    bench.until(lambda: len(bench.values(topics.PATH_PARAMETER)) > before)
+    return bench.values(topics.PATH_PARAMETER)[-1]
+
+
+def test_after_a_hold_guidance_rejoins_its_path_ahead_beside_the_vehicle(bench: Bench, tmp_path: Any) -> None:
+    fly_north(bench, tmp_path, holding__hold_after=0.4)
+    before = bench.values(topics.PATH_PARAMETER)[-1]
+    bench.until(lambda: states(bench)[-1] == "holding")
+    bench.until(lambda: bench.diagnosed("holding: no usable navigation for 0.4 s"))
+    s = step(bench, 20.0, 12.0, 3.0)  # carried along in 16 s; at its last speed P would be at 36 m
+    bench.until(lambda: states(bench)[-1] == "running")
+    assert before < s == pytest.approx(0.12, abs=1e-4)
+
+
+def test_a_vehicle_clock_that_was_set_back_does_not_begin_the_path_anew(bench: Bench, tmp_path: Any) -> None:
+    node = fly_north(bench, tmp_path, holding__hold_after=20.0)
+    before = bench.values(topics.PATH_PARAMETER)[-1]
+    bench.odometry(0.5, Navigation(5.1, 0.0, 0.0, 0.0))
+    bench.until(lambda: node.health.refused["odom"] == 1)
+    for k in range(1, 4):
+        step(bench, 0.5 + 0.1 * k, 5.1 + 0.2 * k)
+    assert bench.values(topics.PATH_PARAMETER)[-1] >= before > 0.03
+
+
+def test_a_jump_is_refused_and_the_mission_aborts_where_the_vehicle_turns_out_to_be(
+    bench: Bench, tmp_path: Any
+) -> None:
+    node = fly_north(bench, tmp_path, holding__hold_after=20.0, gate__accept_after=0.5)
+    for k in range(4):
+        bench.water(3.6 + 0.1 * k, 1.9)
+        bench.odometry(3.6 + 0.1 * k, Navigation(5.0, 100.0, 0.0, 0.0))
+    bench.until(lambda: node.health.refused["odom"] == 4)
+    bench.until(lambda: bench.diagnosed("from the last that was believed"))
+    assert bench.values(topics.DESIRED_THRUST)[-1] == 6.0
+    for k in range(4, 8):
+        bench.water(3.6 + 0.1 * k, 1.9)
+        bench.odometry(3.6 + 0.1 * k, Navigation(5.0, 100.0, 0.0, 0.0))
+    bench.until(lambda: states(bench)[-1] == "aborted")
+    bench.until(lambda: bench.diagnosed("aborted: limit path_distance: 100.0 m"))
+    bench.until(lambda: bench.values(topics.DESIRED_THRUST)[-1] == 0.0)
+
+
+@pytest.mark.parametrize("state", ["idle", "holding"])
+def test_abort_works_without_any_navigation(bench: Bench, state: str) -> None:
+    bench.start(GuidanceNode, holding__hold_after=0.2)
+    if state == "holding":
+        bench.call("start")
+    bench.until(lambda: states(bench)[-1:] == [state])
+    assert bench.call("abort").success
+    bench.until(lambda: states(bench)[-1] == "aborted")

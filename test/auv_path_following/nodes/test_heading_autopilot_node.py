@@ -6,6 +6,7 @@ import math
 import time
 
 import pytest
+from std_msgs.msg import String
 
 from auv_msgs_py import topics
 from auv_msgs_py.types import Navigation
@@ -64,3 +65,43 @@ def test_the_autopilot_stops_the_vehicle_when_odometry_falls_silent(bench: Bench
     bench.until(lambda: bench.values(topics.THRUST_CMD) == [6.0])
     bench.until(lambda: bench.values(topics.THRUST_CMD)[-1] == 0.0)
     bench.until(lambda: bench.diagnosed("no usable odom for 0.3 s: rudder and thrust are 0"))
+
+
+def test_a_heading_that_jumps_does_not_reach_the_rudder(bench: Bench) -> None:
+    node = bench.start(HeadingAutopilotNode)
+    for k in range(5):
+        bench.odometry(1.0 + 0.05 * k, Navigation(0.1 * k, 0.0, 0.0, 0.0))
+        bench.reference(math.pi / 2, 0.0, 6.0)
+        bench.until(lambda k=k: len(bench.values(topics.RUDDER_CMD)) > k)
+    bench.odometry(1.3, Navigation(0.6, 0.0, 1.5, 0.0))
+    bench.until(lambda: node.health.refused["odom"] == 1)
+    bench.until(lambda: bench.diagnosed("a heading 86 deg from the last that was believed"))
+    assert all(abs(rudder) < 1e-3 for rudder in bench.values(topics.RUDDER_CMD))
+
+
+@pytest.mark.parametrize(
+    ("reference", "named"),
+    [
+        ((100.0, 0.0, 6.0), "desired_yaw"),
+        ((0.0, 100.0, 6.0), "desired_yaw_rate"),
+        ((0.0, 0.0, 600.0), "desired_thrust"),
+    ],
+)
+def test_a_reference_that_no_guidance_gives_is_refused(
+    bench: Bench, reference: tuple[float, float, float], named: str
+) -> None:
+    node = bench.start(HeadingAutopilotNode)
+    bench.reference(*reference)
+    bench.until(lambda: node.health.refused[named] == 1)
+
+
+def test_thrust_that_contradicts_the_state_of_the_mission_is_not_obeyed_for_long(bench: Bench) -> None:
+    bench.start(HeadingAutopilotNode, reference_timeout=0.3)
+    bench.send(topics.MISSION_STATE, String(data="aborted"))
+    t = time.monotonic()
+    while not bench.diagnosed("though the mission is aborted"):
+        bench.odometry(1.0 + time.monotonic() - t, Navigation(time.monotonic() - t, 0.0, 0.0, 0.0))
+        bench.reference(math.pi / 2, 0.0, 6.0)
+        bench.spin(0.05)
+        assert time.monotonic() - t < 20.0
+    assert bench.values(topics.THRUST_CMD)[-1] == 0.0

@@ -185,7 +185,8 @@ class GuidanceNode(SuiteNode):
             return
         self._told = self.state.state
         stopped = self._told in (State.HOLDING, State.ABORTED)
-        self.health.error("mission", f"{self._told.value}: {self.state.reason}" if stopped else "")
+        self.health.error("mission", "")
+        self.health.error("mission", f"{self._told.value}: {self.state.reason}" if stopped else "", log=False)
         self._mission_state.publish(String(data=self._told.value))
         self.get_logger().info(f"{self._told.value}: {self.state.reason}")
 

@@ -72,14 +72,14 @@ class RemusPlantNode(SuiteNode):
         ]  # fmt: skip
         self.close_gate()
         self._lockstep = Lockstep(self) if p.lockstep else None
-        self._pacer = None if p.lockstep else Pacer(p.step / p.speed)
+        self.pacer = None if p.lockstep else Pacer(p.step / p.speed)
         self.listen(topics.RUDDER_CMD, self._on_rudder)
         self.listen(topics.THRUST_CMD, self._on_thrust)
         self.listen(topics.MISSION_STATE, self._on_mission_state)
         self.create_service(Trigger, topics.RESET_SERVICE, self._on_reset)
-        if self._pacer is not None:
+        if self.pacer is not None:
             self.create_timer(
-                self._pacer.ask_every, self._tick, clock=RosClock(clock_type=ClockType.STEADY_TIME)
+                self.pacer.ask_every, self._tick, clock=RosClock(clock_type=ClockType.STEADY_TIME)
             )
 
     def _check_frames(self, p: PlantParameters) -> None:
@@ -95,8 +95,8 @@ class RemusPlantNode(SuiteNode):
 
     def report(self) -> dict[str, Any]:
         values = {"steps": self.steps, "stamp [s]": f"{self.stamp * 1e-9:.3f}"}
-        if self._pacer is not None:
-            values["behind [s]"] = f"{self._pacer.behind:.3f}"
+        if self.pacer is not None:
+            values["behind [s]"] = f"{self.pacer.behind:.3f}"
         return values
 
     @property
@@ -167,11 +167,11 @@ class RemusPlantNode(SuiteNode):
 
     def _tick(self) -> None:
         """Free running: the next step, when the wall clock asks for it."""
-        assert self._pacer is not None
+        assert self.pacer is not None
         if not self._released:
-            self._pacer.restart(time.monotonic())
+            self.pacer.restart(time.monotonic())
             return
-        if self._pacer.due(time.monotonic()):
+        if self.pacer.due(time.monotonic()):
             self.command = self._held_command()
             if self._begun:
                 self.advance(self.command)

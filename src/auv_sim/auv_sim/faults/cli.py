@@ -1,0 +1,150 @@
+"""`scripts/fault_matrix.py`: everything that can fail, made to fail, and what the suite does about it."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import os
+import sys
+import tempfile
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.table import Table
+
+from auv_msgs_py import topics
+from auv_msgs_py.errors import ConfigurationError, SuiteError
+from auv_sim.command_line import EXIT_BAD_INPUT, EXIT_DONE, EXIT_FAILED, Parser, positive, ros_domain
+from auv_sim.command_line import console as terminal
+from auv_sim.faults.expectations import REPRESENTATIVE, TABLE, Expectation, chosen
+from auv_sim.mission.domains import free_domain
+
+SPEED = 4.0
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    p = Parser(
+        prog="fault_matrix.py",
+        description="Kill nodes and spoil topics in flight; check who notices and what is done.",
+        allow_abbrev=False,
+    )
+    p.add_argument(
+        "rows", nargs="*", metavar="ROW", help="only these, e.g. 'odom jump' (default: a representative part)"
+    )
+    p.add_argument("--full", action="store_true", help="all rows of the table in docs/safety.md")
+    p.add_argument("--list", action="store_true", help="print the names of all rows")
+    p.add_argument("--speed", type=positive, default=SPEED, metavar="N", help="of the simulator (default 4)")
+    p.add_argument("--json", type=Path, metavar="FILE", help="write the results there")
+    p.add_argument("--out", type=Path, metavar="DIR", help="keep logs and bag there (default: thrown away)")
+    p.add_argument("--domain", type=ros_domain, help="ROS domain (default: one of its own)")
+    return p
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Returns 0 when all rows are as expected, 1 when one is not, 2 for bad input."""
+    try:
+        return _main(parser().parse_args(argv))
+    except ConfigurationError as error:
+        print(error, file=sys.stderr)
+        return EXIT_BAD_INPUT
+    except SuiteError as error:
+        print(f"fault matrix failed: {error}", file=sys.stderr)
+        return EXIT_FAILED
+
+
+def _main(arguments: argparse.Namespace) -> int:
+    if arguments.list:
+        print("\n".join(row.name for row in TABLE))
+        return EXIT_DONE
+    rows = _rows(arguments)
+    if arguments.out is not None and arguments.out.exists():
+        raise ConfigurationError("--out", f"{arguments.out}, which exists", "a new directory")
+    os.environ["ROS_DOMAIN_ID"] = str(arguments.domain if arguments.domain is not None else free_domain())
+    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    console = terminal()
+    with tempfile.TemporaryDirectory(prefix="auv-faults-") as scratch:
+        results = _run(rows, arguments.out or Path(scratch), arguments.speed, console)
+    good = sum(result.good for result in results)
+    if arguments.json is not None:
+        from auv_sim.faults.matrix import as_data
+
+        record = {"speed": arguments.speed, "good": good, "rows": [as_data(result) for result in results]}
+        arguments.json.write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
+    if not arguments.full and not arguments.rows:
+        console.print(f"\nAll {len(TABLE)} rows:  python3 scripts/fault_matrix.py --full", highlight=False)
+    return EXIT_DONE if good == len(results) == len(rows) else EXIT_FAILED
+
+
+def _rows(arguments: argparse.Namespace) -> list[Expectation]:
+    if arguments.full:
+        return list(TABLE)
+    try:
+        return chosen(tuple(arguments.rows) or REPRESENTATIVE)
+    except KeyError as error:
+        raise ConfigurationError("ROW", str(error), "a name that --list prints") from None
+
+
+def _run(rows: list[Expectation], directory: Path, speed: float, console: Console) -> list:  # type: ignore[type-arg]
+    from auv_sim.faults.matrix import Matrix, Result  # rclpy, only when it is needed
+    from auv_sim.faults.simulator import kill_simulator
+
+    begin = time.monotonic()
+    results: list[Result] = []
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, disable=not console.is_terminal) as bar:
+        task = bar.add_task("spoiling", total=len(rows))
+
+        def tell(result: Result) -> None:
+            bar.update(task, advance=1, description=result.row.name)
+            if not result.good:
+                console.print(f"{result.row.name}: {'; '.join(result.wrong)}", style="red", highlight=False)
+
+        simulator = [row for row in rows if row.place == topics.PLANT]
+        others = [row for row in rows if row not in simulator]
+        if others:
+            results += Matrix(directory, speed, tell).run(others)
+        for row in simulator:
+            results.append(kill_simulator(row, directory / "simulator", speed))
+            tell(results[-1])
+    console.print(_table(results))
+    good = sum(result.good for result in results)
+    console.print(
+        f"{good} of {len(results)} rows as docs/safety.md says, in {time.monotonic() - begin:.0f} s of wall"
+        f" time at {speed:g} times real time",
+        highlight=False,
+    )
+    return results
+
+
+def _table(results: list) -> Table:  # type: ignore[type-arg]
+    table = Table(title="What failed, and what was done about it", title_justify="left")
+    for heading in ("place", "fault", "noticed by"):
+        table.add_column(heading)
+    for heading in ("after [s]", "at most", "stopped [s]", "at most"):
+        table.add_column(heading, justify="right")
+    table.add_column("mission")
+    table.add_column("")
+    place = ""
+    for result in results:
+        row = result.row
+        if place and row.place != place:
+            table.add_section()
+        fault = row.fault + (", then abort" if row.then_abort else "")
+        table.add_row(
+            row.place if row.place != place else "", fault, row.noticed_by or "-",
+            _seconds(result.noticed),
+            f"{row.within:g}{' wall' if row.wall else ''}" if row.noticed_by else "-",
+            _seconds(result.safe), f"{row.safe:g}" if row.safe else "-", row.outcome,
+            "[green]ok[/green]" if result.good else f"[red]{'; '.join(result.wrong)}[/red]",
+        )  # fmt: skip
+        place = row.place
+    return table
+
+
+def _seconds(value: float) -> str:
+    return "-" if math.isnan(value) else f"{value:.2f}"

@@ -1,0 +1,113 @@
+"""What a fault does to the messages of one topic."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from typing import Any, get_args
+
+from rclpy.serialization import deserialize_message, serialize_message
+
+from auv_sim.parameters import Fault
+
+FAULTS: tuple[Fault, ...] = tuple(fault for fault in get_args(Fault) if fault != "none")
+
+#: So many messages are kept to be sent again backwards.
+_MEMORY = 1000
+
+
+class Injector:
+    """Turns each serialized message of a topic into those that are sent in its place.
+
+    stop        nothing.
+    delay       the message, so many seconds later.
+    nan         its first number is NaN; a text becomes ``nan``.
+    freeze      the content of the last good message, with the stamp of this one.
+    jump        its first number is larger by so much.
+    reverse     the last good messages in reverse order, as they were.
+    flood       the message so many times, spread over the time to the next one.
+    frameless   an empty frame_id.
+
+    Args:
+        kind: the message class.
+        delay: s.
+        jump: in the unit of the topic.
+        copies: of each message of a flood.
+    """
+
+    def __init__(self, kind: type[Any], delay: float = 2.0, jump: float = 100.0, copies: int = 100) -> None:
+        self.kind = kind
+        self.delay, self.jump, self.copies = delay, jump, copies
+        self._fault: Fault = "none"
+        self._past: deque[bytes] = deque(maxlen=_MEMORY)
+        self._under_way: deque[tuple[float, bytes]] = deque()
+        self._came = 0.0
+
+    @property
+    def fault(self) -> Fault:
+        """What is being done."""
+        return self._fault
+
+    @fault.setter
+    def fault(self, fault: Fault) -> None:
+        self._fault = fault
+        self._under_way.clear()
+
+    def pass_on(self, data: bytes, now: float) -> list[bytes]:
+        """What to send for a message that came at `now` (s)."""
+        match self._fault:
+            case "none":
+                self._came = now
+                self._past.append(data)
+                return [data]
+            case "stop":
+                return []
+            case "delay":
+                self._under_way.append((now + self.delay, data))
+                return self.due(now)
+            case "reverse":
+                return [self._past.pop()] if self._past else []
+            case "flood":
+                gap = min(now - self._came, 1.0) / self.copies
+                self._came = now
+                self._under_way.extend((now + k * gap, data) for k in range(1, self.copies))
+                return [data]
+            case _:
+                return [self._changed(data)]
+
+    def due(self, now: float) -> list[bytes]:
+        """Messages that were kept back and whose time has come."""
+        found = []
+        while self._under_way and self._under_way[0][0] <= now:
+            found.append(self._under_way.popleft()[1])
+        return found
+
+    def _changed(self, data: bytes) -> bytes:
+        message = deserialize_message(data, self.kind)
+        match self._fault:
+            case "freeze" if self._past:
+                frozen = deserialize_message(self._past[-1], self.kind)
+                if hasattr(frozen, "header"):
+                    frozen.header.stamp = message.header.stamp
+                message = frozen
+            case "frameless" if hasattr(message, "header"):
+                message.header.frame_id = ""
+            case "nan":
+                _set_first_number(message, lambda _: math.nan)
+            case "jump":
+                _set_first_number(message, lambda value: value + self.jump)
+        return bytes(serialize_message(message))
+
+
+def _set_first_number(message: Any, change: Any) -> None:
+    """x of a position or velocity, or the one number of a Float64; a text is replaced."""
+    place = message
+    for name in ("pose", "pose", "position"):
+        place = getattr(place, name, place)
+    for name in ("twist", "twist", "linear") if place is message else ():
+        place = getattr(place, name, place)
+    place = getattr(place, "vector", place)
+    if hasattr(place, "data"):
+        place.data = "nan" if isinstance(place.data, str) else change(place.data)
+    else:
+        place.x = change(place.x)
