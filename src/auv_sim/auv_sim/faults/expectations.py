@@ -95,8 +95,8 @@ def _reference(place: str) -> list[Expectation]:
 def _command(place: str) -> list[Expectation]:
     stops: dict[str, Any] = {"outcome": "stops", "safe": 1.1, "set_by": "command_timeout"}
     return [
-        _E(place, "stop", _PLANT, f"no {place} for", 1.1, **stops),
-        _E(place, "delay", _PLANT, f"no {place} for", 1.1, **stops),
+        _E(place, "stop", _PLANT, f"no {place}", 1.1, **stops),
+        _E(place, "delay", _PLANT, f"no {place}", 1.1, **stops),
         _E(place, "nan", _PLANT, f"{place}: found nan", 0.1, **stops),
         _E(place, "jump", _PLANT, f"{place}: found", 0.1, **stops),
         _E(place, "reverse", "", "", 0.0, "goes on"),
@@ -188,7 +188,7 @@ TABLE: tuple[Expectation, ...] = (
         set_by="current_timeout",
         lasts=6.0,
     ),
-    _E(_AUTOPILOT, "kill", _PLANT, "no rudder_cmd for", 1.1, "stops", 1.1, "command_timeout"),
+    _E(_AUTOPILOT, "kill", _PLANT, "no rudder_cmd", 1.1, "stops", 1.1, "command_timeout"),
     _E(_GUIDANCE, "kill", _AUTOPILOT, "guidance is silent", 0.6, "waits", 0.6, "reference_timeout"),
     _E(topics.RECORDER, "kill", "", "", 0.0, "goes on"),
     _E(_PLANT, "kill", _GUIDANCE, "the clock stands still", 4.0, "goes on", wall=True),

@@ -180,18 +180,11 @@ class RemusPlantNode(SuiteNode):
 
     def _held_command(self) -> Command:
         """The newest commands; a stop when none came for too long, as any vehicle must do by itself."""
-        if self._mission_over:  # free running only: whatever the commands say
-            return STOP
-        oldest = self.stamp - self.parameters.command_timeout * 1e9
-        values = []
-        for topic in (topics.RUDDER_CMD.name, topics.THRUST_CMD.name):
-            value, at = self._commands.get(topic, (0.0, self.stamp))
-            if at < oldest:
-                self.health.warn("commands", f"no {topic} for {self.parameters.command_timeout:g} s: stopped")
-                return STOP
-            values.append(value)
-        self.health.warn("commands", "")
-        return Command(*values)
+        names, bound = (topics.RUDDER_CMD.name, topics.THRUST_CMD.name), self.parameters.command_timeout
+        held = [self._commands.get(name, (0.0, self.stamp)) for name in names]
+        silent = [name for name, (_, at) in zip(names, held, strict=True) if at < self.stamp - bound * 1e9]
+        self.health.warn("commands", f"no {', '.join(silent)} for {bound:g} s: stopped" if silent else "")
+        return STOP if silent or self._mission_over else Command(held[0][0], held[1][0])
 
 
 def main(args: Sequence[str] | None = None) -> int:
