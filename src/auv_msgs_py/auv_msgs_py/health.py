@@ -85,11 +85,15 @@ class Health:
         if known == (level, text):
             return
         self._condition[name] = (level, text)
-        if known is None and log:
+        if known is not None:
+            self._news()
+            return
+        if log:
             self._node.get_logger().warning(text)
-        self._news()
+        self.publish()
 
     def _news(self) -> None:
+        """What has changed, but not more often than anybody can read; a new condition is never kept back."""
         if time.monotonic() - self._reported_at > _NEWS:
             self.publish()
 

@@ -86,7 +86,7 @@ def _reference(place: str) -> list[Expectation]:
         _E(place, "stop", _AUTOPILOT, "guidance is silent", 0.6, **stops),
         _E(place, "delay", _AUTOPILOT, "guidance is silent", 0.6, **stops),
         _E(place, "nan", _AUTOPILOT, f"{place}: found nan", 0.1, **stops),
-        _E(place, "jump", _AUTOPILOT, f"{place}: found 1", 0.1, **stops),
+        _E(place, "jump", _AUTOPILOT, "expected from", 0.1, **stops),
         _E(place, "reverse", "", "", 0.0, "goes on"),
         _E(place, "flood", _AUTOPILOT, f"{place} comes at", **_FLOOD),
     ]
@@ -98,7 +98,7 @@ def _command(place: str) -> list[Expectation]:
         _E(place, "stop", _PLANT, f"no {place}", 1.1, **stops),
         _E(place, "delay", _PLANT, f"no {place}", 1.1, **stops),
         _E(place, "nan", _PLANT, f"{place}: found nan", 0.1, **stops),
-        _E(place, "jump", _PLANT, f"{place}: found", 0.1, **stops),
+        _E(place, "jump", _PLANT, "expected from", 0.1, **stops),
         _E(place, "reverse", "", "", 0.0, "goes on"),
         _E(place, "flood", _PLANT, f"{place} comes at", **_FLOOD),
     ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import signal
 import subprocess
@@ -13,6 +14,7 @@ from typing import Any
 
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from geometry_msgs.msg import Vector3Stamped
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -154,6 +156,8 @@ class Flight:
         self.plant: RemusPlantNode | None = None
         self.relay: FaultRelay | None = None
         self.state, self.s, self.thrust_cmd = "", 0.0, 0.0
+        #: Distance from the virtual point, m.
+        self.off_path = 0.0
         #: The largest path parameter since it was last set to 0.
         self.farthest = 0.0
         self.said: dict[str, DiagnosticStatus] = {}
@@ -184,6 +188,7 @@ class Flight:
         self._listen(topics.MISSION_STATE, state, String, self._on_state)
         self._listen(topics.PATH_PARAMETER, "path_parameter", Float64, self._on_s)
         self._listen(topics.THRUST_CMD, "thrust_cmd", Float64, self._on_thrust)
+        self._listen(topics.PATH_ERROR, "path_error", Vector3Stamped, self._on_error)
         self._start = self.node.create_client(Trigger, topics.START_SERVICE)
         self._abort = self.node.create_client(Trigger, topics.ABORT_SERVICE)
 
@@ -202,6 +207,9 @@ class Flight:
     def _on_s(self, message: Float64) -> None:
         self.s = message.data
         self.farthest = max(self.farthest, self.s)
+
+    def _on_error(self, message: Vector3Stamped) -> None:
+        self.off_path = math.hypot(message.vector.x, message.vector.y)
 
     def _on_thrust(self, message: Float64) -> None:
         self.thrust_cmd = message.data

@@ -23,6 +23,8 @@ from auv_sim.recording.repair import repair
 _MACHINE = 0.6
 #: The vehicle flies undisturbed for so long before a fault, s of ROS time.
 _QUIET = 1.5
+#: Nearer to the virtual point than this the vehicle is on its path, m.
+_ON_PATH = 2.0
 #: The virtual point may wait for the vehicle by so much of a subpath, and no more.
 _BACK = 0.1
 #: After a fault the mission goes on within this, s of ROS time: a new place is believed after 3 s.
@@ -144,13 +146,15 @@ class Matrix:
         flight = self.flight
         if flight.state != "running":
             self._back_to_start()
-        deadline = time.monotonic() + 8.0
+        deadline = time.monotonic() + PATIENCE
         since = flight.now
         while flight.now - since < _QUIET:
             flight.pass_time(0.1)
             assert flight.plant is not None
             said = flight.said.get(row.noticed_by)
-            calm = flight.plant.command.thrust > 0.0 and flight.state == "running"
+            calm = (
+                flight.state == "running" and flight.plant.command.thrust > 0.0 and flight.off_path < _ON_PATH
+            )
             if flight.state == "aborted":  # late, after the row before
                 self._back_to_start()
             if not calm or (said is not None and row.says and says(said, row.says)):

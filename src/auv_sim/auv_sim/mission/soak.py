@@ -1,0 +1,199 @@
+"""`scripts/soak.py`: an hour of mission time in one go; does any process grow, is any message lost?"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import os
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from auv_msgs_py import topics
+from auv_msgs_py.conversions import nanoseconds
+from auv_msgs_py.errors import ConfigurationError, SuiteError
+from auv_sim.command_line import EXIT_BAD_INPUT, EXIT_DONE, EXIT_FAILED, Parser, positive
+from auv_sim.command_line import console as terminal
+from auv_sim.mission import launcher, memory, plan
+from auv_sim.mission.domains import free_domain
+from auv_sim.mission.plan import Options, Plan
+from auv_sim.mission.progress import Progress
+from auv_sim.recording.bag import read_bag
+from auv_sim.recording.load import load_messages
+
+#: A lawnmower with a way back, closed, 1.26 km: followed as often as the hour takes.
+SURVEY = """\
+version: 1
+name: soak survey
+description: four legs 40 m apart and the way back, over and over
+frame: ned
+speed: 1.9
+repeat: {repeat}
+waypoints:
+  points: [[0, 0], [180, 0], [180, 40], [20, 40], [20, 80], [180, 80], [180, 120], [0, 120], [-30, 60]]
+  closed: true
+  smoothing: {{kind: circular, radius: 8}}
+"""
+#: The share of the mission after which a process has everything it needs.
+_WARM = 0.2
+#: How often memory is looked at, s of wall time.
+_PERIOD = 1.0
+
+
+class Watch(Progress):
+    """A progress bar that also keeps each process's memory.
+
+    Args:
+        resolved: what is flown.
+        console: where to draw.
+    """
+
+    def __init__(self, resolved: Plan, console: Console) -> None:
+        super().__init__(resolved.mission.path, console, quiet=not console.is_terminal)
+        #: (steps, {name: kB}), one row a second.
+        self.rows: list[tuple[float, dict[str, int]]] = []
+        self._step = resolved.parameters[topics.PLANT].step
+        self._next = 0.0
+
+    def update(self, s: float, ye: float, mission_time: float, wall_time: float) -> None:
+        super().update(s, ye, mission_time, wall_time)
+        if time.monotonic() >= self._next:
+            self._next = time.monotonic() + _PERIOD
+            self.rows.append((mission_time / self._step, memory.of_children(os.getpid())))
+
+
+@dataclass(frozen=True)
+class Growth:
+    """One process: resident memory after the warm-up and at the end (kB), slope (kB per 1000 steps)."""
+
+    name: str
+    warm: float
+    end: float
+    slope: float
+
+
+def growth(rows: Sequence[tuple[float, dict[str, int]]]) -> list[Growth]:
+    """Least squares over everything after the warm-up."""
+    steps = np.array([row[0] for row in rows])
+    late = steps >= _WARM * steps[-1]
+    found = []
+    for name in sorted(rows[-1][1]):
+        kilobytes = np.array([row[1].get(name, math.nan) for row in rows])
+        good = late & np.isfinite(kilobytes)
+        slope = float(np.polyfit(steps[good] / 1e3, kilobytes[good], 1)[0])
+        found.append(Growth(name, float(kilobytes[good][0]), float(kilobytes[good][-1]), slope))
+    return found
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Returns 0 when nothing grew and nothing was lost, 1 when something did, 2 for bad input."""
+    p = Parser(
+        prog="soak.py",
+        description="Fly a looped survey for an hour of mission time and watch.",
+        allow_abbrev=False,
+    )
+    p.add_argument("--minutes", type=positive, default=60.0, help="of mission time at least (default 60)")
+    p.add_argument(
+        "--flat",
+        type=positive,
+        default=20.0,
+        metavar="KB",
+        help="largest growth, kB per 1000 steps (default 20)",
+    )
+    p.add_argument("--out", type=Path, metavar="DIR", help="run directory (default: runs/soak-DATE)")
+    arguments = p.parse_args(argv)
+    try:
+        return _soak(arguments)
+    except ConfigurationError as error:
+        print(error, file=sys.stderr)
+        return EXIT_BAD_INPUT
+    except SuiteError as error:
+        print(f"soak failed: {error}", file=sys.stderr)
+        return EXIT_FAILED
+
+
+def _soak(arguments: argparse.Namespace) -> int:
+    directory = (arguments.out or Path("runs") / f"soak-{time.strftime('%Y%m%d-%H%M%S')}").absolute()
+    if directory.exists():
+        raise ConfigurationError("--out", f"{directory}, which exists", "a new directory")
+    directory.mkdir(parents=True)
+    mission = directory / "soak.yaml"
+    mission.write_text(SURVEY.format(repeat=1), encoding="utf-8")
+    once = plan.make(Options(mission=str(mission)), directory).verdicts.duration
+    mission.write_text(SURVEY.format(repeat=math.ceil(60.0 * arguments.minutes / once)), encoding="utf-8")
+    resolved = plan.make(Options(mission=str(mission), current=(0.1, 0.2)), directory)
+    console = terminal()
+    watch = Watch(resolved, console)
+    with watch:
+        outcome = launcher.fly(resolved, directory, free_domain(), watch)
+    if outcome.state != "complete":
+        raise launcher.MissionFailed(f"{outcome.state}: {outcome.reason}")
+    steps, lost = _counted(directory / "bag", resolved.parameters[topics.PLANT].step)
+    grown = growth(watch.rows)
+    memory.draw(watch.rows, directory / "soak.png")
+    table = Table(
+        title=f"{outcome.mission_time / 60.0:.1f} minutes of mission, {steps} steps", title_justify="left"
+    )
+    table.add_column("process")
+    for heading in (
+        "after warm-up [MB]",
+        "at the end [MB]",
+        "slope [kB per 1000 steps]",
+        "[kB per minute flown]",
+    ):
+        table.add_column(heading, justify="right")
+    per_minute = 60.0 / resolved.parameters[topics.PLANT].step / 1e3
+    for one in grown:
+        flat = one.slope <= arguments.flat
+        colour = "green" if flat else "red"
+        table.add_row(
+            one.name, f"{one.warm / 1e3:.1f}", f"{one.end / 1e3:.1f}",
+            f"[{colour}]{one.slope:+.2f}[/{colour}]", f"{one.slope * per_minute:+.2f}",
+        )  # fmt: skip
+    console.print(table)
+    console.print(
+        f"{steps / outcome.wall_time:.0f} steps a second,"
+        f" {outcome.mission_time / outcome.wall_time:.0f} times real time;"
+        f" {'; '.join(lost) if lost else 'no message lost, no step missed'}",
+        highlight=False,
+    )
+    record = {
+        "minutes": outcome.mission_time / 60.0,
+        "steps": steps,
+        "wall_time_s": outcome.wall_time,
+        "lost": lost,
+        "processes": [vars(one) for one in grown],
+    }
+    (directory / "soak.json").write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
+    console.print(
+        f"\n  {directory / 'soak.png'}  [dim]memory of each process[/dim]", soft_wrap=True, highlight=False
+    )
+    good = not lost and all(one.slope <= arguments.flat for one in grown)
+    return EXIT_DONE if good else EXIT_FAILED
+
+
+def _counted(bag: Path, step: float) -> tuple[int, list[str]]:
+    """How many steps were recorded, and what is missing of them."""
+    stamps = np.array(
+        [nanoseconds(message.header.stamp) for _, message in load_messages(bag, topics.ODOM.name)]
+    )
+    lost = []
+    missed = int(np.sum(np.diff(stamps) != round(step * 1e9)))
+    if missed:
+        lost.append(f"{missed} steps of odom missed")
+    counts = {topic.name.rsplit("/", 1)[-1]: topic.count for topic in read_bag(bag, _nothing).topics.values()}
+    for topic in topics.PER_STEP:
+        if counts.get(topic.name, 0) != len(stamps):
+            lost.append(f"{len(stamps) - counts.get(topic.name, 0)} of {topic.name} lost")
+    return len(stamps), lost
+
+
+def _nothing(_: str, __: str) -> bool:
+    return False
