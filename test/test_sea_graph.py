@@ -1,4 +1,4 @@
-"""A sea over the graph, in lockstep: what is random is the same as in `closed_loop`; frames change nothing."""
+"""A sea over the graph, in lockstep: as random as in `closed_loop`, and frames change nothing."""
 
 from __future__ import annotations
 
@@ -72,7 +72,16 @@ def test_vehicles_that_speak_ned_and_enu_fly_to_the_same_track(
         params = tmp_path / f"{body.rsplit('/', maxsplit=1)[-1]}.yaml"
         params.write_text(_FRAMES.format(world=world, body=body), encoding="utf-8")
         out = params.with_suffix("")
-        asked = ["--mission", str(short_mission), "--params", str(params), "--sea", SEA, "--quiet", "--composed"]
+        asked = [
+            "--mission",
+            str(short_mission),
+            "--params",
+            str(params),
+            "--sea",
+            SEA,
+            "--quiet",
+            "--composed",
+        ]
         assert main([*asked, "--domain", str(domain), "--out", str(out)]) == 0
         runs[world] = load(out / "bag")
         message = load_messages(out / "bag", topics.TRUE_ODOM.name)[0][1]

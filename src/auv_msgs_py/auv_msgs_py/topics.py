@@ -32,8 +32,8 @@ WATER_VELOCITY = Topic(
 )
 RUDDER_STATE = Topic("rudder_state", "std_msgs/msg/Float64", PLANT)
 TRUE_CURRENT = Topic("true_current", "geometry_msgs/msg/Vector3Stamped", PLANT)
-#: Extension of the contract: from a simulator whose own navigation errs. It stands outside `PER_STEP`, for without
-#: a sea it never comes; with one it comes once a step, which `RECORDING_LEAD` has room for.
+#: Extension of the contract: from a simulator whose navigation errs. It stands outside `PER_STEP`, for
+#: without a sea it never comes; with one it comes once a step, which `RECORDING_LEAD` has room for.
 TRUE_ODOM = Topic("true_odom", "nav_msgs/msg/Odometry", PLANT)
 CURRENT_ESTIMATE = Topic("current_estimate", "geometry_msgs/msg/Vector3Stamped", OBSERVER, (GUIDANCE,))
 DESIRED_YAW = Topic("desired_yaw", "std_msgs/msg/Float64", GUIDANCE, (AUTOPILOT,))
@@ -67,8 +67,9 @@ RESET_SERVICE = "reset"
 FIRST_STAMP_NS = 1_000_000_000
 
 #: Lockstep: how many steps the simulator may be ahead of what the recorder has in full. A reader's transport
-#: queue holds 512 messages, and there are 16 a step at most: within this lead nothing can overflow, however long the
-#: recorder is starved of processor time. (A reliable writer could not help: it keeps its last 10 messages.)
+#: queue holds 512 messages, and there are at most 16 a step: within this lead nothing can overflow, however
+#: long the recorder is starved of processor time. (A reliable writer could not help: it keeps its last 10
+#: messages.)
 RECORDING_LEAD = 30
 #: How often the recorder tells how far it is, steps.
 RECORDING_REPORT = 8

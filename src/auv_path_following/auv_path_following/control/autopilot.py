@@ -44,8 +44,9 @@ class AutopilotOutput(NamedTuple):
 class HeadingAutopilot:
     """Turns a reference into rudder and thrust.
 
-    dr/dt comes from `Derivative`, d r_d/dt is the difference of what came in; a shaped reference knows its own. Outside a running
-    mission (thrust 0) the rudder is neutral and the controller forgets, so that a new start begins clean.
+    dr/dt comes from `Derivative`, d r_d/dt is the difference of what came in; a shaped reference knows its
+    own. Outside a running mission (thrust 0) the rudder is neutral and the controller forgets, so that a new
+    start begins clean.
 
     Args:
         vehicle: for the limits of rudder and thrust.

@@ -46,7 +46,7 @@ class Derivative:
     def reset(self) -> None:
         """Forget all; the next sample is the first, with a derivative of 0."""
         self._last: float | None = None
-        self._lag = self._rate = 0.0
+        self._rate = self._bend = 0.0
 
     def update(self, value: float, dt: float) -> float:
         """Take in a sample `dt` seconds after the last one; its derivative, 1/s of its unit."""
@@ -56,12 +56,14 @@ class Derivative:
         slope = (value - last) / dt
         w = self.config.bandwidth
         if not w > 0.0:
-            self._lag, self._rate = 0.0, slope
+            self._rate, self._bend = slope, 0.0
             return slope
-        # With e = value - filtered: e'' + 2 w e' + w^2 e = 2 w slope, at rest at e = 2 slope/w.
+        # Behind a straight line of this slope the filter comes to rest, 2 slope/w late; e is what is left until
+        # then: e'' + 2 w e' + w^2 e = 0. Kept is e + 2 e'/w, so that a new w makes no jump on a straight line.
+        e_rate = slope - self._rate
+        e = self._bend - 2.0 * e_rate / w
         decay = math.exp(-w * dt)
-        e, e_rate = self._lag - 2.0 * slope / w, slope - self._rate
         rise = (e_rate + w * e) * dt
-        self._lag = 2.0 * slope / w + (e + rise) * decay
-        self._rate = slope - (e_rate - w * rise) * decay
+        e, e_rate = (e + rise) * decay, (e_rate - w * rise) * decay
+        self._rate, self._bend = slope - e_rate, e + 2.0 * e_rate / w
         return self._rate

@@ -163,7 +163,8 @@ def summarise(run: Run, path: CompositePath) -> MissionSummary:
 def _near(joint: Joint, x: Column, y: Column, i: NDArray[np.int64]) -> NDArray[np.bool_]:
     """The rows around a joint. The path may pass there again later: only the two subpaths that meet count."""
     near: NDArray[np.bool_] = np.hypot(x - joint.x, y - joint.y) <= CORNER_RADIUS
-    return near & ((i == joint.index - 1) | (i == joint.index))
+    near &= (i == joint.index - 1) | (i == joint.index)
+    return near
 
 
 def under_way(run: Run, n: int) -> Run:

@@ -35,7 +35,9 @@ def parser() -> argparse.ArgumentParser:
     p = Parser(
         prog="mission.py", description="Fly a mission over ROS 2, record it, draw it.", allow_abbrev=False
     )
-    shipped = {kind: ", ".join(config_files.shipped(kind)) for kind in ("missions", "vehicles", "params", "seas")}
+    shipped = {
+        kind: ", ".join(config_files.shipped(kind)) for kind in ("missions", "vehicles", "params", "seas")
+    }
     p.add_argument(
         "--mission",
         default=plan.DEFAULT_MISSION,

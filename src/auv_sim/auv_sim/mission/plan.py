@@ -195,7 +195,7 @@ def make(options: Options, directory: Path) -> Plan:
 
 
 def _sea(options: Options, parameters: dict[str, Any], sources: dict[str, Path]) -> Pair:
-    """Tell the simulator its sea, as asked for or as the parameter file has it; the sea's mean current, m/s."""
+    """Tell the simulator its sea, asked for or of the parameter file; returns its mean current, m/s, NED."""
     name = options.sea if options.sea is not None else parameters[topics.PLANT].sea
     if not name or options.no_sim:
         if options.seed is not None:

@@ -1,4 +1,4 @@
-"""The rudder's servo: it saturates and it turns at a limited rate; a real one also has play and comes late."""
+"""The rudder's servo: it saturates and turns at a limited rate; a real one also has play and comes late."""
 
 from __future__ import annotations
 

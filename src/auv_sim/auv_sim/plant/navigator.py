@@ -66,9 +66,10 @@ class Navigator:
     """Kalman filter for position and the slow error of the velocity that carries it on.
 
     North and east are the real and the imaginary part of one complex number, for their errors are alike and
-    independent: so two states are enough, z (m) and e (m/s), with z' = e^(i psi) (u + i v + e) with bottom lock
-    and z' = e^(i psi) (ur + i vr) + e without. In the first case e turns with the vehicle (a crooked compass,
-    a wrong scale), in the second it is the current. P holds variances for one axis: P_z, P_e real, P_ze complex.
+    independent: so two states are enough, z (m) and the error e (m/s), which walks at random. With bottom
+    lock z' = exp(i psi) (u + i v + e), and e turns with the vehicle: a crooked compass, a wrong scale.
+    Without, z' = exp(i psi) (ur + i vr) + e, and e is the current. Variances are those of one axis: P_z and
+    that of e are real, P_ze, between them, is complex.
 
     Args:
         config: what it believes.
@@ -119,17 +120,14 @@ class Navigator:
             axes, velocity = turn, turn * complex(*measured.bottom)
             current = velocity + turn * source.value - through
             self._water.value += (current - self._water.value) * -math.expm1(-dt / c.current_time)
-        e = source.value
         # Trapezoidal: the velocity is the mean of its two ends.
-        now = velocity + axes * e
+        now = velocity + axes * source.value
         step = 0.5 * (now + self._velocity) * dt
         self._velocity = now
-        keep = math.exp(-dt / c.error_time)
-        source.value = keep * e
         self._P_z += 2.0 * dt * (axes * self._P_ze.conjugate()).real + dt * dt * source.variance
         self._P_z += c.walk * c.walk * dt
-        self._P_ze = keep * (self._P_ze + axes * dt * source.variance)
-        source.variance = keep * keep * source.variance + (1.0 - keep * keep) * source.deviation**2
+        self._P_ze += axes * dt * source.variance
+        source.variance += 2.0 * source.deviation**2 * dt / c.error_time
         self._z += step
         self._shown *= math.exp(-dt / c.blend) if c.blend else 0.0
         self._time += dt

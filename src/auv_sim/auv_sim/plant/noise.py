@@ -1,4 +1,4 @@
-"""What a measurement has besides the truth: white noise, a constant offset, a slow drift; and gaps and lateness.
+"""What a measurement has besides the truth: white noise, a constant offset, a slow drift, gaps, lateness.
 
 Every law draws from a generator of its own, made from a seed: two runs are equal to the last bit, a reset
 begins the same run again, and switching one error off leaves all others as they were.

@@ -13,6 +13,7 @@ from auv_msgs_py.settings import setting, settings
 from auv_msgs_py.types import WaterVelocity
 from auv_sim.plant.noise import Delay, DropoutConfig, Dropouts, Noise, NoiseConfig, Sampler, Seed
 
+
 @settings
 class AngleConfig:
     """Compass (degrees) or gyro (degrees a second)."""
@@ -184,11 +185,11 @@ class PositionFixes:
             since, self._since = self._since, 0.0
             fix = self._measure(x, y, since)
             if not silent:
-                self._under_way.append((self._now + self.config.latency - 1e-9, fix))
+                self._under_way.append((self._now + self.config.latency, fix))
         arrived = []
-        while self._under_way and self._under_way[0][0] <= self._now:
+        while self._under_way and self._under_way[0][0] <= self._now + 1e-9:
             due, fix = self._under_way.popleft()
-            arrived.append(fix._replace(age=fix.age + self._now - due - 1e-9))
+            arrived.append(fix._replace(age=fix.age + max(self._now - due, 0.0)))
         return tuple(arrived)
 
     def _measure(self, x: float, y: float, since: float) -> Fix:
