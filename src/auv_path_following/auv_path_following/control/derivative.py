@@ -58,8 +58,8 @@ class Derivative:
         if not w > 0.0:
             self._rate, self._bend = slope, 0.0
             return slope
-        # Behind a straight line of this slope the filter comes to rest, 2 slope/w late; e is what is left until
-        # then: e'' + 2 w e' + w^2 e = 0. Kept is e + 2 e'/w, so that a new w makes no jump on a straight line.
+        # Behind a straight line of this slope the filter comes to rest, 2 slope/w late; e is what is left
+        # until then: e'' + 2 w e' + w^2 e = 0. Kept is e + 2 e'/w: a new w makes no jump on a straight line.
         e_rate = slope - self._rate
         e = self._bend - 2.0 * e_rate / w
         decay = math.exp(-w * dt)

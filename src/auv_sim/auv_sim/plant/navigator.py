@@ -27,15 +27,15 @@ class NavigatorConfig:
     gate: float = setting(3.5, "a fix is refused beyond so many standard deviations", gt=0.0, le=100.0)
     patience: int = setting(5, "after so many refusals in a row the navigator doubts itself", ge=1)
     walk: float = setting(
-        0.02, "how fast dead reckoning goes astray at random: m after a second", unit="m/s^0.5", gt=0.0
+        0.05, "how fast dead reckoning goes astray at random: m after a second", unit="m/s^0.5", gt=0.0
     )
     bottom_error: float = setting(
-        0.04, "standard deviation of the error of the velocity over ground", unit="m/s", gt=0.0
+        0.03, "standard deviation of the error of the velocity over ground", unit="m/s", gt=0.0
     )
     water_error: float = setting(
         0.15, "standard deviation of the error of the current it has learned", unit="m/s", gt=0.0
     )
-    error_time: float = setting(300.0, "time in which these errors change", unit="s", gt=0.0)
+    error_time: float = setting(2000.0, "time in which these errors change", unit="s", gt=0.0)
     current_time: float = setting(20.0, "over which the current is learned", unit="s", gt=0.0)
     blend: float = setting(1.5, "a correction is spread over so long: the pose never jumps", unit="s", ge=0.0)
 
