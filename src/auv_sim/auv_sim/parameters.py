@@ -13,6 +13,7 @@ from auv_path_following.parameters import (
     NodeParameters,
     ObserverParameters,
 )
+from auv_sim.plant.remus import PlantState
 
 #: Speed through the water with which a simulated vehicle begins, m/s.
 CRUISE = 1.9
@@ -26,6 +27,11 @@ class InitialPose:
     y: float = setting(0.0, "east", unit="m")
     psi: float = setting(0.0, "heading, clockwise from north", unit="rad")
     surge: float = setting(CRUISE, "speed through the water", unit="m/s", ge=0.0, le=10.0)
+
+    @property
+    def state(self) -> PlantState:
+        """For the plant."""
+        return PlantState(self.x, self.y, self.psi, self.surge, 0.0, 0.0)
 
 
 @settings

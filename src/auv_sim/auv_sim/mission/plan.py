@@ -21,7 +21,6 @@ from auv_sim.closed_loop import Scenario
 from auv_sim.parameters import SUITE
 from auv_sim.planning.check import Verdicts, check, refusal
 from auv_sim.plant import sea
-from auv_sim.plant.remus import PlantState
 
 DEFAULT_MISSION = "paper_composite"
 DEFAULT_VEHICLE = "remus100"
@@ -89,12 +88,11 @@ class Plan:
         if self.options.no_sim:
             raise ValueError("a mission without the simulator has no closed loop")
         plant = self.parameters[topics.PLANT]
-        start = plant.initial
         return Scenario(
             path=self.mission.path,
             vehicle=self.vehicle,
             thrust=self.mission.thrust,
-            initial=PlantState(start.x, start.y, start.psi, start.surge, 0.0, 0.0),
+            initial=plant.initial.state,
             current=plant.current.value,
             sea=sea.load(plant.sea) if plant.sea else None,
             seed=plant.seed,

@@ -25,7 +25,6 @@ from auv_sim.nodes.lockstep import Lockstep
 from auv_sim.nodes.pacing import Pacer
 from auv_sim.parameters import PlantParameters
 from auv_sim.plant import sea
-from auv_sim.plant.remus import PlantState
 from auv_sim.plant.simulated import SimulatedVehicle
 
 #: States of a mission in which the vehicle, free running, obeys no command: it may have come late.
@@ -41,10 +40,8 @@ class RemusPlantNode(SuiteNode):
         super().__init__(topics.PLANT, PlantParameters, **arguments)
         p: PlantParameters = self.parameters
         self.vehicle = vehicle.load(p.vehicle)
-        start = p.initial
-        state = PlantState(start.x, start.y, start.psi, start.surge, 0.0, 0.0)
         at_sea = sea.load(p.sea) if p.sea else None
-        self.simulated = SimulatedVehicle(self.vehicle, state, at_sea, p.seed, p.current.value)
+        self.simulated = SimulatedVehicle(self.vehicle, p.initial.state, at_sea, p.seed, p.current.value)
         self.step_ns = round(p.step * 1e9)
         self.steps = 0
         self.mission_running = False
