@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import importlib
 import importlib.metadata
+import itertools
 import re
 import runpy
 import shutil
@@ -101,7 +102,7 @@ def test_every_module_is_packaged(name: str, monkeypatch: pytest.MonkeyPatch) ->
 
 @pytest.mark.parametrize("name", PACKAGES)
 def test_every_import_is_declared(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """ROS packages in package.xml; everything else in setup.py."""
+    """ROS packages in package.xml; everything else in setup.py, what can be missing among its extras."""
     tops = set()
     for path in (ROOT / "src" / name / name).rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
@@ -111,7 +112,9 @@ def test_every_import_is_declared(name: str, monkeypatch: pytest.MonkeyPatch) ->
                 tops.add(str(node.module).split(".")[0])
     tops -= {name, *sys.stdlib_module_names}
     in_manifest = {dependency.name for dependency in manifest(name).exec_depends}
-    in_setup = {Requirement(line).name for line in described(name, monkeypatch)["install_requires"]}
+    setup = described(name, monkeypatch)
+    lines = [*setup["install_requires"], *itertools.chain(*setup.get("extras_require", {}).values())]
+    in_setup = {Requirement(line).name for line in lines}
     assert {DISTRIBUTIONS.get(top, top) for top in tops} <= in_manifest | in_setup
 
 
@@ -143,7 +146,7 @@ def test_everything_installed_for_the_suite_is_pinned() -> None:
     ours = Path(sys.prefix, "lib")
     wanted = [
         Requirement(line)
-        for name in ("ros", "tools", "dev")
+        for name in ("ros", "tools", "batch", "dev")
         for line in (ROOT / "requirements" / f"{name}.txt").read_text(encoding="utf-8").splitlines()
         if line and line[0] not in "#-"
     ]

@@ -38,6 +38,7 @@ setup(
         "rosbags",
         "zstandard",
     ],
+    extras_require={"batch": ["numba"]},  # without it the batch engine is slow, nothing else
     zip_safe=False,
     entry_points={
         "console_scripts": [

@@ -18,10 +18,10 @@ class HullModel:
         self.vehicle = vehicle
         self.hull = h = vehicle.coefficients
         determinant = (h.m - h.Yvd) * (h.Izz - h.Nrd) - h.Yrd * h.Nvd
-        self._inv_vv = (h.Izz - h.Nrd) / determinant
-        self._inv_vr = h.Yrd / determinant
-        self._inv_rv = h.Nvd / determinant
-        self._inv_rr = (h.m - h.Yvd) / determinant
+        self.inv_vv = (h.Izz - h.Nrd) / determinant
+        self.inv_vr = h.Yrd / determinant
+        self.inv_rv = h.Nvd / determinant
+        self.inv_rr = (h.m - h.Yvd) / determinant
 
     def cruise(self, thrust: float) -> float:
         """Speed at which drag balances `thrust` (N), sqrt(XT / |Xuu|), m/s."""
@@ -32,15 +32,15 @@ class HullModel:
         h = self.hull
         SY = h.Yvv * vr * abs(vr) + h.Yrr * r * abs(r) + (h.Yur - h.m) * ur * r + h.Yuv * ur * vr
         SN = h.Nvv * vr * abs(vr) + h.Nrr * r * abs(r) + h.Nur * ur * r + h.Nuv * ur * vr
-        return self._inv_vv * SY + self._inv_vr * SN, self._inv_rv * SY + self._inv_rr * SN
+        return self.inv_vv * SY + self.inv_vr * SN, self.inv_rv * SY + self.inv_rr * SN
 
     def rudder_gain(self, ur: float) -> tuple[float, float]:
         """(dvr/dt, dr/dt) for each radian of rudder, 1/s^2 m and 1/s^2."""
         h = self.hull
         square = ur * ur
         return (
-            (self._inv_vv * h.Yuud + self._inv_vr * h.Nuud) * square,
-            (self._inv_rv * h.Yuud + self._inv_rr * h.Nuud) * square,
+            (self.inv_vv * h.Yuud + self.inv_vr * h.Nuud) * square,
+            (self.inv_rv * h.Yuud + self.inv_rr * h.Nuud) * square,
         )
 
     def steady_turn(self, ur: float) -> float:

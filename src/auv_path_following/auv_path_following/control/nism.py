@@ -63,18 +63,23 @@ class Nism:
 
     def update(self, inputs: HeadingInputs, dt: float) -> ControllerOutput:
         """Eqs. (45), (46); `dt` is 0 on the first update, which then only reports the surfaces."""
-        g = self.config
-        psi_e = inputs.psi_e
-        psi_e_dot = inputs.r - inputs.r_d
-        psi_e_ddot = inputs.r_dot - inputs.r_d_dot
-
-        bend = math.tanh(g.k2 * psi_e)
-        sigma_1 = g.k1 * bend + psi_e_dot
-        # sech^2 = 1 - tanh^2
-        sigma_1_dot = g.k1 * g.k2 * (1.0 - bend * bend) * psi_e_dot + psi_e_ddot
-        sigma_2 = g.k3 * math.tanh(g.k4 * sigma_1) + sigma_1_dot
-
-        sign = (sigma_2 > 0.0) - (sigma_2 < 0.0)
-        rate = g.kp * math.tanh(g.k5 * sigma_2) + g.ks * sign
+        rate, sigma_1, sigma_2 = rudder_rate(self.config, inputs)
         self._rudder = min(max(self._rudder + rate * dt, -self.max_rudder), self.max_rudder)
         return ControllerOutput(self._rudder, sigma_1, sigma_2)
+
+
+def rudder_rate(g: NismConfig, inputs: HeadingInputs) -> tuple[float, float, float]:
+    """d delta/dt of Eq. (46), rad/s, and the surfaces sigma_1 and sigma_2 of Eq. (45) behind it."""
+    psi_e = inputs.psi_e
+    psi_e_dot = inputs.r - inputs.r_d
+    psi_e_ddot = inputs.r_dot - inputs.r_d_dot
+
+    bend = math.tanh(g.k2 * psi_e)
+    sigma_1 = g.k1 * bend + psi_e_dot
+    # sech^2 = 1 - tanh^2
+    sigma_1_dot = g.k1 * g.k2 * (1.0 - bend * bend) * psi_e_dot + psi_e_ddot
+    sigma_2 = g.k3 * math.tanh(g.k4 * sigma_1) + sigma_1_dot
+
+    sign = (sigma_2 > 0.0) - (sigma_2 < 0.0)
+    rate = g.kp * math.tanh(g.k5 * sigma_2) + g.ks * sign
+    return rate, sigma_1, sigma_2

@@ -138,7 +138,7 @@ class ReferenceModel:
             angle, turning = self._next
             held = self._acceleration
             angle, turning = angle + turning * dt + 0.5 * held * dt * dt, turning + held * dt
-        wanted = min(max(r_d + self._approach(wrap(psi_d - angle), acceleration), -rate), rate)
+        wanted = min(max(r_d + self.approach(wrap(psi_d - angle), acceleration), -rate), rate)
         pull = 4.0 * self.config.damping**2 * self.config.bandwidth * (wanted - turning)
         pull = min(max(pull, -acceleration), acceleration)
         change = jerk * dt
@@ -146,7 +146,7 @@ class ReferenceModel:
         self._next = wrap(angle), turning
         return Shaped(self._next[0], turning, self._acceleration)
 
-    def _approach(self, gap: float, acceleration: float) -> float:
+    def approach(self, gap: float, acceleration: float) -> float:
         """How fast to close the gap: in proportion near it, farther away such that there is room to brake."""
         w = self.config.bandwidth
         linear = acceleration / (w * w)

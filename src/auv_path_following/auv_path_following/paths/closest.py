@@ -29,7 +29,7 @@ def closest_distance(segment: Segment, x: Array, y: Array) -> Array:
     Returns:
         shape (n,), m, not negative; NaN for a point that is not finite.
     """
-    t = np.linspace(0.0, 1.0, _samples(segment) + 1)
+    t = np.linspace(0.0, 1.0, samples(segment) + 1)
     result = np.full(len(x), np.nan)
     finite = np.flatnonzero(np.isfinite(x) & np.isfinite(y))
     for start in range(0, len(finite), _CHUNK):
@@ -38,7 +38,7 @@ def closest_distance(segment: Segment, x: Array, y: Array) -> Array:
     return result
 
 
-def _samples(segment: Segment) -> int:
+def samples(segment: Segment) -> int:
     """Coarse intervals: enough that two valleys never fall into one, 16 for each radian of turning."""
     point: Any = segment.evaluate(np.linspace(0.0, 1.0, 257))
     turning = float(np.mean(np.abs(point.kappa) * point.speed))

@@ -55,11 +55,11 @@ class Spline:
 
         fitted = CubicSpline(knots, way, bc_type=tuple(ends))
         self.pieces: Final = len(chords)
-        self._inner: Final[list[float]] = knots[1:-1].tolist()
+        self.inner_knots: Final[list[float]] = knots[1:-1].tolist()
         self._knots: Final[list[float]] = knots[:-1].tolist()
         # c[power, piece, axis], highest power first.
         self._rows: Final[list[list[float]]] = np.moveaxis(fitted.c, 2, 0).reshape(8, -1).T.tolist()
-        self._inner_array: Final = np.array(self._inner)
+        self._inner_array: Final = np.array(self.inner_knots)
         self._knots_array: Final = np.array(self._knots)
         self._table: Final = np.array(self._rows).T
         self._arc: Final = ArcLength(lambda t: self.evaluate(t).speed, len(self._knots))
@@ -81,7 +81,7 @@ class Spline:
             piece = np.searchsorted(self._inner_array, t, side="right")
             u, row = t - self._knots_array[piece], self._table[:, piece]
         else:
-            index = bisect_right(self._inner, t)
+            index = bisect_right(self.inner_knots, t)
             u, row = t - self._knots[index], self._rows[index]
         a, b, c, d, e, f, g, h = row
         return PathPoint(

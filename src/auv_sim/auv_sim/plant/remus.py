@@ -31,13 +31,13 @@ class RemusDynamics:
     def __init__(self, vehicle: Vehicle) -> None:
         self.hull = h = vehicle.coefficients
         determinant = (h.m - h.Yvd) * (h.Izz - h.Nrd) - h.Yrd * h.Nvd
-        self._inv_x = 1.0 / (h.m - h.Xud)
-        self._inv_vv = (h.Izz - h.Nrd) / determinant
-        self._inv_vr = h.Yrd / determinant
-        self._inv_rv = h.Nvd / determinant
-        self._inv_rr = (h.m - h.Yvd) / determinant
+        self.inv_x = 1.0 / (h.m - h.Xud)
+        self.inv_vv = (h.Izz - h.Nrd) / determinant
+        self.inv_vr = h.Yrd / determinant
+        self.inv_rv = h.Nvd / determinant
+        self.inv_rr = (h.m - h.Yvd) / determinant
         # Prestero has the rigid-body term m vr r in surge; the paper's Eq. (19) leaves it out.
-        self._Xvr = h.Xvr + (h.m if h.surge_coupling else 0.0)
+        self.Xvr = h.Xvr + (h.m if h.surge_coupling else 0.0)
 
     def derivative(
         self, state: PlantState, delta: float, thrust: float, current: Current
@@ -45,7 +45,7 @@ class RemusDynamics:
         """d state/dt with the rudder at `delta` (rad), thrust in N and the current in m/s, NED."""
         _, _, psi, ur, vr, r = state
         h = self.hull
-        SX = h.Xuu * ur * abs(ur) + self._Xvr * vr * r + h.Xrr * r * r + thrust
+        SX = h.Xuu * ur * abs(ur) + self.Xvr * vr * r + h.Xrr * r * r + thrust
         SY = (
             h.Yvv * vr * abs(vr) + h.Yrr * r * abs(r) + (h.Yur - h.m) * ur * r + h.Yuv * ur * vr
             + h.Yuud * ur * ur * delta
@@ -59,9 +59,9 @@ class RemusDynamics:
             ur * cos_psi - vr * sin_psi + current.Vx,
             ur * sin_psi + vr * cos_psi + current.Vy,
             r,
-            self._inv_x * SX,
-            self._inv_vv * SY + self._inv_vr * SN,
-            self._inv_rv * SY + self._inv_rr * SN,
+            self.inv_x * SX,
+            self.inv_vv * SY + self.inv_vr * SN,
+            self.inv_rv * SY + self.inv_rr * SN,
         )
 
 
@@ -75,11 +75,14 @@ class RemusPlant:
         flaws: of the rudder's servo; none if None.
     """
 
+    #: The longest Runge-Kutta step unless another is asked for, s.
+    MAX_STEP = 0.05
+
     def __init__(
         self,
         vehicle: Vehicle,
         initial: PlantState,
-        max_step: float = 0.05,
+        max_step: float = MAX_STEP,
         flaws: RudderFlaws | None = None,
     ) -> None:
         self.vehicle = vehicle
@@ -118,9 +121,9 @@ class RemusPlant:
         rudder = self.rudder
         delta, delta_half, delta_end = rudder.fin, rudder.fin_after(0.5 * h), rudder.fin_after(h)
         k1 = f(state, delta, thrust, current)
-        k2 = f(_moved(state, k1, 0.5 * h), delta_half, thrust, current)
-        k3 = f(_moved(state, k2, 0.5 * h), delta_half, thrust, current)
-        k4 = f(_moved(state, k3, h), delta_end, thrust, current)
+        k2 = f(moved(state, k1, 0.5 * h), delta_half, thrust, current)
+        k3 = f(moved(state, k2, 0.5 * h), delta_half, thrust, current)
+        k4 = f(moved(state, k3, h), delta_end, thrust, current)
         self.state = PlantState(
             *[
                 value + h / 6.0 * (a + 2.0 * (b + c) + d)
@@ -149,7 +152,8 @@ class RemusPlant:
         return ur + uc, vr + vc
 
 
-def _moved(state: PlantState, slope: tuple[float, float, float, float, float, float], h: float) -> PlantState:
+def moved(state: PlantState, slope: tuple[float, float, float, float, float, float], h: float) -> PlantState:
+    """The state after `h` seconds at a constant slope."""
     return PlantState(
         state[0] + h * slope[0],
         state[1] + h * slope[1],

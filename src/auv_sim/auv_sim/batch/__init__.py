@@ -1,0 +1,1 @@
+"""Many missions at once: the laws of the suite over plain numbers, compiled where Numba is installed."""

@@ -1,0 +1,66 @@
+"""Compiles the batch engine's functions where Numba is installed; without it they run as they stand."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+import auv_msgs_py
+import auv_path_following
+import auv_sim
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+numba: Any
+try:
+    import numba
+    from numba.extending import register_jitable
+except ImportError:
+    numba = None
+
+#: Where the functions are that end up in compiled code: (package, folder).
+_COMPILED_FROM = (
+    (auv_msgs_py, "."),
+    (auv_path_following, "control"),
+    (auv_path_following, "guidance"),
+    (auv_path_following, "paths"),
+    (auv_sim, "plant"),
+    (auv_sim, "batch"),
+)
+
+#: Whether the engine is compiled; otherwise a flight takes about as long as one of `closed_loop`.
+COMPILED = numba is not None
+
+
+def compiled(function: F) -> F:
+    """The function as machine code that leaves the interpreter to other threads, kept from run to run."""
+    if numba is None:
+        return function
+    return numba.njit(nogil=True, cache=True, error_model="numpy")(function)  # type: ignore[no-any-return]
+
+
+def part(function: F) -> F:
+    """The same function; what is compiled may call it, too. This is how a law serves both worlds."""
+    if numba is not None:
+        register_jitable(error_model="numpy")(function)
+    return function
+
+
+def _keep_apart() -> None:
+    """Give the compiled code of every version of the laws a folder of its own.
+
+    Numba looks at the file of the compiled function only, not at the other files whose functions it calls.
+    """
+    digest = hashlib.sha256()
+    for package, folder in _COMPILED_FROM:
+        for path in sorted((Path(str(package.__file__)).parent / folder).glob("*.py")):
+            digest.update(path.read_bytes() + b"\0")
+    base = os.environ.get("NUMBA_CACHE_DIR") or Path("~/.cache/auv_sim").expanduser()
+    numba.config.CACHE_DIR = str(Path(base) / digest.hexdigest()[:16])
+
+
+if COMPILED:
+    _keep_apart()

@@ -1,0 +1,117 @@
+"""One whole flight in compiled code: `closed_loop.fly` over plain numbers."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from auv_msgs_py.types import Current, Navigation, WaterVelocity
+from auv_sim.batch import tally
+from auv_sim.batch.compiled import compiled
+from auv_sim.batch.curve import Curve
+from auv_sim.batch.follow import FollowerState, follow
+from auv_sim.batch.numbers import Flight
+from auv_sim.batch.path_point import distance_to
+from auv_sim.batch.shared import wrap
+from auv_sim.batch.steps import AutopilotState, ObserverState, advance, observe, steer
+from auv_sim.plant.remus import PlantState
+
+Array = npt.NDArray[np.float64]
+
+#: Columns of a track, in the order of `closed_loop`'s, the stamp first and without the constant true current.
+TRACK_COLUMNS = 18
+
+
+class End(NamedTuple):
+    """How a flight ended: its odometries, s, whether the state stayed finite, and the last state."""
+
+    rows: int
+    s: float
+    finite: bool
+    state: PlantState
+
+
+@compiled
+def fly_one(
+    c: Flight, curve: Curve, state: PlantState, whole: Array, subpaths: Array, track: Array, every: int
+) -> End:
+    """Fly until the end of the path, the last step, or a state that is not finite.
+
+    Args:
+        c, curve: what is flown.
+        state: the plant's first state.
+        whole, subpaths: tallies, shape (FLIGHT_TALLIES,) and (n, SUBPATH_TALLIES); written.
+        track: shape (rows, TRACK_COLUMNS), every `every`-th odometry; written; `every` 0 for none.
+    """
+    n = len(curve.subpath)
+    current = Current(c.Vx, c.Vy)
+    seen = ObserverState(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    follower = FollowerState(0, 0.0, 0.0, False, 0.0)
+    pilot = AutopilotState(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    rudder = commanded = 0.0
+    i, clear = -1, 0.0
+    tally.begin(whole, subpaths)
+    for k in range(c.steps):
+        since = c.dt if k > 0 else 0.0
+        navigation = Navigation(state.x, state.y, state.psi, state.r)
+        water = WaterVelocity(state.ur, state.vr)
+        seen = observe(c.observer, seen, navigation, water, since)
+        follower, guided = follow(
+            c.guidance, curve, follower, navigation, water, Current(seen.Vx, seen.Vy), since
+        )
+        psi_e = wrap(state.psi - guided.psi_d)
+        finished = follower.finished
+        if not finished:
+            pilot = steer(c.autopilot, pilot, navigation, guided.psi_d, guided.r_d, since)
+        command = 0.0 if finished else pilot.rudder
+        s = follower.i + follower.t
+        if follower.i != i:
+            i, clear = follower.i, 0.0
+        distance = distance_to(curve, i, state.x, state.y)
+        if distance > clear:
+            clear = _clearance(curve, n, i, state.x, state.y)
+            distance = min(distance, clear)
+        finite = math.isfinite(command) and math.isfinite(state.x + state.y + state.psi + state.ur + state.vr)
+        if finite:
+            tally.count(whole, subpaths, i, k * c.dt, distance, psi_e, seen.Vx - c.Vx, seen.Vy - c.Vy)
+        if every > 0 and k % every == 0:
+            at = k // every
+            track[at, 0], track[at, 1], track[at, 2], track[at, 3] = k, state.x, state.y, state.psi
+            track[at, 4], track[at, 5], track[at, 6], track[at, 7] = state.r, state.ur, state.vr, rudder
+            track[at, 8], track[at, 9] = command, 0.0 if finished else c.thrust
+            track[at, 10], track[at, 11] = guided.psi_d, guided.r_d
+            track[at, 12], track[at, 13], track[at, 14] = guided.xe, guided.ye, psi_e
+            track[at, 15], track[at, 16], track[at, 17] = s, seen.Vx, seen.Vy
+        if finished or not finite:
+            return End(k + 1, s, finite, state)
+        if k > 0:
+            tally.count_command(
+                whole, (command - commanded) / c.dt, abs(command) >= c.autopilot.max_angle - 1e-12
+            )
+        commanded = command
+        before, rudder_before = state, rudder
+        state, rudder = advance(c.plant, state, rudder, command, c.plant.thrust, c.dt, current)
+        dx, dy = state.x - before.x, state.y - before.y
+        covered = math.sqrt(dx * dx + dy * dy)
+        clear -= covered
+        if k + 1 < c.steps:
+            tally.count_step(subpaths, i, c.dt, abs(rudder - rudder_before), covered)
+    return End(c.steps, s, finite, state)
+
+
+@compiled
+def _clearance(curve: Curve, n: int, i: int, x: float, y: float) -> float:
+    """Closest distance to the subpaths before and after subpath i, m.
+
+    The distance of a track counts them, too (`CompositePath.distance`), but they are seldom nearer: less the
+    way covered since, this says for how long nobody needs to look.
+    """
+    closest = math.inf
+    if i > 0:
+        closest = distance_to(curve, i - 1, x, y)
+    if i + 1 < n:
+        closest = min(closest, distance_to(curve, i + 1, x, y))
+    return closest

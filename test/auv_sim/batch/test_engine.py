@@ -1,0 +1,193 @@
+"""The batch engine against `closed_loop`: tracks to 1e-9, some of whole missions, and their figures."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from auv_msgs_py import params_file, topics
+from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.types import Current
+from auv_path_following import config_files, vehicle
+from auv_path_following.guidance.switching import SwitchingConfig
+from auv_path_following.paths import mission_file
+from auv_path_following.paths.composite import CompositePath
+from auv_path_following.paths.line import Line
+from auv_sim import closed_loop
+from auv_sim.analysis.metrics import summarise
+from auv_sim.analysis.run import Run
+from auv_sim.batch import engine, tally
+from auv_sim.closed_loop import Scenario
+from auv_sim.parameters import SUITE
+from auv_sim.plant.remus import PlantState
+
+CURRENT = Current(0.1, 0.2)
+ASIDE = PlantState(-35.0, 28.0, 2.5, 1.2, 0.1, -0.05)
+#: Flights that between them take every branch of every law: name -> what is told.
+FLIGHTS = {
+    "robust, aside": {"initial": ASIDE, "current": CURRENT, "time_limit": 900.0},
+    "paper": {"params": "paper", "current": CURRENT, "time_limit": 900.0},
+    "paper, corners cut late": {"params": "paper", "mode": "off", "initial": ASIDE},
+    "table 2, limit cycle": {"params": "paper", "hull": "remus100_table2", "initial": ASIDE},
+    "weak rudder": {"hull": "remus100_mismatch", "believed": "remus100", "current": CURRENT},
+    "pid": {"params": "paper", "autopilot": {"controller": "pid"}, "current": CURRENT},
+    "smc": {"params": "paper", "autopilot": {"controller": "smc"}, "believed": "remus100_table2"},
+    "smc, shaped": {"autopilot": {"controller": "smc"}, "current": CURRENT},
+    "los": {"guidance": {"law": "los"}, "current": CURRENT},
+    "ilos": {"guidance": {"law": "ilos"}, "current": CURRENT, "initial": ASIDE},
+    "no compensation": {"guidance": {"compensate_current": False}, "current": CURRENT},
+    "circles everywhere, 8 Hz": {"mode": "all", "step": 0.125, "time_limit": 900.0},
+    "50 Hz": {"step": 0.02, "mission": "course_clothoid", "time_limit": 130.0},
+    "course_fermat": {"mission": "course_fermat", "current": CURRENT, "time_limit": 900.0},
+    **{f"course_{kind}": {"mission": f"course_{kind}", "current": CURRENT}
+       for kind in ("linear", "circular", "dubins", "spline")},
+    "search_spiral": {"mission": "search_spiral"},
+    "figure_of_eight": {"mission": "figure_of_eight"},
+}  # fmt: skip
+
+
+def scenario(
+    params="robust", mission="paper_composite", hull="remus100", believed=None, mode=None, **changes
+) -> Scenario:
+    told = params_file.load(config_files.find("params", params), SUITE)
+    guidance, autopilot = told[topics.GUIDANCE].guidance, told[topics.AUTOPILOT].autopilot
+    if mode is not None:
+        guidance = dataclasses.replace(guidance, switching=SwitchingConfig(mode=mode, radius=5.2))
+    loaded = mission_file.load(mission)
+    return Scenario(
+        path=loaded.path,
+        vehicle=vehicle.load(hull),
+        thrust=loaded.thrust,
+        guidance=dataclasses.replace(guidance, **changes.pop("guidance", {})),
+        observer=told[topics.OBSERVER].observer,
+        autopilot=dataclasses.replace(autopilot, **changes.pop("autopilot", {})),
+        controller_vehicle=vehicle.load(believed) if believed else None,
+        **({"time_limit": 160.0} | changes),
+    )
+
+
+def largest_difference(run: Run, other: Run) -> float:
+    assert run.steps == other.steps
+    return max(
+        float(np.max(np.abs(getattr(run, field.name) - getattr(other, field.name))))
+        for field in dataclasses.fields(Run)
+    )
+
+
+@pytest.mark.parametrize("name", FLIGHTS)
+def test_a_flight_is_that_of_the_closed_loop(name: str) -> None:
+    told = scenario(**FLIGHTS[name])
+    reference = closed_loop.fly(told)
+    assert largest_difference(engine.track(told), reference) < 1e-9
+
+    summary = summarise(reference, told.path)
+    flights = engine.fly([told])
+    assert bool(flights.completed[0]) == summary.completed
+    assert flights.steps[0] == summary.steps
+    for figure in ("duration", "rms_distance", "largest_distance", "rms_heading_error", "distance_covered",
+                   "rudder_travel", "rudder_travel_per_metre", "current_estimate_error"):  # fmt: skip
+        wanted = getattr(summary, figure)
+        assert getattr(flights, figure)[0] == pytest.approx(wanted, rel=1e-9, abs=1e-9, nan_ok=True), figure
+    for figure in ("rms_distance", "largest_distance", "duration"):
+        wanted = [getattr(part, figure) for part in summary.subpaths]
+        found = getattr(flights, f"subpath_{figure}")[0]
+        assert found == pytest.approx(wanted, rel=1e-9, abs=1e-9, nan_ok=True), figure
+    check_commands(flights, reference, told)
+
+
+def check_commands(flights, reference: Run, told: Scenario) -> None:
+    arrived = reference.s[-1] >= told.path.n
+    commands = reference.rudder_cmd[:-1] if arrived else reference.rudder_cmd
+    rate = np.degrees(np.diff(commands)) / told.step
+    assert flights.largest_rudder_rate[0] == pytest.approx(np.abs(rate).max(), rel=1e-9)
+    assert flights.rms_rudder_rate[0] == pytest.approx(np.sqrt(np.mean(rate**2)), rel=1e-9)
+    stops = (told.controller_vehicle or told.vehicle).rudder.max_angle
+    assert flights.saturated[0] == pytest.approx(np.mean(np.abs(commands[1:]) >= stops - 1e-12))
+    elapsed = told.step * np.arange(reference.steps)
+    distance = told.path.distance(reference.x, reference.y, reference.subpath(told.path.n))
+    late = distance[elapsed > tally.SETTLED]
+    assert flights.late_largest_distance[0] == pytest.approx(late.max(), rel=1e-9, abs=1e-9)
+    assert flights.late_rms_distance[0] == pytest.approx(np.sqrt(np.mean(late**2)), rel=1e-9, abs=1e-9)
+    first = elapsed[distance <= tally.ARRIVED]
+    assert flights.time_to_path[0] == pytest.approx(first[0] if first.size else math.nan, nan_ok=True)
+
+
+def different(count: int) -> list[Scenario]:
+    missions = ("paper_composite", "course_fermat", "course_dubins")
+    return [
+        scenario(mission=missions[k % 3], current=Current(0.02 * k, -0.01 * k), time_limit=60.0 + 10.0 * k)
+        for k in range(count)
+    ]
+
+
+def as_columns(flights) -> dict[str, list]:
+    return {field.name: getattr(flights, field.name).tolist() for field in dataclasses.fields(flights)}
+
+
+def test_a_flight_does_not_depend_on_the_others() -> None:
+    told = different(9)
+    together = engine.fly(told)
+    threaded = engine.fly(told, threads=3)
+    assert repr(as_columns(together)) == repr(as_columns(threaded))
+    for k in (0, 4, 8):
+        alone = engine.fly([told[k]])
+        assert alone.rms_distance[0] == together.rms_distance[k]
+        assert alone.last_x[0] == together.last_x[k]
+
+
+def test_every_flight_is_reported_when_it_is_done() -> None:
+    told, steps = different(3), []
+    flights = engine.fly(told, done=steps.append)
+    assert steps == flights.steps.tolist()
+
+
+def test_a_thinned_track_holds_every_so_manieth_row() -> None:
+    told = different(1)[0]
+    whole, thinned = engine.track(told), engine.track(told, every=7)
+    assert thinned.steps == math.ceil(whole.steps / 7)
+    assert largest_difference(thinned, whole.select(slice(None, None, 7))) == 0.0
+
+
+def test_the_time_limit_ends_a_flight_that_has_not_arrived() -> None:
+    flights = engine.fly([scenario(time_limit=10.0)])
+    assert not flights.completed[0] and flights.finite[0]
+    assert flights.steps[0] == 201 and flights.duration[0] == pytest.approx(10.0)
+    assert np.isnan(flights.late_rms_distance[0])
+
+
+def test_a_state_that_runs_away_ends_the_flight() -> None:
+    remus = vehicle.load("remus100")
+    assert remus.hull is not None
+    wild = dataclasses.replace(remus, hull=dataclasses.replace(remus.hull, Yvv=-1e9, Nvv=3e9))
+    start = PlantState(-20.0, 20.0, 0.785, 1.9, 1.0, 0.0)
+    told = dataclasses.replace(scenario(), vehicle=wild, initial=start, controller_vehicle=remus)
+    flights = engine.fly([told])
+    assert not flights.finite[0] and not flights.completed[0]
+    assert flights.steps[0] < 100
+
+
+def test_what_cannot_be_flown_is_refused() -> None:
+    with pytest.raises(ConfigurationError, match="thrust: found 0, expected a number greater than 0"):
+        engine.fly([dataclasses.replace(scenario(), thrust=0.0)])
+    ghost = dataclasses.replace(
+        vehicle.load("remus100"),
+        hull=None,
+        cruise=vehicle.Cruise(thrust=6.0, speed=2.0),
+        turning=vehicle.Turning(radius=6.0),
+    )
+    with pytest.raises(ConfigurationError, match="hull: found nothing"):
+        engine.fly([dataclasses.replace(scenario(), vehicle=ghost)])
+
+
+def test_no_scenarios_no_flights() -> None:
+    assert len(engine.fly([])) == 0
+
+
+def test_a_short_line_is_flown_to_its_end() -> None:
+    told = dataclasses.replace(scenario(), path=CompositePath([Line(0.0, 0.0, 5.0, 0.0)]))
+    flights = engine.fly([told])
+    assert flights.completed[0] and flights.progress[0] == 1.0
+    assert flights.last_x[0] == pytest.approx(5.0, abs=0.2)
