@@ -4,7 +4,8 @@
     print(flights.completed.mean(), flights.rms_distance.max())
 
 A scenario may have its own path, vehicle, gains, current and start. What a flight gives depends on its own
-scenario only, to the last bit: not on the others, their order or the number of threads.
+scenario only, to the last bit: not on the others, their order or the number of threads. One at sea
+(`Scenario.sea`) is flown by `closed_loop` itself, with instruments and navigator, at that one's speed.
 """
 
 from __future__ import annotations
@@ -17,12 +18,14 @@ from typing import Any
 import numpy as np
 
 from auv_msgs_py import topics
+from auv_sim import closed_loop
 from auv_sim.analysis.run import Run
 from auv_sim.batch import tally
 from auv_sim.batch.compiled import COMPILED
 from auv_sim.batch.curve import Curve, curve_of
 from auv_sim.batch.flight import TRACK_COLUMNS, End, fly_one
 from auv_sim.batch.flights import Flights, figures_of
+from auv_sim.batch.judge import judged
 from auv_sim.batch.scenarios import flight_of
 from auv_sim.closed_loop import Scenario, start_of
 from auv_sim.plant.remus import PlantState
@@ -49,21 +52,28 @@ def fly(
     Raises:
         ConfigurationError: a scenario that cannot be flown.
     """
-    curves = _Curves()
-    prepared = [(_prepared(scenario), curves.of(scenario)) for scenario in scenarios]
+    curves: dict[int, Curve] = {}  # a path is turned into numbers once, however many scenarios share it
+    for scenario in scenarios:
+        flight_of(scenario)  # mistakes come before the first flight
+        if scenario.sea is None and id(scenario.path) not in curves:
+            curves[id(scenario.path)] = curve_of(scenario.path)
 
-    def one(job: tuple[Any, Curve]) -> dict[str, Any]:
-        (flight, start), curve = job
-        end, whole, subpaths, _ = _flown(flight, start, curve, 0)
+    def one(scenario: Scenario) -> dict[str, Any]:
+        if scenario.sea is None:
+            flight = flight_of(scenario)
+            end, whole, subpaths, _ = _flown(flight, scenario, curves[id(scenario.path)], 0)
+            figures = figures_of(end, whole, subpaths, flight.dt)
+        else:
+            figures = judged(closed_loop.fly(scenario), scenario)
         if done is not None:
-            done(end.rows)
-        return figures_of(end, whole, subpaths, flight.dt)
+            done(figures["steps"])
+        return figures
 
     if threads > 1 and COMPILED:
         with ThreadPoolExecutor(threads) as pool:
-            rows = list(pool.map(one, prepared))
+            rows = list(pool.map(one, scenarios))
     else:
-        rows = [one(job) for job in prepared]
+        rows = [one(scenario) for scenario in scenarios]
     return Flights.from_rows(rows)
 
 
@@ -80,8 +90,10 @@ def track(scenario: Scenario, every: int = 1) -> Run:
     Raises:
         ConfigurationError: a scenario that cannot be flown.
     """
-    flight, start = _prepared(scenario)
-    *_, rows = _flown(flight, start, curve_of(scenario.path), every)
+    if scenario.sea is not None:
+        return closed_loop.fly(scenario).select(slice(None, None, every))
+    flight = flight_of(scenario)
+    *_, rows = _flown(flight, scenario, curve_of(scenario.path), every)
     step_ns = round(scenario.step * 1e9)
     t = [(topics.FIRST_STAMP_NS + int(k) * step_ns) * 1e-9 for k in rows[:, 0]]
     columns = {"t": t} | {name: rows[:, j] for j, name in enumerate(_TRACK, 1)}
@@ -89,25 +101,8 @@ def track(scenario: Scenario, every: int = 1) -> Run:
     return Run.from_columns(columns | true)
 
 
-class _Curves:
-    """Every path is turned into numbers once, however many scenarios share it."""
-
-    def __init__(self) -> None:
-        self._known: dict[int, tuple[Any, Curve]] = {}
-
-    def of(self, scenario: Scenario) -> Curve:
-        path = scenario.path
-        if id(path) not in self._known:
-            self._known[id(path)] = path, curve_of(path)  # the path too, so that its id stays its own
-        return self._known[id(path)][1]
-
-
-def _prepared(scenario: Scenario) -> tuple[Any, PlantState]:
-    start = scenario.initial or start_of(scenario.path)
-    return flight_of(scenario), PlantState(*map(float, start))
-
-
-def _flown(flight: Any, start: PlantState, curve: Curve, every: int) -> tuple[End, Any, Any, Any]:
+def _flown(flight: Any, scenario: Scenario, curve: Curve, every: int) -> tuple[End, Any, Any, Any]:
+    start = PlantState(*map(float, scenario.initial or start_of(scenario.path)))
     whole = np.empty(tally.FLIGHT_TALLIES)
     subpaths = np.empty((len(curve.subpath), tally.SUBPATH_TALLIES))
     rows = math.ceil(flight.steps / every) if every else 0

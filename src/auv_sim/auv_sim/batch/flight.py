@@ -50,7 +50,7 @@ def fly_one(
     current = Current(c.Vx, c.Vy)
     seen = ObserverState(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     follower = FollowerState(0, 0.0, 0.0, False, 0.0)
-    pilot = AutopilotState(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    pilot = AutopilotState(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     rudder = commanded = 0.0
     i, clear = -1, 0.0
     tally.begin(whole, subpaths)
@@ -99,7 +99,7 @@ def fly_one(
         clear -= covered
         if k + 1 < c.steps:
             tally.count_step(subpaths, i, c.dt, abs(rudder - rudder_before), covered)
-    return End(c.steps, s, finite, state)
+    return End(c.steps, s, finite, before)  # the way after the last odometry is nobody's
 
 
 @compiled

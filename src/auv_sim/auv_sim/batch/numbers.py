@@ -135,9 +135,13 @@ class Observer(NamedTuple):
 
 
 class Autopilot(NamedTuple):
-    """`HeadingAutopilot` without its state; `controller` is an index of `CONTROLLERS`."""
+    """`HeadingAutopilot` without its state; `controller` is an index of `CONTROLLERS`.
+
+    `bandwidth` is that of the filter behind dr/dt.
+    """
 
     controller: int
+    bandwidth: float
     nism: Any
     pid: Any
     smc: Any

@@ -53,6 +53,7 @@ def flight_of(scenario: Scenario) -> Flight:
         observer=Observer(*transition(c.observer.k_ob1, c.observer.k_ob2, dt)),
         autopilot=Autopilot(
             controller=CONTROLLERS.index(c.autopilot.controller),
+            bandwidth=float(c.autopilot.derivative.bandwidth),
             nism=numbers_of(nism),
             pid=numbers_of(c.autopilot.pid),
             smc=numbers_of(c.autopilot.smc),

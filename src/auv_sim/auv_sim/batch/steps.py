@@ -62,13 +62,16 @@ def observe(
 class AutopilotState(NamedTuple):
     """Of `HeadingAutopilot`, its reference model and its controller, whichever that is.
 
-    begun: whether there was an update; r, r_d: its rates; angle, turning, acceleration: the shaped
-    reference; rudder: what was commanded last; integral: PID's; vr: SMC's sway.
+    begun: whether there was an update; r, r_d: its rates; lag, r_dot: the filter behind dr/dt; angle,
+    turning, acceleration: the shaped reference; rudder: what was commanded last; integral: PID's; vr: SMC's
+    sway.
     """
 
     begun: bool
     r: float
     r_d: float
+    lag: float
+    r_dot: float
     angle: float
     turning: float
     acceleration: float
@@ -84,11 +87,11 @@ def steer(
     """`HeadingAutopilot.update` while a mission runs; the new state holds the rudder."""
     r = navigation.r
     psi_e = wrap(navigation.psi - psi_d)
-    r_dot = r_d_dot = 0.0
+    lag, r_dot, r_d_dot = state.lag, state.r_dot, 0.0
     if not state.begun:
         dt = 0.0
     elif dt > 0.0:
-        r_dot = (r - state.r) / dt
+        lag, r_dot = _derivative(c.bandwidth, lag, r_dot, (r - state.r) / dt, dt)
         r_d_dot = (r_d - state.r_d) / dt
     error, wanted_r, wanted_r_dot = psi_e, r_d, r_d_dot
     angle, turning, acceleration = state.angle, state.turning, state.acceleration
@@ -104,7 +107,18 @@ def steer(
         rudder, integral = _pid(c, rudder, integral, inputs, dt)
     else:
         rudder, vr = _smc(c, rudder, vr, inputs, dt)
-    return AutopilotState(True, r, r_d, angle, turning, acceleration, rudder, integral, vr)
+    return AutopilotState(True, r, r_d, lag, r_dot, angle, turning, acceleration, rudder, integral, vr)
+
+
+@compiled
+def _derivative(w: float, lag: float, rate: float, slope: float, dt: float) -> tuple[float, float]:
+    """`Derivative.update`: its lag and dr/dt."""
+    if not w > 0.0:
+        return 0.0, slope
+    decay = math.exp(-w * dt)
+    e, e_rate = lag - 2.0 * slope / w, slope - rate
+    rise = (e_rate + w * e) * dt
+    return 2.0 * slope / w + (e + rise) * decay, slope - (e_rate - w * rise) * decay
 
 
 @compiled
