@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 
 from auv_msgs_py import topics
@@ -20,12 +20,12 @@ NODES = {
 }
 
 
-def main(argv: Sequence[str]) -> int:
+def main(argv: Sequence[str], nodes: Mapping[str, str] = NODES) -> int:
     """Run the nodes named in the one argument, a JSON object of node name -> its ROS arguments."""
     wanted: dict[str, list[str]] = json.loads(argv[0])
     factories = []
     for name, ros_arguments in wanted.items():
-        module, cls = NODES[name].split(":")
+        module, cls = nodes[name].split(":")
         make = getattr(importlib.import_module(module), cls)
         factories.append(partial(make, cli_args=["--ros-args", *ros_arguments], use_global_arguments=False))
     return run_nodes(factories, [])

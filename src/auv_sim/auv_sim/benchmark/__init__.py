@@ -1,0 +1,1 @@
+"""How fast the suite is, measured as ratios in one run on one machine."""

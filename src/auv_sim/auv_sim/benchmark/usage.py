@@ -1,0 +1,41 @@
+"""What processes use, from /proc: processor time, switches, memory."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+
+class Usage(NamedTuple):
+    """All threads of one process: seconds of processor time, and how often a thread gave the processor away."""
+
+    cpu: float
+    switches: int
+
+
+def usage(pid: int) -> Usage:
+    """What a process has used so far; the kernel counts in nanoseconds."""
+    cpu, switches = 0, 0
+    for task in Path(f"/proc/{pid}/task").iterdir():
+        cpu += int((task / "schedstat").read_text().split()[0])
+        for line in (task / "status").read_text().splitlines():
+            if line.startswith("voluntary_ctxt_switches"):
+                switches += int(line.split()[1])
+    return Usage(cpu * 1e-9, switches)
+
+
+class Memory(NamedTuple):
+    """Resident and proportional set (shared pages divided among their users), bytes."""
+
+    rss: int
+    pss: int
+
+
+def memory(pid: int) -> Memory:
+    """What a process occupies now."""
+    found = {}
+    for line in Path(f"/proc/{pid}/smaps_rollup").read_text().splitlines():
+        key, *rest = line.split()
+        if key in ("Rss:", "Pss:"):
+            found[key] = int(rest[0]) * 1024
+    return Memory(found["Rss:"], found["Pss:"])
