@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import signal
 import sys
 import time
@@ -13,9 +14,13 @@ from rclpy.clock import Clock, ClockType
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.publisher import Publisher
+from rclpy.serialization import deserialize_message
 from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
+from rclpy.time import Time
 
-from auv_msgs_py import params, qos
+from auv_msgs_py import params, qos, topics, wire
+from auv_msgs_py.conversions import nanoseconds
 from auv_msgs_py.errors import LockstepBroken, MessageRefused, SuiteError
 from auv_msgs_py.health import Health
 from auv_msgs_py.lockstep_gate import LockstepGate
@@ -32,6 +37,24 @@ T = TypeVar("T")
 EXIT_BAD_INPUT = 2
 
 
+class WirePublisher(Publisher):  # type: ignore[misc]
+    """Sends light messages (see `wire`) as the bytes that they are."""
+
+    def publish(self, message: Any) -> None:
+        super().publish(message.serialized() if isinstance(message, wire.Message) else message)
+
+
+def _reader(light: wire.Message, kind: type[Any]) -> Callable[[bytes], Any]:
+    def read(data: bytes) -> Any:
+        try:
+            light.read(data)
+        except wire.ForeignLayout:
+            return deserialize_message(data, kind)
+        return light
+
+    return read
+
+
 class SuiteNode(Node):  # type: ignore[misc]
     """A node with declared settings, contract topics and health.
 
@@ -42,16 +65,23 @@ class SuiteNode(Node):  # type: ignore[misc]
     """
 
     def __init__(self, name: str, parameters: type[Any], **arguments: Any) -> None:
+        self._stamp: int | None = None
         super().__init__(name, **arguments)
         self.parameters: Any = params.declare(self, parameters, self._changed)
         self.publishers_by_topic: dict[Topic, Publisher] = {}
         self.fault = ""
         self.finished = False
+        #: Set by `spin`: makes it look at `fault` and `finished` at once.
+        self.interrupt_spinning: Callable[[], None] = lambda: None
         self._gate: LockstepGate | None = None
         self._kept: Callable[[], None] | None = None
         self._rates = RateWatch(self.parameters.flood_rate)
         self._clock_watch = ClockWatch()
         self.health = Health(self, self.report, self.waiting_for, self._look)
+        if self.parameters.lockstep:
+            # Time stands still between two odometries, whose stamps are what /clock says: `listen` takes it
+            # from there. A reader of /clock in every node costs a fifth of a step's processor time.
+            self._time_source.detach_node()
 
     def report(self) -> dict[str, Any]:
         """Further values for /diagnostics."""
@@ -69,28 +99,40 @@ class SuiteNode(Node):  # type: ignore[misc]
         self.configure()
 
     def advertise(self, topic: Topic) -> Publisher:
-        """A publisher as the contract has it."""
-        publisher = self.create_publisher(qos.message_class(topic.type), topic.name, qos.offered(topic))
+        """A publisher as the contract has it; it takes light messages and the generated ones."""
+        publisher = self.create_publisher(
+            qos.message_class(topic.type), topic.name, qos.offered(topic), publisher_class=WirePublisher
+        )
         self.publishers_by_topic[topic] = publisher
         return publisher
 
     def listen(self, topic: Topic, callback: Callable[[Any], None]) -> None:
-        """A subscription as the contract has it; a refused message is counted and reported, never raised."""
+        """A subscription as the contract has it; a refused message is counted and reported, never raised.
+
+        A message that `wire` knows arrives as its light class, the same object each time: do not keep it.
+        """
+        kind = qos.message_class(topic.type)
+        light = wire.LIGHT.get(topic.type)
+        understand = _reader(light(), kind) if light is not None else None
+        tells_time = topic is topics.ODOM and self.parameters.lockstep
 
         name, rates = topic.name, self._rates
 
         def guarded(message: Any) -> None:
             rates.counts[name] += 1
             try:
+                if understand is not None:
+                    message = understand(message)
+                if tells_time:
+                    self.time_is(nanoseconds(message.header.stamp))
                 callback(message)
             except MessageRefused as error:
                 self.health.refuse(error)
             except LockstepBroken as error:
                 self.fail(str(error))
 
-        self.create_subscription(
-            qos.message_class(topic.type), topic.name, guarded, qos.requested(topic, self.parameters.lockstep)
-        )
+        profile = qos.requested(topic, self.parameters.lockstep)
+        self.create_subscription(kind, topic.name, guarded, profile, raw=light is not None)
 
     def _look(self) -> None:
         """Free running: what no single message shows."""
@@ -106,7 +148,20 @@ class SuiteNode(Node):  # type: ignore[misc]
 
     def now(self) -> float:
         """ROS time, s."""
+        if self._stamp is not None:
+            return self._stamp * 1e-9
         return float(self.get_clock().now().nanoseconds) * 1e-9
+
+    def time_is(self, stamp: int) -> None:
+        """Lockstep: what /clock says now, ns."""
+        self._stamp = stamp
+
+    def get_clock(self) -> Clock:
+        """The node's clock; in lockstep it is set when somebody looks at it."""
+        clock = super().get_clock()
+        if self._stamp is not None:
+            clock.set_ros_time_override(Time(nanoseconds=self._stamp, clock_type=ClockType.ROS_TIME))
+        return clock
 
     def close_gate(self) -> None:
         """Lockstep: call once after the last `advertise`; from then on `answer` waits for all readers."""
@@ -155,6 +210,7 @@ class SuiteNode(Node):  # type: ignore[misc]
         self.health.error("fault", text)
         self.health.publish()
         self.fault = text
+        self.interrupt_spinning()
 
 
 #: How long nodes may go on after a stop was requested, s of wall time.
@@ -184,10 +240,10 @@ def spin(nodes: Sequence[SuiteNode], stop: StopRequest) -> int:
     executor = EventsExecutor()
     for node in nodes:
         executor.add_node(node)
-    # EventsExecutor.spin() and spin_once(None) deliver nothing in rclpy 7.1; bounded waits do, and they
-    # also let Python see the signal.
+    gc.collect()
+    gc.freeze()  # what is there now stays: searching it for garbage again and again takes milliseconds
     while not stop.requested and not any(node.fault or node.finished for node in nodes):
-        executor.spin_once(timeout_sec=0.1)
+        _spin_some(executor, nodes)
     deadline = time.monotonic() + _GRACE
     while any(node.busy() for node in nodes) and time.monotonic() < deadline:
         executor.spin_once(timeout_sec=0.02)
@@ -195,6 +251,24 @@ def spin(nodes: Sequence[SuiteNode], stop: StopRequest) -> int:
         if node.fault:
             print(f"{node.get_fully_qualified_name()}: {node.fault}", file=sys.stderr)
     return 1 if any(node.fault for node in nodes) else 0
+
+
+def _spin_some(executor: Any, nodes: Sequence[SuiteNode]) -> None:
+    """Handle everything that comes within a tenth of a second, or until a node asks for attention.
+
+    EventsExecutor.spin() and spin_once(None) deliver nothing in rclpy 7.1. spin_once() with a time returns
+    after every single message, which costs as much again as handling it; waiting for a future with a time
+    stays in C++ and lets Python see a signal soon enough.
+    """
+    attention = Future()
+
+    def interrupt() -> None:
+        if not attention.done():
+            attention.set_result(None)
+
+    for node in nodes:
+        node.interrupt_spinning = interrupt
+    executor.spin_until_future_complete(attention, timeout_sec=0.1)
 
 
 def run_nodes(factories: Sequence[Callable[[], SuiteNode]], args: Sequence[str] | None = None) -> int:

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from geometry_msgs.msg import Vector3Stamped
-
 from auv_msgs_py import topics
 from auv_msgs_py.conversions import fill_current
 from auv_msgs_py.runtime import SuiteNode, run_nodes
+from auv_msgs_py.wire import Vector3Stamped
 from auv_path_following.guidance.current_observer import CurrentObserver
 from auv_path_following.nodes.navigation_input import Inputs, NavigationInput
 from auv_path_following.parameters import ObserverParameters

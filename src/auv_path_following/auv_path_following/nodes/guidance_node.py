@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from geometry_msgs.msg import PoseStamped, Vector3Stamped
 from rclpy.parameter import Parameter
-from std_msgs.msg import Float64, String
+from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 from auv_msgs_py import topics
 from auv_msgs_py.conversions import PATH_FRAME, fill_pose, path_message, set_stamp
 from auv_msgs_py.frames import flip_yaw
 from auv_msgs_py.runtime import SuiteNode, run_nodes
+from auv_msgs_py.wire import Float64, PoseStamped, Vector3Stamped
 from auv_path_following import vehicle
 from auv_path_following.guidance.limits import Limits
 from auv_path_following.guidance.mission_state import MissionState, State

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from nav_msgs.msg import Odometry
-from std_msgs.msg import Float64, String
+from std_msgs.msg import String
 
 from auv_msgs_py import topics
 from auv_msgs_py.conversions import finite
@@ -16,6 +15,7 @@ from auv_msgs_py.pairing import Pairing
 from auv_msgs_py.runtime import SuiteNode, run_nodes
 from auv_msgs_py.topics import Topic
 from auv_msgs_py.types import STOP, Command, Navigation, Reference
+from auv_msgs_py.wire import Float64, Odometry
 from auv_path_following import vehicle
 from auv_path_following.control.autopilot import HeadingAutopilot
 from auv_path_following.guidance.mission_state import State

@@ -9,9 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-from geometry_msgs.msg import TwistWithCovarianceStamped, Vector3Stamped
-from nav_msgs.msg import Odometry
-
 from auv_msgs_py import topics
 from auv_msgs_py.conversions import current_from, nanoseconds, water_velocity_from
 from auv_msgs_py.errors import MessageRefused
@@ -21,6 +18,7 @@ from auv_msgs_py.runtime import SuiteNode
 from auv_msgs_py.stamps import StampGuard, Verdict
 from auv_msgs_py.topics import Topic
 from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
+from auv_msgs_py.wire import Odometry, TwistWithCovarianceStamped, Vector3Stamped
 from auv_path_following import vehicle
 from auv_path_following.nodes.odometry_intake import OdometryIntake
 

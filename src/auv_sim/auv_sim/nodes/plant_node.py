@@ -6,12 +6,9 @@ import time
 from collections.abc import Sequence
 from typing import Any
 
-from geometry_msgs.msg import TwistWithCovarianceStamped, Vector3Stamped
-from nav_msgs.msg import Odometry
 from rclpy.clock import Clock as RosClock
 from rclpy.clock import ClockType
-from rosgraph_msgs.msg import Clock
-from std_msgs.msg import Float64, String
+from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 from auv_msgs_py import topics
@@ -20,6 +17,7 @@ from auv_msgs_py.errors import ConfigurationError, MessageRefused
 from auv_msgs_py.frames import FrameIds, FrameTable
 from auv_msgs_py.runtime import SuiteNode, run_nodes
 from auv_msgs_py.types import STOP, Command
+from auv_msgs_py.wire import Clock, Float64, Odometry, TwistWithCovarianceStamped, Vector3Stamped
 from auv_path_following import vehicle
 from auv_sim.nodes.lockstep import Lockstep
 from auv_sim.nodes.pacing import Pacer
@@ -114,6 +112,8 @@ class RemusPlantNode(SuiteNode):
         fill_current(self._true_current, vehicle.current, stamp)
         if self._truth is not None:
             fill_odometry(self._truth, *vehicle.truth, stamp)
+        if self._lockstep is not None:
+            self.time_is(stamp)
         self.answer(self._publish)
 
     def _publish(self) -> None:

@@ -118,6 +118,7 @@ class RecorderNode(SuiteNode):
             log_ns, publish_ns = times.of(taken)
             write(topic.channel, log_ns, publish_ns, taken.data, taken.sequence)
         if self._progress is not None:
+            self.time_is(times.now or 0)
             self._report_progress()
 
     def _report_progress(self) -> None:
