@@ -1,9 +1,11 @@
 """The floor under a lockstep step: the suite's processes, topics, QoS and messages, with empty callbacks.
 
 What is left is what ROS 2 itself needs to carry one step's messages around the loop. It is built from the table
-of topics alone and from nothing else of the suite's nodes: plain rclpy nodes, typed subscriptions, messages
-filled beforehand and sent again and again. Each node counts: when everything that belongs to a step has come,
-it publishes its own share.
+of topics alone and from nothing of the suite's nodes: messages filled beforehand are sent again and again, and
+each node counts: when everything that belongs to a step has come, it publishes its own share.
+
+There are two. The floor carries bytes, as the suite does. The plain floor is what rclpy nodes usually are: typed
+messages, `use_sim_time` with its reader of /clock in every node, one return to Python for every message.
 """
 
 from __future__ import annotations
@@ -21,7 +23,9 @@ from rclpy.clock import Clock, ClockType
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.serialization import serialize_message
 from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
 from std_msgs.msg import String, UInt64
 from std_srvs.srv import Trigger
 
@@ -30,6 +34,7 @@ from auv_msgs_py.lockstep_gate import LockstepGate
 from auv_msgs_py.topics import Topic
 from auv_sim.benchmark.stopwatch import Stopwatch
 
+NAMESPACE = "/auv"
 #: Sent once a step, in the order of the table.
 STEP = (topics.CLOCK, *topics.PER_STEP)
 #: How often a recorder fetches what has come, s.
@@ -53,15 +58,19 @@ class FloorNode(Node):  # type: ignore[misc]
         name: one of the suite's nodes.
         steps: how many steps the simulator takes.
         recorded: whether a recorder takes part.
+        plain: typed messages, and a reader of /clock.
     """
 
-    def __init__(self, name: str, steps: int, recorded: bool, namespace: str) -> None:
-        import os
-        simulated = [Parameter("use_sim_time", value=not os.environ.get("X_NOSIM"))]
-        super().__init__(name, namespace=namespace, parameter_overrides=simulated, use_global_arguments=False)
+    def __init__(self, name: str, steps: int, recorded: bool, plain: bool) -> None:
+        timed = [Parameter("use_sim_time", value=plain)]
+        super().__init__(name, namespace=NAMESPACE, parameter_overrides=timed, use_global_arguments=False)
         self._leads = name == topics.PLANT
+        self._raw = not plain
         by_topic = {topic: self._advertise(topic) for topic in STEP if topic.publisher == name}
-        self._outputs = [(publisher, filled(topic)) for topic, publisher in by_topic.items()]
+        self._outputs = [
+            (publisher, filled(topic) if plain else serialize_message(filled(topic)))
+            for topic, publisher in by_topic.items()
+        ]
         inputs = [topic for topic in STEP if name in topic.subscribers]
         self._needed, self._come = len(inputs), 0
         self._recorded_steps = 0
@@ -72,10 +81,6 @@ class FloorNode(Node):  # type: ignore[misc]
         if name == topics.GUIDANCE:
             self._state = by_topic[topics.MISSION_STATE] = self._advertise(topics.MISSION_STATE)
             self.create_service(Trigger, topics.START_SERVICE, self._on_start)
-        import os
-        if os.environ.get("X_RAWOUT"):
-            from rclpy.serialization import serialize_message
-            self._outputs = [(p, serialize_message(m)) for p, m in self._outputs]
         self._gate = LockstepGate(self, by_topic, recorded)
         for topic in inputs:
             self._listen(topic, self._on_input)
@@ -89,8 +94,7 @@ class FloorNode(Node):  # type: ignore[misc]
 
     def _listen(self, topic: Topic, callback: Callable[[Any], None]) -> None:
         kind = qos.message_class(topic.type)
-        import os
-        raw = bool(os.environ.get("X_RAWIN")) and topic in STEP
+        raw = self._raw and topic in STEP
         self.create_subscription(kind, topic.name, callback, qos.requested(topic, reliable=True), raw=raw)
 
     def _on_start(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
@@ -131,11 +135,6 @@ class FloorNode(Node):  # type: ignore[misc]
         while not self._begun and self._gate.waiting_for():
             time.sleep(0.005)
         self._begun = True
-        import os
-        if os.environ.get("X_RAWOUT"):
-            for publisher, message in self._outputs:
-                publisher._Publisher__publisher.publish_raw(message)
-            return
         for publisher, message in self._outputs:
             publisher.publish(message)
 
@@ -143,8 +142,8 @@ class FloorNode(Node):  # type: ignore[misc]
 class FloorRecorder(Node):  # type: ignore[misc]
     """Fetches every message of the contract raw, as the recorder does, counts it and throws it away."""
 
-    def __init__(self, namespace: str) -> None:
-        super().__init__(topics.RECORDER, namespace=namespace, use_global_arguments=False)
+    def __init__(self) -> None:
+        super().__init__(topics.RECORDER, namespace=NAMESPACE, use_global_arguments=False)
         self._counts: dict[str, int] = {}
         self._takes = [self._subscribe(topic) for topic in topics.CONTRACT]
         self._per_step = [topic.name for topic in topics.PER_STEP]
@@ -178,7 +177,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("nodes", nargs="+")
     parser.add_argument("--steps", type=int, required=True)
     parser.add_argument("--recorded", action="store_true")
-    parser.add_argument("--namespace", default="/auv")
+    parser.add_argument("--plain", action="store_true")
     wanted = parser.parse_args(argv)
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     stop = threading.Event()
@@ -186,15 +185,18 @@ def main(argv: Sequence[str] | None = None) -> int:
         signal.signal(number, lambda *_: stop.set())
     executor = EventsExecutor()
     nodes = [
-        FloorRecorder(wanted.namespace)
+        FloorRecorder()
         if name == topics.RECORDER
-        else FloorNode(name, wanted.steps, wanted.recorded, wanted.namespace)
+        else FloorNode(name, wanted.steps, wanted.recorded, wanted.plain)
         for name in wanted.nodes
     ]
     for node in nodes:
         executor.add_node(node)
     while not stop.is_set():
-        executor.spin_once(timeout_sec=0.1)
+        if wanted.plain:
+            executor.spin_once(timeout_sec=0.1)
+        else:
+            executor.spin_until_future_complete(Future(), timeout_sec=0.1)
     for node in nodes:
         node.destroy_node()
     rclpy.try_shutdown()

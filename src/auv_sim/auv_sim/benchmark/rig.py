@@ -37,12 +37,14 @@ class Setup:
 
     Attributes:
         floor: empty callbacks instead of the suite's nodes.
+        plain: the floor as rclpy nodes usually are.
         recorded: with a recorder.
         composed: all nodes in one process.
         steps: how many to time.
     """
 
     floor: bool = False
+    plain: bool = False
     recorded: bool = False
     composed: bool = False
     steps: int = 2000
@@ -148,7 +150,8 @@ def _until(condition, children, monitor, interrupted) -> None:
 def _start(setup: Setup, directory: Path, children: Children) -> set[str]:
     names = [name for name in NODES if setup.recorded or name != topics.RECORDER]
     if setup.floor:
-        words = ["--steps", str(setup.steps), *(["--recorded"] if setup.recorded else [])]
+        flags = {"--recorded": setup.recorded, "--plain": setup.plain}
+        words = ["--steps", str(setup.steps), *(flag for flag, given in flags.items() if given)]
         for group in [names] if setup.composed else [[name] for name in names]:
             children.start("composed" if setup.composed else group[0], _FLOOR, [*group, *words])
         return set(names)
