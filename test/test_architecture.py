@@ -18,7 +18,7 @@ ROS = re.compile(
     r"rclpy|rcl_interfaces|ament_index_python|builtin_interfaces|rosidl\w*|\w+_msgs|std_srvs|rosbags|mcap\w*"
 )
 #: Where that may be imported: these folders, and the ROS half of auv_msgs_py.
-ROS_FOLDERS = {"nodes", "recording", "mission", "drivers", "bags", "faults"}
+ROS_FOLDERS = {"nodes", "recording", "mission", "drivers", "bags", "faults", "benchmark"}
 ROS_HALF = {"conversions", "health", "lockstep_gate", "params", "qos", "runtime"}
 #: A law that looks at a clock or rolls unseeded dice cannot be repeated.
 UNREPEATABLE = {"time", "datetime", "random"}

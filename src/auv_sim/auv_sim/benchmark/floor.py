@@ -1,11 +1,11 @@
 """The floor under a lockstep step: the suite's processes, topics, QoS and messages, with empty callbacks.
 
-What is left is what ROS 2 itself needs to carry one step's messages around the loop. It is built from the table
-of topics alone and from nothing of the suite's nodes: messages filled beforehand are sent again and again, and
-each node counts: when everything that belongs to a step has come, it publishes its own share.
+What is left is what ROS 2 itself needs to carry one step's messages around the loop. It is built from the
+table of topics alone and from nothing of the suite's nodes: messages filled beforehand are sent again and
+again, and each node counts: when all that belongs to a step has come, it publishes its own share.
 
-There are two. The floor carries bytes, as the suite does. The plain floor is what rclpy nodes usually are: typed
-messages, `use_sim_time` with its reader of /clock in every node, one return to Python for every message.
+There are two. The floor carries bytes, as the suite does. The plain floor is what rclpy nodes usually are:
+typed messages, `use_sim_time` with its reader of /clock in every node, a return to Python for every message.
 """
 
 from __future__ import annotations

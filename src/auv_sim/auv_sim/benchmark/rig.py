@@ -1,8 +1,9 @@
-"""Runs the graph, or its floor, for so many lockstep steps, and looks at its processes from outside."""
+"""Runs the graph, or its floor, as processes of its own, and looks at them from outside."""
 
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import json
 import os
 import tempfile
@@ -10,21 +11,24 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from auv_msgs_py import topics
 from auv_msgs_py.errors import SuiteError
-from auv_sim.benchmark.stopwatch import MARK
+from auv_sim.benchmark.stopwatch import BLOCK, MARK
 from auv_sim.benchmark.usage import Memory, Usage, memory, usage
 from auv_sim.mission import plan
 from auv_sim.mission.composed import NODES
+from auv_sim.mission.domains import free_domain
 from auv_sim.mission.plan import Options, Plan
 from auv_sim.mission.processes import Children
 
 NAMESPACE = "/auv"
+COMPOSED = "composed"
 _TIMED = "auv_sim.benchmark.timed_plant"
 _FLOOR = "auv_sim.benchmark.floor"
-#: Wall time for the nodes to find each other, and for one step, s.
-_PATIENCE = 60.0
+#: Wall time for the nodes to find each other, and for a measurement that is expected to take no time, s.
+_PATIENCE = 90.0
 
 
 class BenchmarkFailed(SuiteError):
@@ -33,7 +37,7 @@ class BenchmarkFailed(SuiteError):
 
 @dataclass(frozen=True)
 class Setup:
-    """What to run.
+    """One lockstep run.
 
     Attributes:
         floor: empty callbacks instead of the suite's nodes.
@@ -48,30 +52,36 @@ class Setup:
     recorded: bool = False
     composed: bool = False
     steps: int = 2000
-    options: Options = Options(quiet=True)
+
+
+@dataclass(frozen=True)
+class Observed:
+    """What was seen of some processes between the mission's start and the watch's report.
+
+    Attributes:
+        told: what the watch told.
+        seconds: of wall time.
+        usage: process name -> what it used.
+        memory: process name -> what it occupied at the end.
+    """
+
+    told: dict[str, Any]
+    seconds: float
+    usage: dict[str, Usage]
+    memory: dict[str, Memory]
 
 
 @dataclass(frozen=True)
 class Timing:
-    """One run.
+    """One lockstep run: seconds per step of each block of steps, and each process' share of a step."""
 
-    Attributes:
-        steps: that were timed.
-        blocks: seconds per step of each block of steps, in order.
-        usage: process name -> processor time and switches per step.
-        memory: process name -> memory at the end.
-        start_up: seconds from the first process to the first step.
-    """
-
-    steps: int
     blocks: tuple[float, ...]
     usage: dict[str, Usage]
     memory: dict[str, Memory]
-    start_up: float
 
     @property
     def step(self) -> float:
-        """Seconds per step: the mean."""
+        """Wall seconds per step."""
         return sum(self.blocks) / len(self.blocks)
 
     @property
@@ -80,96 +90,48 @@ class Timing:
         return sum(used.cpu for used in self.usage.values())
 
 
-def run(setup: Setup, interrupted: Callable[[], bool] = lambda: False) -> Timing:
-    """Start everything, wait for the stopwatch, stop everything."""
-    with tempfile.TemporaryDirectory(prefix="auv-benchmark-") as name:
-        directory = Path(name)
-        environment = {
-            "ROS_DOMAIN_ID": str(1 + os.getpid() % 100),
-            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-        }
-        os.environ.update(environment)
-        children = Children(directory / "log", environment)
-        try:
-            begin = time.monotonic()
-            names = _start(setup, directory, children)
-            from auv_sim.mission.monitor import Monitor  # only now: DDS threads must not fork
+def lockstep(setup: Setup) -> Timing:
+    """Run the graph or its floor for so many steps.
 
-            monitor = Monitor(NAMESPACE)
-            try:
-                _until(lambda: not monitor.missing_nodes(names, setup.recorded), children, monitor, interrupted)
-                started = time.monotonic() - begin
-                before = _usage(children)
-                refused = monitor.start()
-                if refused:
-                    raise BenchmarkFailed(f"the nodes did not start: {refused}")
-                led = next(child for child in children if child.name in (topics.PLANT, "composed"))
-                lines: list[str] = []
+    Raises:
+        BenchmarkFailed: it did not run.
+    """
 
-                def done() -> bool:
-                    lines[:] = [text for text in led.last_lines() if text.startswith(MARK)]
-                    return bool(lines)
-
-                _until(done, children, monitor, interrupted)
-                after = _usage(children)
-                occupied = {child.name: memory(child.process.pid) for child in children}
-            finally:
-                monitor.close()
-        finally:
-            children.stop()
-    told = json.loads(lines[-1].removeprefix(MARK))
-    readings, block = told["readings"], told["block"]
-    per_step = {
-        name: Usage(
-            (after[name].cpu - before[name].cpu) / told["steps"],
-            (after[name].switches - before[name].switches) / told["steps"],
-        )
-        for name in after
-    }
-    blocks = tuple((b - a) / block for a, b in zip(readings, readings[1:]))
-    return Timing(told["steps"], blocks, per_step, occupied, started)
-
-
-def _usage(children: Children) -> dict[str, Usage]:
-    return {child.name: usage(child.process.pid) for child in children}
-
-
-def _until(condition, children, monitor, interrupted) -> None:
-    deadline = time.monotonic() + _PATIENCE
-    while not condition():
-        dead = children.dead()
-        if dead is not None:
-            raise BenchmarkFailed(f"{dead.name} ended early: {' '.join(dead.last_lines(3))}")
-        if interrupted():
-            raise KeyboardInterrupt
-        if time.monotonic() > deadline:
-            raise BenchmarkFailed(f"nothing came of it within {_PATIENCE:g} s")
-        monitor.look(0.05)
-
-
-def _start(setup: Setup, directory: Path, children: Children) -> set[str]:
-    names = [name for name in NODES if setup.recorded or name != topics.RECORDER]
-    if setup.floor:
-        flags = {"--recorded": setup.recorded, "--plain": setup.plain}
-        words = ["--steps", str(setup.steps), *(flag for flag, given in flags.items() if given)]
-        for group in [names] if setup.composed else [[name] for name in names]:
-            children.start("composed" if setup.composed else group[0], _FLOOR, [*group, *words])
+    def start(directory: Path, children: Children) -> set[str]:
+        names = [name for name in NODES if setup.recorded or name != topics.RECORDER]
+        if setup.floor:
+            flags = {"--recorded": setup.recorded, "--plain": setup.plain}
+            words = ["--steps", str(setup.steps), *(flag for flag, given in flags.items() if given)]
+            for group in [names] if setup.composed else [[name] for name in names]:
+                children.start(COMPOSED if setup.composed else group[0], _FLOOR, [*group, *words])
+            return set(names)
+        resolved = plan.make(Options(quiet=True), directory)
+        resolved = resolved if setup.recorded else without_recorder(resolved)
+        _start_suite(resolved, directory, children, "lockstep", setup.steps, setup.composed)
         return set(names)
-    resolved = plan.make(setup.options, directory)
-    if not setup.recorded:
-        resolved = without_recorder(resolved)
-    ros = ["-r", f"__ns:={NAMESPACE}", "--params-file", str(resolved.write(directory / "config"))]
-    ros += ["-p", "use_sim_time:=true"]
-    steps = str(setup.steps)
-    if setup.composed:
-        children.start("composed", _TIMED, [steps, json.dumps(dict.fromkeys(names, ros))])
-        return set(names)
-    for name in names:
-        if name == topics.PLANT:
-            children.start(name, _TIMED, [steps, "--ros-args", *ros])
-        else:
-            children.start(name, NODES[name].split(":")[0], ["--ros-args", *ros])
-    return set(names)
+
+    seen = observe(start, 1.0)
+    steps = seen.told["steps"]
+    share = {name: Usage(used.cpu / steps, used.switches / steps) for name, used in seen.usage.items()}
+    blocks = tuple((b - a) / BLOCK for a, b in itertools.pairwise(seen.told["readings"]))
+    return Timing(blocks, share, seen.memory)
+
+
+def free_running(rate: float, seconds: float) -> Observed:
+    """Fly against the wall clock with so many odometries a second.
+
+    Raises:
+        BenchmarkFailed: it did not run.
+    """
+
+    def start(directory: Path, children: Children) -> set[str]:
+        resolved = plan.make(Options(speed=1.0, quiet=True), directory)
+        plant = dataclasses.replace(resolved.parameters[topics.PLANT], step=1.0 / rate)
+        resolved = dataclasses.replace(resolved, parameters={**resolved.parameters, topics.PLANT: plant})
+        _start_suite(resolved, directory, children, "latency", round(rate * seconds), False)
+        return set(NODES)
+
+    return observe(start, seconds)
 
 
 def without_recorder(resolved: Plan) -> Plan:
@@ -180,3 +142,75 @@ def without_recorder(resolved: Plan) -> Plan:
         if name != topics.RECORDER
     }
     return dataclasses.replace(resolved, parameters=parameters)
+
+
+def _start_suite(
+    resolved: Plan, directory: Path, children: Children, kind: str, steps: int, composed: bool
+) -> None:
+    ros = ["-r", f"__ns:={NAMESPACE}", "--params-file", str(resolved.write(directory / "config"))]
+    ros += ["-p", "use_sim_time:=true"]
+    names = [name for name in NODES if name in resolved.parameters]
+    if composed:
+        children.start(COMPOSED, _TIMED, [kind, str(steps), json.dumps(dict.fromkeys(names, ros))])
+        return
+    for name in names:
+        if name == topics.PLANT:
+            children.start(name, _TIMED, [kind, str(steps), "--ros-args", *ros])
+        else:
+            children.start(name, NODES[name].split(":")[0], ["--ros-args", *ros])
+
+
+def observe(start: Callable[[Path, Children], set[str]], seconds: float) -> Observed:
+    """Start processes, start their mission, wait for the watch, stop everything.
+
+    Args:
+        start: starts the processes and returns the names of the nodes in them.
+        seconds: how long the measurement should take, roughly.
+    """
+    with tempfile.TemporaryDirectory(prefix="auv-benchmark-") as name:
+        directory = Path(name)
+        environment = {"ROS_DOMAIN_ID": str(free_domain()), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+        os.environ.update(environment)
+        children = Children(directory / "log", environment)
+        try:
+            names = start(directory, children)
+            from auv_sim.mission.monitor import Monitor  # only now: a process with DDS threads must not fork
+
+            monitor = Monitor(NAMESPACE)
+            try:
+                _until(
+                    lambda: not monitor.missing_nodes(names, topics.RECORDER in names), children, monitor, 0.0
+                )
+                before, begin = _usage(children), time.perf_counter()
+                refused = monitor.start()
+                if refused:
+                    raise BenchmarkFailed(f"the nodes did not start: {refused}")
+                led = next(child for child in children if child.name in (topics.PLANT, COMPOSED))
+                _until(lambda: MARK in led.log.read_text(encoding="utf-8"), children, monitor, seconds)
+                took, after = time.perf_counter() - begin, _usage(children)
+                occupied = {child.name: memory(child.process.pid) for child in children}
+            finally:
+                monitor.close()
+            line = next(line for line in reversed(led.last_lines(20)) if line.startswith(MARK))
+        finally:
+            children.stop()
+    used = {
+        name: Usage(after[name].cpu - before[name].cpu, after[name].switches - before[name].switches)
+        for name in after
+    }
+    return Observed(json.loads(line.removeprefix(MARK)), took, used, occupied)
+
+
+def _usage(children: Children) -> dict[str, Usage]:
+    return {child.name: usage(child.process.pid) for child in children}
+
+
+def _until(condition: Callable[[], bool], children: Children, monitor: Any, seconds: float) -> None:
+    deadline = time.monotonic() + _PATIENCE + 2.0 * seconds
+    while not condition():
+        dead = children.dead()
+        if dead is not None:
+            raise BenchmarkFailed(f"{dead.name} ended early: {' '.join(dead.last_lines(3))}")
+        if time.monotonic() > deadline:
+            raise BenchmarkFailed(f"nothing came of it within {_PATIENCE:g} s")
+        monitor.look(0.05)

@@ -1,19 +1,20 @@
-"""The simulator with a stopwatch: after so many steps it reports, and takes no further one."""
+"""The simulator under measurement: remus_plant itself, with a watch in its hand."""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from typing import Any
 
 from auv_msgs_py import topics
 from auv_msgs_py.runtime import run_nodes
-from auv_sim.benchmark.stopwatch import Stopwatch
+from auv_sim.benchmark.stopwatch import LatencyWatch, Stopwatch
 from auv_sim.mission import composed
 from auv_sim.nodes.plant_node import RemusPlantNode
 
 
 class TimedPlantNode(RemusPlantNode):
-    """remus_plant itself; `watch` decides how far it goes."""
+    """Lockstep: takes no further step when the watch is done."""
 
     watch = Stopwatch(0)
 
@@ -22,17 +23,32 @@ class TimedPlantNode(RemusPlantNode):
         if not self.watch.finished:
             super().publish_step()
 
-    def waiting_for(self) -> str:
-        return "" if self.watch.finished else super().waiting_for()
+
+class LatencyPlantNode(RemusPlantNode):
+    """Free running: tells how long commands take."""
+
+    watch = LatencyWatch(0)
+
+    def publish_step(self) -> None:
+        self.watch.sent()
+        super().publish_step()
+
+    def _on_rudder(self, message: Any) -> None:
+        self.watch.answered()
+        super()._on_rudder(message)
 
 
 def main(argv: Sequence[str]) -> int:
-    """STEPS, then the ROS arguments of remus_plant alone, or one JSON object as for `mission.composed`."""
-    TimedPlantNode.watch = Stopwatch(int(argv[0]))
-    if argv[1].startswith("{"):
+    """`lockstep` or `latency`, how many steps, then the arguments of remus_plant or `mission.composed`."""
+    kind, steps, *rest = argv
+    if kind == "latency":
+        LatencyPlantNode.watch = LatencyWatch(int(steps))
+        return run_nodes([LatencyPlantNode], rest)
+    TimedPlantNode.watch = Stopwatch(int(steps))
+    if rest[0].startswith("{"):
         here = f"{TimedPlantNode.__module__}:{TimedPlantNode.__name__}"
-        return composed.main(argv[1:], {**composed.NODES, topics.PLANT: here})
-    return run_nodes([TimedPlantNode], argv[1:])
+        return composed.main(rest, {**composed.NODES, topics.PLANT: here})
+    return run_nodes([TimedPlantNode], rest)
 
 
 if __name__ == "__main__":

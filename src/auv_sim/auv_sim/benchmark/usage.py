@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 
 class Usage(NamedTuple):
-    """All threads of one process: seconds of processor time, and how often a thread gave the processor away."""
+    """All threads of a process: seconds of processor time, and how often one gave the processor away."""
 
     cpu: float
     switches: int

@@ -1,0 +1,11 @@
+#!/usr/bin/env python3
+"""Measure how fast the suite is on this machine. Sets itself up on first use."""
+
+import _bootstrap
+
+_bootstrap.ensure_environment()
+
+from auv_sim.benchmark.cli import main  # noqa: E402 - only there once the environment is
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,114 @@
+"""`scripts/benchmark.py`: how fast the suite is on this machine, as ratios measured in one run."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from auv_msgs_py.errors import ConfigurationError, SuiteError
+from auv_sim.benchmark import graph, laws, machine, page, recording, sheets
+from auv_sim.benchmark.scale import FULL, QUICK, Scale
+from auv_sim.command_line import (
+    EXIT_BAD_INPUT,
+    EXIT_DONE,
+    EXIT_FAILED,
+    EXIT_INTERRUPTED,
+    Parser,
+    console,
+)
+
+Tick = Callable[[str], None]
+
+
+def _simulation(scale: Scale, tick: Tick) -> dict[str, Any]:
+    return {"closed_loop": laws.closed_loop_figures(scale, tick), "batch": laws.batch_figures(scale, tick)}
+
+
+#: Section -> who measures it, and how many ticks of the progress bar it takes.
+SECTIONS: dict[str, tuple[Callable[[Scale, Tick], dict[str, Any]], Callable[[Scale], int]]] = {
+    "lockstep": (graph.lockstep_figures, lambda scale: 10 * scale.rounds),
+    "latency": (graph.latency_figures, lambda _: 3),
+    "simulation": (_simulation, lambda scale: 1 + len(scale.vehicles)),
+    "start_up": (graph.start_up_figures, lambda scale: scale.rounds),
+    "subpaths": (laws.subpath_figures, lambda scale: len(scale.subpaths)),
+    "recording": (recording.topic_figures, lambda scale: len(scale.topics)),
+}
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    p = Parser(prog="benchmark.py", description=__doc__, allow_abbrev=False)
+    p.add_argument("--quick", action="store_true", help="a minute: whether it works, not how fast it is")
+    p.add_argument(
+        "--only", nargs="+", choices=tuple(SECTIONS), metavar="SECTION", help=f"some of {', '.join(SECTIONS)}"
+    )
+    p.add_argument("--json", type=Path, metavar="FILE", help="write all figures to FILE")
+    p.add_argument(
+        "--write-docs", action="store_true", help="renew the figures and pictures of docs/performance.md"
+    )
+    p.add_argument("--page", type=Path, default=Path("docs/performance.md"), help="the page to renew")
+    p.add_argument("--images", type=Path, default=Path("docs/images"), help="folder of its pictures")
+    return p
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Measure; returns the exit code: 0 done, 1 something did not run, 2 bad input, 130 interrupted."""
+    options = parser().parse_args(argv)
+    try:
+        return _measure(options)
+    except ConfigurationError as error:
+        print(error, file=sys.stderr)
+        return EXIT_BAD_INPUT
+    except SuiteError as error:
+        print(f"benchmark failed: {error}", file=sys.stderr)
+        return EXIT_FAILED
+    except KeyboardInterrupt:
+        print("interrupted; nothing was written", file=sys.stderr)
+        return EXIT_INTERRUPTED
+
+
+def _measure(options: argparse.Namespace) -> int:
+    if options.write_docs:
+        if options.only:
+            raise ConfigurationError(
+                "--write-docs", "together with --only", "all sections, the page needs them"
+            )
+        page.parts(options.page)  # before minutes of measuring, not after
+    scale = QUICK if options.quick else FULL
+    chosen = options.only or list(SECTIONS)
+    out = console()
+    figures: dict[str, Any] = {"machine": machine.describe(), "load": machine.load(), "quick": options.quick}
+    columns = (BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), TextColumn("{task.description}"))
+    with Progress(*columns, console=out, transient=True) as bar:
+        task = bar.add_task("", total=sum(SECTIONS[name][1](scale) for name in chosen))
+        begun = 0
+
+        def tick(text: str) -> None:
+            nonlocal begun
+            bar.update(task, completed=begun, description=text)
+            begun += 1
+
+        for name in chosen:
+            figures[name] = SECTIONS[name][0](scale, tick)
+    found = sheets.sheets(figures)
+    out.print(", ".join(f"{name} {value}" for name, value in figures["machine"].items()), soft_wrap=True)
+    sheets.show(found, out)
+    if options.json is not None:
+        options.json.write_text(json.dumps(figures, indent=2) + "\n", encoding="utf-8")
+        out.print(f"  {options.json}  [dim]all figures[/dim]")
+    if options.write_docs:
+        page.renew(options.page, options.images, figures, found)
+        out.print(f"  {options.page}  [dim]renewed, with {options.images / page.PICTURE}[/dim]")
+    else:
+        out.print("\nKeep them:  python3 scripts/benchmark.py --write-docs")
+    return EXIT_DONE
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,149 @@
+"""The graph's figures: lockstep against its floor, latency against the wall clock, start-up, memory."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+
+from auv_msgs_py import qos, topics
+from auv_sim.benchmark.rig import NAMESPACE, BenchmarkFailed, Setup, Timing, free_running, lockstep
+from auv_sim.benchmark.scale import Scale
+from auv_sim.mission.domains import free_domain
+
+Tick = Callable[[str], None]
+_MICRO = 1e6
+
+
+def _setups(steps: int) -> Iterator[tuple[str, Setup]]:
+    for composed in (False, True):
+        place = "composed" if composed else "separate"
+        yield f"{place}/plain floor", Setup(floor=True, plain=True, composed=composed, steps=steps)
+        for recorded in (False, True):
+            suffix = ", recorded" if recorded else ""
+            yield (
+                f"{place}/floor{suffix}",
+                Setup(floor=True, recorded=recorded, composed=composed, steps=steps),
+            )
+            yield f"{place}/suite{suffix}", Setup(recorded=recorded, composed=composed, steps=steps)
+
+
+def lockstep_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
+    """Time per step of the suite and of the floor, in turn, best of the rounds; and memory per process.
+
+    What else the machine does only adds, so of several runs the fastest says most about the program, and
+    runs that are compared take turns.
+    """
+    runs: dict[str, list[Timing]] = {}
+    for _ in range(scale.rounds):
+        for name, setup in _setups(scale.steps):
+            tick(f"lockstep, {name}")
+            runs.setdefault(name, []).append(lockstep(setup))
+    figures: dict[str, Any] = {}
+    for name, timings in runs.items():
+        place, kind = name.split("/")
+        best = min(timings, key=lambda timing: timing.step)
+        figures.setdefault(place, {})[kind] = {
+            "step_us": best.step * _MICRO,
+            "best_block_us": min(min(timing.blocks) for timing in timings) * _MICRO,
+            "cpu_us": min(timing.cpu for timing in timings) * _MICRO,
+            "cpu_by_process_us": {name: used.cpu * _MICRO for name, used in best.usage.items()},
+            "switches": sum(used.switches for used in best.usage.values()),
+        }
+    memory = min(runs["separate/suite, recorded"], key=lambda timing: timing.step).memory
+    figures["memory"] = {name: used._asdict() for name, used in memory.items()}
+    return figures
+
+
+def latency_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
+    """odom -> rudder_cmd against the wall clock: latency, jitter, cycles without a timely answer, load."""
+    figures: dict[str, Any] = {}
+    for rate in (20, 50, 100):
+        tick(f"latency at {rate} Hz")
+        seen = free_running(rate, scale.seconds)
+        latencies = np.array(seen.told["latencies"]) * 1e3
+        if not len(latencies):
+            raise BenchmarkFailed(f"no command came at {rate} Hz")
+        periods = np.diff(seen.told["sent"]) * 1e3
+        p50, p99, p999 = np.percentile(latencies, (50.0, 99.0, 99.9))
+        figures[str(rate)] = {
+            "cycles": len(seen.told["sent"]),
+            "p50_ms": float(p50),
+            "p99_ms": float(p99),
+            "p99.9_ms": float(p999),
+            "largest_ms": float(latencies.max()),
+            "jitter_ms": float(latencies.std()),
+            "period_jitter_ms": float(periods.std()),
+            "missed": seen.told["missed"],
+            "cpu_percent": {name: 100.0 * used.cpu / seen.seconds for name, used in seen.usage.items()},
+        }
+    return figures
+
+
+def start_up_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
+    """Seconds from calling the launcher to the first rudder command, best of the rounds."""
+    times = []
+    for _ in range(scale.rounds):
+        tick("start-up")
+        times.append(_first_command())
+    return {"seconds": min(times)}
+
+
+def _first_command() -> float:
+    with tempfile.TemporaryDirectory(prefix="auv-benchmark-") as name:
+        domain = free_domain()
+        environment = {**os.environ, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+        command = [sys.executable, "-m", "auv_sim.mission", "--quiet", "--domain", str(domain)]
+        begin = time.monotonic()
+        launcher = subprocess.Popen(  # noqa: S603 - our own interpreter, our own module
+            [*command, "--out", str(Path(name) / "run")], env=environment, stderr=subprocess.DEVNULL
+        )
+        try:
+            return _until_commanded(domain, launcher) - begin
+        finally:
+            launcher.send_signal(signal.SIGINT)
+            try:
+                launcher.wait(30.0)
+            except subprocess.TimeoutExpired:
+                launcher.kill()
+                launcher.wait()
+
+
+def _until_commanded(domain: int, launcher: subprocess.Popen[bytes]) -> float:
+    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    rclpy.init(args=[], domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
+    node = Node("benchmark", namespace=NAMESPACE, start_parameter_services=False)
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    came: list[float] = []
+    topic = topics.RUDDER_CMD
+    node.create_subscription(
+        qos.message_class(topic.type),
+        topic.name,
+        lambda _: came.append(time.monotonic()),
+        qos.requested(topic, reliable=False),
+        raw=True,
+    )
+    deadline = time.monotonic() + 90.0
+    try:
+        while not came:
+            if launcher.poll() is not None or time.monotonic() > deadline:
+                raise BenchmarkFailed("the launcher did not bring up a mission")
+            executor.spin_once(timeout_sec=0.05)
+        return came[0]
+    finally:
+        executor.shutdown()
+        node.destroy_node()
+        rclpy.try_shutdown()

@@ -1,0 +1,93 @@
+"""The figures of plain simulation: one vehicle, many vehicles, long paths."""
+
+from __future__ import annotations
+
+import dataclasses
+import importlib
+import os
+import time
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from auv_msgs_py.types import NO_CURRENT, Navigation, WaterVelocity
+from auv_path_following.guidance.path_follower import PathFollower
+from auv_path_following.paths.composite import CompositePath
+from auv_path_following.paths.smoothing import Smoothing, smooth
+from auv_sim import closed_loop
+from auv_sim.benchmark.scale import Scale
+from auv_sim.closed_loop import Scenario
+from auv_sim.mission import plan
+from auv_sim.mission.plan import Options
+
+Tick = Callable[[str], None]
+
+
+def _scenario(duration: float) -> Scenario:
+    flight = plan.make(Options(quiet=True), Path()).scenario()
+    return dataclasses.replace(flight, time_limit=duration)
+
+
+def _best(rounds: int, measure: Callable[[], float]) -> float:
+    return min(measure() for _ in range(rounds))
+
+
+def closed_loop_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
+    """Vehicle-steps per second of `closed_loop.fly`."""
+    tick("closed loop")
+    scenario = _scenario(5.0 * scale.flight)
+
+    def measure() -> float:
+        begin = time.perf_counter()
+        steps = closed_loop.fly(scenario).steps
+        return (time.perf_counter() - begin) / steps
+
+    return {"vehicle_steps_per_second": 1.0 / _best(2 * scale.rounds + 1, measure)}
+
+
+def batch_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
+    """Vehicle-steps per second of the batch engine, all cores, by number of vehicles."""
+    try:
+        engine = importlib.import_module("auv_sim.batch.engine")
+    except ImportError:
+        return {}
+    threads = len(os.sched_getaffinity(0))
+    scenario = _scenario(scale.flight)
+    engine.fly([scenario])  # compiles
+    found = {}
+    for number in scale.vehicles:
+        tick(f"batch, {number} vehicles")
+        scenarios = [scenario] * number
+
+        def measure(scenarios: list[Scenario] = scenarios) -> float:
+            begin = time.perf_counter()
+            flights = engine.fly(scenarios, threads)
+            return float(time.perf_counter() - begin) / int(flights.steps.sum())
+
+        found[str(number)] = 1.0 / _best(scale.rounds, measure)
+    return {"vehicle_steps_per_second": found, "threads": threads}
+
+
+def subpath_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
+    """Microseconds of one step of guidance on a spiral halfway along the path, by number of subpaths."""
+    found = {}
+    for number in scale.subpaths:
+        tick(f"guidance, {number} subpaths")
+        corners = max(number // 3, 2)  # a leg and two half spirals each
+        points = [(100.0 * k, 60.0 * (k % 2)) for k in range(corners + 2)]
+        path = CompositePath(smooth(points, Smoothing(kind="fermat", radius=15.0)))
+        found[str(path.n)] = 1e6 * _best(4 * scale.rounds + 1, partial(_guidance_step, path))
+    return {"step_us": found}
+
+
+def _guidance_step(path: CompositePath) -> float:
+    follower, steps = PathFollower(path), 500
+    spiral = path.n // 6 * 3 + 1
+    follower.virtual_point.i = spiral
+    p = path.evaluate(spiral, 0.0)
+    navigation, water = Navigation(p.x, p.y, p.chi, 0.0), WaterVelocity(1.9, 0.0)
+    begin = time.perf_counter()
+    for _ in range(steps):
+        follower.update(navigation, water, NO_CURRENT, 0.0)
+    return (time.perf_counter() - begin) / steps

@@ -1,0 +1,152 @@
+"""The figures as tables: one description, for the terminal and for the page."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+#: Simulated seconds per lockstep step, the simulator's default.
+STEP = 0.05
+_LOCKSTEP_ROWS = (
+    ("plain floor", "plain rclpy nodes, empty callbacks", "floor"),
+    ("floor", "floor: the suite's way over the wire, empty callbacks", "floor"),
+    ("suite", "the mission", "floor"),
+    ("floor, recorded", "floor with a recorder that only counts", "floor, recorded"),
+    ("suite, recorded", "the mission with its recorder", "floor, recorded"),
+)
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """One table; the first column is text, the others are numbers."""
+
+    title: str
+    heads: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+
+def sheets(figures: dict[str, Any]) -> list[Sheet]:
+    """A table for everything that was measured."""
+    makers = {
+        "lockstep": _lockstep, "latency": _latency, "simulation": _simulation, "start_up": _start_up,
+        "subpaths": _subpaths, "recording": _recording,
+    }  # fmt: skip
+    found: list[Sheet] = []
+    for name, make in makers.items():
+        if figures.get(name):
+            found += make(figures[name])
+    return found
+
+
+def _lockstep(figures: dict[str, Any]) -> list[Sheet]:
+    found = []
+    for place, title in (("separate", "one process for each node"), ("composed", "all nodes in one process")):
+        runs = figures[place]
+        rows = []
+        for kind, text, yardstick in _LOCKSTEP_ROWS:
+            run, floor = runs[kind], runs[yardstick]
+            rows.append(
+                (
+                    text,
+                    f"{run['step_us'] / floor['step_us']:.2f}",
+                    f"{run['step_us']:.0f}",
+                    f"{run['cpu_us']:.0f}",
+                    f"{run['switches']:.1f}",
+                    f"{STEP * 1e6 / run['step_us']:.0f}",
+                )
+            )
+        heads = ("", "times its floor", "us a step", "processor us", "switches", "times real time")
+        found.append(Sheet(f"Lockstep, {title}", heads, tuple(rows)))
+        cost = {k: runs[f"{k}, recorded"]["step_us"] / runs[k]["step_us"] for k in ("floor", "suite")}
+        ratios = tuple(f"{cost[k]:.2f}" for k in ("suite", "floor"))
+        found.append(
+            Sheet(
+                f"Recording, {title}", ("step recorded / not recorded", "mission", "floor"), (("", *ratios),)
+            )
+        )
+    used = figures["separate"]["suite, recorded"]["cpu_by_process_us"]
+    by_node = [
+        (name, f"{used[name]:.0f}", f"{memory['rss'] / 2**20:.0f}", f"{memory['pss'] / 2**20:.0f}")
+        for name, memory in figures["memory"].items()
+    ]
+    total = (
+        "all",
+        f"{sum(used.values()):.0f}",
+        f"{sum(m['rss'] for m in figures['memory'].values()) / 2**20:.0f}",
+        f"{sum(m['pss'] for m in figures['memory'].values()) / 2**20:.0f}",
+    )
+    columns = ("node (recorded mission)", "processor us a step", "RSS MiB", "PSS MiB")
+    return [*found, Sheet("Processor and memory, by node", columns, (*by_node, total))]
+
+
+def _latency(figures: dict[str, Any]) -> list[Sheet]:
+    rows = []
+    for rate, at in figures.items():
+        cells = [f"{at[key]:.2f}" for key in ("p50_ms", "p99_ms", "p99.9_ms", "largest_ms", "jitter_ms")]
+        period = 1e3 / float(rate)
+        share = f"{100.0 * at['p50_ms'] / period:.1f}"
+        rows.append((f"{rate} Hz", *cells, share, f"{at['missed']} of {at['cycles']}"))
+    heads = ("odometry", "p50 ms", "p99", "p99.9", "largest", "jitter", "p50 in % of the period", "missed")
+    latency = Sheet("Free running: from odometry to rudder command", heads, tuple(rows))
+    names = list(next(iter(figures.values()))["cpu_percent"])
+    used = [(name, *(f"{at['cpu_percent'][name]:.1f}" for at in figures.values())) for name in names]
+    columns = ("% of one core", *(f"{rate} Hz" for rate in figures))
+    return [latency, Sheet("Free running: processor time, by node", columns, tuple(used))]
+
+
+def _simulation(figures: dict[str, Any]) -> list[Sheet]:
+    scalar = figures["closed_loop"]["vehicle_steps_per_second"]
+    rows = [("closed_loop, one vehicle", "1.0", f"{scalar:,.0f}", f"{1e6 / scalar:.2f}")]
+    for number, rate in figures.get("batch", {}).get("vehicle_steps_per_second", {}).items():
+        rows.append(
+            (f"batch, {int(number):,} vehicles", f"{rate / scalar:.1f}", f"{rate:,.0f}", f"{1e6 / rate:.3f}")
+        )
+    heads = ("", "times closed_loop", "vehicle-steps a second", "us a vehicle-step")
+    return [Sheet("Simulation without ROS", heads, tuple(rows))]
+
+
+def _start_up(figures: dict[str, Any]) -> list[Sheet]:
+    return [
+        Sheet(
+            "Start-up", ("", "s"), (("launcher called to first rudder command", f"{figures['seconds']:.1f}"),)
+        )
+    ]
+
+
+def _subpaths(figures: dict[str, Any]) -> list[Sheet]:
+    costs = figures["step_us"]
+    least = next(iter(costs.values()))
+    rows = tuple((f"{int(n):,}", f"{cost / least:.2f}", f"{cost:.1f}") for n, cost in costs.items())
+    heads = ("subpaths", "times the shortest path's", "us a step of guidance")
+    return [Sheet("Guidance, by number of subpaths", heads, rows)]
+
+
+def _recording(figures: dict[str, Any]) -> list[Sheet]:
+    costs, rate = figures["cpu_percent"], figures["rate_hz"]
+    rows = tuple((n, f"{cost:.1f}", f"{cost * 1e4 / (float(n) * rate):.0f}") for n, cost in costs.items())
+    heads = (f"topics at {rate:g} Hz", "% of one core", "us a message")
+    return [Sheet("Recorder, by number of topics", heads, rows)]
+
+
+def show(found: list[Sheet], console: Console) -> None:
+    """The tables in the terminal."""
+    for sheet in found:
+        table = Table(title=sheet.title, title_justify="left")
+        for k, head in enumerate(sheet.heads):
+            table.add_column(head, justify="right" if k else "left")
+        for row in sheet.rows:
+            table.add_row(*row)
+        console.print(table)
+
+
+def markdown(found: list[Sheet]) -> str:
+    """The tables for the page."""
+    texts = []
+    for sheet in found:
+        lines = [sheet.heads, ("---", *["---:"] * (len(sheet.heads) - 1)), *sheet.rows]
+        table = "\n".join("| " + " | ".join(line) + " |" for line in lines)
+        texts.append(f"**{sheet.title}**\n\n{table}")
+    return "\n\n".join(texts)

@@ -1,0 +1,112 @@
+"""The benchmark as a command, small; nothing asserts how long anything takes."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from auv_msgs_py import topics
+from auv_sim.benchmark import page, sheets
+from auv_sim.benchmark.cli import main
+from auv_sim.benchmark.rig import Setup, free_running, lockstep
+from auv_sim.benchmark.stopwatch import BLOCK
+from conftest import children_of
+
+NODES = {topics.PLANT, topics.OBSERVER, topics.GUIDANCE, topics.AUTOPILOT}
+
+
+@pytest.mark.parametrize(
+    "setup", [Setup(floor=True, recorded=True, steps=300), Setup(composed=True, steps=300)]
+)
+def test_a_lockstep_run_is_timed_step_by_step(setup: Setup) -> None:
+    timing = lockstep(setup)
+    assert len(timing.blocks) == setup.steps // BLOCK
+    assert all(block > 0.0 for block in timing.blocks)
+    assert set(timing.usage) == ({"composed"} if setup.composed else NODES | {topics.RECORDER})
+    assert all(used.cpu > 0.0 for used in timing.usage.values())
+    assert all(0 < occupied.pss <= occupied.rss for occupied in timing.memory.values())
+
+
+def test_every_odometry_is_answered_against_the_wall_clock() -> None:
+    seen = free_running(20.0, 1.0)
+    assert len(seen.told["sent"]) == 22  # the first and the last odometry, and a second in between
+    assert len(seen.told["latencies"]) + seen.told["missed"] >= 20
+    assert min(seen.told["latencies"]) > 0.0
+
+
+def test_a_section_as_table_and_json(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "figures.json"
+    assert main(["--quick", "--only", "simulation", "subpaths", "--json", str(file)]) == 0
+    figures = json.loads(file.read_text())
+    assert figures["machine"]["cores"]
+    assert figures["simulation"]["closed_loop"]["vehicle_steps_per_second"] > 0.0
+    assert set(figures["subpaths"]["step_us"]) == {"10", "100"}
+    told = capsys.readouterr().out
+    assert "Guidance, by number of subpaths" in told
+    assert "Keep them" in told
+
+
+def figures() -> dict[str, object]:
+    """Every section, with made-up figures."""
+    kinds = ("plain floor", "floor", "suite", "floor, recorded", "suite, recorded")
+    run = {"step_us": 1000.0, "cpu_us": 2000.0, "switches": 20.0, "cpu_by_process_us": {"recorder": 400.0}}
+    at = {"p50_ms": 1.0, "p99_ms": 2.0, "p99.9_ms": 3.0, "largest_ms": 4.0, "jitter_ms": 0.5, "missed": 1,
+          "cycles": 100, "cpu_percent": {"recorder": 4.0}}  # fmt: skip
+    return {
+        "machine": {"processor": "abacus"},
+        "load": 0.0,
+        "lockstep": {
+            "separate": dict.fromkeys(kinds, run) | {"plain floor": run | {"step_us": 2500.0}},
+            "composed": dict.fromkeys(kinds, run),
+            "memory": {"recorder": {"rss": 2**26, "pss": 2**25}},
+        },
+        "latency": {"20": at, "50": at},
+        "simulation": {
+            "closed_loop": {"vehicle_steps_per_second": 2e4},
+            "batch": {"vehicle_steps_per_second": {"1": 1e6, "10000": 2e6}, "threads": 2},
+        },
+        "start_up": {"seconds": 2.5},
+        "subpaths": {"step_us": {"10": 20.0, "10000": 21.0}},
+        "recording": {"rate_hz": 50.0, "cpu_percent": {"1": 2.0, "100": 20.0}},
+    }
+
+
+def test_the_page_is_renewed_between_its_marks(tmp_path: Path) -> None:
+    file = tmp_path / "performance.md"
+    file.write_text(f"before\n{page.BEGIN}\nold\n{page.END}\nafter\n")
+    found = sheets.sheets(figures())
+    page.renew(file, tmp_path / "images", figures(), found)
+    text = file.read_text()
+    assert text.startswith("before\n")
+    assert text.endswith("\nafter\n")
+    assert "old" not in text
+    assert "abacus" in text
+    assert "| plain rclpy nodes, empty callbacks | 2.50 | 2500 |" in text
+    assert "| batch, 10,000 vehicles | 100.0 | 2,000,000 |" in text
+    assert (tmp_path / "images" / page.PICTURE).stat().st_size > 10_000
+
+
+def test_a_page_without_a_place_is_refused_before_anything_is_measured(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "page.md").write_text("nothing here\n")
+    assert main(["--write-docs", "--page", str(tmp_path / "page.md")]) == 2
+    assert "no place for figures" in capsys.readouterr().err
+
+
+def test_ctrl_c_leaves_nothing_behind(
+    spawn: Callable[..., subprocess.Popen[str]], command_line: Callable[..., list[str]]
+) -> None:
+    process = spawn(command_line("auv_sim.benchmark.cli", "--quick", "--only", "lockstep"))
+    while not (nodes := children_of(process.pid)) and process.poll() is None:
+        pass
+    process.send_signal(signal.SIGINT)
+    _, error = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert error.strip() == "interrupted; nothing was written"
+    assert not any(Path(f"/proc/{pid}").exists() for pid in nodes)
