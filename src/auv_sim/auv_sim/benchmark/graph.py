@@ -19,7 +19,9 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
 from auv_msgs_py import qos, topics
-from auv_sim.benchmark.rig import NAMESPACE, BenchmarkFailed, Setup, Timing, free_running, lockstep
+from auv_msgs_py.runtime import StopRequest
+from auv_sim.benchmark.children import BenchmarkFailed, interruptible
+from auv_sim.benchmark.rig import NAMESPACE, Setup, Timing, free_running, lockstep
 from auv_sim.benchmark.scale import Scale
 from auv_sim.mission.domains import free_domain
 
@@ -102,16 +104,19 @@ def start_up_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
 
 
 def _first_command() -> float:
-    with tempfile.TemporaryDirectory(prefix="auv-benchmark-") as name:
+    with tempfile.TemporaryDirectory(prefix="auv-benchmark-") as name, interruptible() as stop:
         domain = free_domain()
         environment = {**os.environ, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
         command = [sys.executable, "-m", "auv_sim.mission", "--quiet", "--domain", str(domain)]
         begin = time.monotonic()
         launcher = subprocess.Popen(  # noqa: S603 - our own interpreter, our own module
-            [*command, "--out", str(Path(name) / "run")], env=environment, stderr=subprocess.DEVNULL
+            [*command, "--out", str(Path(name) / "run")],
+            env=environment,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,  # Ctrl-C is passed on, once
         )
         try:
-            return _until_commanded(domain, launcher) - begin
+            return _until_commanded(domain, launcher, stop) - begin
         finally:
             launcher.send_signal(signal.SIGINT)
             try:
@@ -121,7 +126,7 @@ def _first_command() -> float:
                 launcher.wait()
 
 
-def _until_commanded(domain: int, launcher: subprocess.Popen[bytes]) -> float:
+def _until_commanded(domain: int, launcher: subprocess.Popen[bytes], stop: StopRequest) -> float:
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     rclpy.init(args=[], domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
     node = Node("benchmark", namespace=NAMESPACE, start_parameter_services=False)
@@ -142,6 +147,8 @@ def _until_commanded(domain: int, launcher: subprocess.Popen[bytes]) -> float:
             if launcher.poll() is not None or time.monotonic() > deadline:
                 raise BenchmarkFailed("the launcher did not bring up a mission")
             executor.spin_once(timeout_sec=0.05)
+            if stop.requested:
+                raise KeyboardInterrupt
         return came[0]
     finally:
         executor.shutdown()

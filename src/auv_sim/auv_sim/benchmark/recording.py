@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from auv_msgs_py import topics
 from auv_sim.benchmark import talker
+from auv_sim.benchmark.children import processes
 from auv_sim.benchmark.laws import Tick
-from auv_sim.benchmark.rig import BenchmarkFailed
 from auv_sim.benchmark.scale import Scale
-from auv_sim.benchmark.usage import usage
 from auv_sim.mission.composed import NODES
-from auv_sim.mission.domains import free_domain
-from auv_sim.mission.processes import Children
 
 #: Long enough for the recorder to find new topics, s.
 _SETTLED = 2.0
+#: A file of this size has messages in it, bytes.
+_BEGUN = 4096
 
 
 def topic_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
@@ -31,30 +31,21 @@ def topic_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
 
 
 def _cost(number: int, seconds: float) -> float:
-    with tempfile.TemporaryDirectory(prefix="auv-benchmark-") as name:
+    with tempfile.TemporaryDirectory(prefix="auv-benchmark-") as name, processes(Path(name)) as children:
         bag = Path(name) / "bag"
-        environment = {"ROS_DOMAIN_ID": str(free_domain()), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
-        children = Children(Path(name) / "log", environment)
-        try:
-            children.start(talker.NAME, talker.__name__, [str(number)])
-            wanted = {"directory": str(bag), "contract": "false", "regex": "/talk_.*"}
-            words = [word for key, value in wanted.items() for word in ("-p", f"{key}:={value}")]
-            children.start(topics.RECORDER, NODES[topics.RECORDER].split(":")[0], ["--ros-args", *words])
-            _until_recording(bag, children)
-            recorder = next(child for child in children if child.name == topics.RECORDER)
-            before, begin = usage(recorder.process.pid), time.perf_counter()
-            time.sleep(seconds)
-            used, took = usage(recorder.process.pid), time.perf_counter() - begin
-        finally:
-            children.stop()
-    return 100.0 * (used.cpu - before.cpu) / took
+        children.start(talker.NAME, talker.__name__, [str(number)])
+        wanted = {"directory": str(bag), "contract": "false", "regex": "/talk_.*"}
+        words = [word for key, value in wanted.items() for word in ("-p", f"{key}:={value}")]
+        children.start(topics.RECORDER, NODES[topics.RECORDER].split(":")[0], ["--ros-args", *words])
 
+        def wait(condition: Callable[[], bool]) -> None:
+            children.until(condition, lambda: time.sleep(0.05), 90.0)
 
-def _until_recording(bag: Path, children: Children) -> None:
-    """The first bytes in the file: messages come. Then some time for the other topics."""
-    deadline = time.monotonic() + 90.0
-    while not any(file.stat().st_size > 4096 for file in bag.glob("*.mcap")):
-        if children.dead() is not None or time.monotonic() > deadline:
-            raise BenchmarkFailed("the recorder did not record")
-        time.sleep(0.1)
-    time.sleep(_SETTLED)
+        # The first bytes in the file: messages come. Then some time for the other topics.
+        wait(lambda: any(file.stat().st_size > _BEGUN for file in bag.glob("*.mcap")))
+        settled = time.perf_counter() + _SETTLED
+        wait(lambda: time.perf_counter() > settled)
+        before, begin = children.usage(), time.perf_counter()
+        wait(lambda: time.perf_counter() > begin + seconds)
+        used, took = children.usage(), time.perf_counter() - begin
+    return 100.0 * (used[topics.RECORDER].cpu - before[topics.RECORDER].cpu) / took

@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import json
-import os
 import tempfile
 import time
 from collections.abc import Callable
@@ -14,14 +13,12 @@ from pathlib import Path
 from typing import Any
 
 from auv_msgs_py import topics
-from auv_msgs_py.errors import SuiteError
+from auv_sim.benchmark.children import BenchmarkFailed, Measured, processes
 from auv_sim.benchmark.stopwatch import BLOCK, MARK
-from auv_sim.benchmark.usage import Memory, Usage, memory, usage
+from auv_sim.benchmark.usage import Memory, Usage, memory
 from auv_sim.mission import plan
 from auv_sim.mission.composed import NODES
-from auv_sim.mission.domains import free_domain
 from auv_sim.mission.plan import Options, Plan
-from auv_sim.mission.processes import Children
 
 NAMESPACE = "/auv"
 COMPOSED = "composed"
@@ -29,10 +26,6 @@ _TIMED = "auv_sim.benchmark.timed_plant"
 _FLOOR = "auv_sim.benchmark.floor"
 #: Wall time for the nodes to find each other, and for a measurement that is expected to take no time, s.
 _PATIENCE = 90.0
-
-
-class BenchmarkFailed(SuiteError):
-    """Something that was to be measured did not run."""
 
 
 @dataclass(frozen=True)
@@ -97,7 +90,7 @@ def lockstep(setup: Setup) -> Timing:
         BenchmarkFailed: it did not run.
     """
 
-    def start(directory: Path, children: Children) -> set[str]:
+    def start(directory: Path, children: Measured) -> set[str]:
         names = [name for name in NODES if setup.recorded or name != topics.RECORDER]
         if setup.floor:
             flags = {"--recorded": setup.recorded, "--plain": setup.plain}
@@ -124,7 +117,7 @@ def free_running(rate: float, seconds: float) -> Observed:
         BenchmarkFailed: it did not run.
     """
 
-    def start(directory: Path, children: Children) -> set[str]:
+    def start(directory: Path, children: Measured) -> set[str]:
         resolved = plan.make(Options(speed=1.0, quiet=True), directory)
         plant = dataclasses.replace(resolved.parameters[topics.PLANT], step=1.0 / rate)
         resolved = dataclasses.replace(resolved, parameters={**resolved.parameters, topics.PLANT: plant})
@@ -145,7 +138,7 @@ def without_recorder(resolved: Plan) -> Plan:
 
 
 def _start_suite(
-    resolved: Plan, directory: Path, children: Children, kind: str, steps: int, composed: bool
+    resolved: Plan, directory: Path, children: Measured, kind: str, steps: int, composed: bool
 ) -> None:
     ros = ["-r", f"__ns:={NAMESPACE}", "--params-file", str(resolved.write(directory / "config"))]
     ros += ["-p", "use_sim_time:=true"]
@@ -160,57 +153,37 @@ def _start_suite(
             children.start(name, NODES[name].split(":")[0], ["--ros-args", *ros])
 
 
-def observe(start: Callable[[Path, Children], set[str]], seconds: float) -> Observed:
+def observe(start: Callable[[Path, Measured], set[str]], seconds: float) -> Observed:
     """Start processes, start their mission, wait for the watch, stop everything.
 
     Args:
         start: starts the processes and returns the names of the nodes in them.
         seconds: how long the measurement should take, roughly.
     """
-    with tempfile.TemporaryDirectory(prefix="auv-benchmark-") as name:
-        directory = Path(name)
-        environment = {"ROS_DOMAIN_ID": str(free_domain()), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
-        os.environ.update(environment)
-        children = Children(directory / "log", environment)
-        try:
-            names = start(directory, children)
-            from auv_sim.mission.monitor import Monitor  # only now: a process with DDS threads must not fork
+    with tempfile.TemporaryDirectory(prefix="auv-benchmark-") as name, processes(Path(name)) as children:
+        names = start(Path(name), children)
+        from auv_sim.mission.monitor import Monitor  # only now: a process with DDS threads must not fork
 
-            monitor = Monitor(NAMESPACE)
-            try:
-                _until(
-                    lambda: not monitor.missing_nodes(names, topics.RECORDER in names), children, monitor, 0.0
-                )
-                before, begin = _usage(children), time.perf_counter()
-                refused = monitor.start()
-                if refused:
-                    raise BenchmarkFailed(f"the nodes did not start: {refused}")
-                led = next(child for child in children if child.name in (topics.PLANT, COMPOSED))
-                _until(lambda: MARK in led.log.read_text(encoding="utf-8"), children, monitor, seconds)
-                took, after = time.perf_counter() - begin, _usage(children)
-                occupied = {child.name: memory(child.process.pid) for child in children}
-            finally:
-                monitor.close()
-            line = next(line for line in reversed(led.last_lines(20)) if line.startswith(MARK))
+        monitor = Monitor(NAMESPACE)
+
+        def until(condition: Callable[[], bool]) -> None:
+            children.until(condition, lambda: monitor.look(0.05), _PATIENCE + 2.0 * seconds)
+
+        try:
+            until(lambda: not monitor.missing_nodes(names, topics.RECORDER in names))
+            before, begin = children.usage(), time.perf_counter()
+            refused = monitor.start()
+            if refused:
+                raise BenchmarkFailed(f"the nodes did not start: {refused}")
+            led = next(child for child in children if child.name in (topics.PLANT, COMPOSED))
+            until(lambda: MARK in led.log.read_text(encoding="utf-8"))
+            took, after = time.perf_counter() - begin, children.usage()
+            occupied = {child.name: memory(child.process.pid) for child in children}
         finally:
-            children.stop()
+            monitor.close()
+        line = next(line for line in reversed(led.last_lines(20)) if line.startswith(MARK))
     used = {
         name: Usage(after[name].cpu - before[name].cpu, after[name].switches - before[name].switches)
         for name in after
     }
     return Observed(json.loads(line.removeprefix(MARK)), took, used, occupied)
-
-
-def _usage(children: Children) -> dict[str, Usage]:
-    return {child.name: usage(child.process.pid) for child in children}
-
-
-def _until(condition: Callable[[], bool], children: Children, monitor: Any, seconds: float) -> None:
-    deadline = time.monotonic() + _PATIENCE + 2.0 * seconds
-    while not condition():
-        dead = children.dead()
-        if dead is not None:
-            raise BenchmarkFailed(f"{dead.name} ended early: {' '.join(dead.last_lines(3))}")
-        if time.monotonic() > deadline:
-            raise BenchmarkFailed(f"nothing came of it within {_PATIENCE:g} s")
-        monitor.look(0.05)
