@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from nav_msgs.msg import Odometry
-
 from auv_msgs_py import topics
 from auv_msgs_py.conversions import nanoseconds, navigation_from
 from auv_msgs_py.errors import MessageRefused
@@ -13,6 +11,7 @@ from auv_msgs_py.frames import FrameTable
 from auv_msgs_py.runtime import SuiteNode
 from auv_msgs_py.stamps import Punctuality, StampGuard, Timing, Verdict
 from auv_msgs_py.types import Navigation
+from auv_msgs_py.wire import Odometry
 from auv_path_following import vehicle
 from auv_path_following.navigation_gate import NavigationGate, Passed
 
