@@ -153,8 +153,9 @@ class SuiteNode(Node):  # type: ignore[misc]
         return float(self.get_clock().now().nanoseconds) * 1e-9
 
     def time_is(self, stamp: int) -> None:
-        """Lockstep: what /clock says now, ns."""
-        self._stamp = stamp
+        """In lockstep: what /clock says now, ns."""
+        if self.parameters.lockstep:
+            self._stamp = stamp
 
     def get_clock(self) -> Clock:
         """The node's clock; in lockstep it is set when somebody looks at it."""

@@ -150,8 +150,9 @@ class _Stamped(Message):
 
     _numbers: struct.Struct
 
-    def __init__(self) -> None:
+    def __init__(self, frame_id: str = "") -> None:
         self.header = _Header()
+        self.header.frame_id = frame_id
         self._seen, self._start = b"", 0
         self._written: tuple[str, ...] | None = None
 
@@ -216,8 +217,8 @@ class Vector3Stamped(_Stamped):
     __slots__ = ("vector",)
     _numbers = struct.Struct("<3d")
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, frame_id: str = "") -> None:
+        super().__init__(frame_id)
         self.vector = _Vector()
 
     def read(self, data: bytes) -> None:
@@ -235,8 +236,8 @@ class PoseStamped(_Stamped):
     __slots__ = ("pose",)
     _numbers = struct.Struct("<7d")
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, frame_id: str = "") -> None:
+        super().__init__(frame_id)
         self.pose = _Pose()
 
     def read(self, data: bytes) -> None:
@@ -254,8 +255,8 @@ class TwistWithCovarianceStamped(_Stamped):
     __slots__ = ("twist",)
     _numbers = struct.Struct("<42d")
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, frame_id: str = "") -> None:
+        super().__init__(frame_id)
         self.twist = _TwistWithCovariance()
 
     def read(self, data: bytes) -> None:
@@ -275,9 +276,9 @@ class Odometry(_Stamped):
     __slots__ = ("child_frame_id", "pose", "twist")
     _numbers = struct.Struct("<85d")
 
-    def __init__(self) -> None:
-        super().__init__()
-        self.child_frame_id = ""
+    def __init__(self, frame_id: str = "", child_frame_id: str = "") -> None:
+        super().__init__(frame_id)
+        self.child_frame_id = child_frame_id
         self.pose, self.twist = _PoseWithCovariance(), _TwistWithCovariance()
 
     def _texts(self) -> tuple[str, ...]:

@@ -49,11 +49,9 @@ class RemusPlantNode(SuiteNode):
         self._commands: dict[str, tuple[float, int]] = {}
         self._reset_wanted = False
         self._begun = False
-        self._odometry, self._water = Odometry(), TwistWithCovarianceStamped()
-        self._true_current = Vector3Stamped()
-        self._odometry.header.frame_id, self._odometry.child_frame_id = p.world_frame, p.body_frame
-        self._water.header.frame_id = p.body_frame
-        self._truth = Odometry(header=self._odometry.header, child_frame_id=p.body_frame) if at_sea else None
+        self._odometry = Odometry(p.world_frame, p.body_frame)
+        self._truth = Odometry(p.world_frame, p.body_frame) if at_sea else None
+        self._water, self._true_current = TwistWithCovarianceStamped(p.body_frame), Vector3Stamped()
         self._check_frames(p)
         self._clock_message, self._rudder_message = Clock(), Float64()
         self._outputs = [
@@ -112,8 +110,7 @@ class RemusPlantNode(SuiteNode):
         fill_current(self._true_current, vehicle.current, stamp)
         if self._truth is not None:
             fill_odometry(self._truth, *vehicle.truth, stamp)
-        if self._lockstep is not None:
-            self.time_is(stamp)
+        self.time_is(stamp)
         self.answer(self._publish)
 
     def _publish(self) -> None:
