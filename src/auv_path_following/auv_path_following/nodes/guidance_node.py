@@ -116,7 +116,7 @@ class GuidanceNode(SuiteNode):
 
     def _restart(self) -> None:
         """The odometry's stamps went back. If the clock did not, only the vehicle's clock was set: go on."""
-        if self.parameters.lockstep or self._clock_went_back:
+        if self.parameters.lockstep or self._clock_went_back or self.now() < (self._last_usable or 0.0):
             self._begin()
         self._clock_went_back = False
 
