@@ -8,13 +8,14 @@ from typing import Literal
 
 from auv_msgs_py.errors import ConfigurationError
 
-Kind = Literal["missions", "vehicles", "params", "seas"]
+Kind = Literal["missions", "vehicles", "params", "seas", "studies"]
 
 _WORD: dict[Kind, str] = {
     "missions": "mission",
     "vehicles": "vehicle",
     "params": "parameter",
     "seas": "sea",
+    "studies": "study",
 }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import os
 from collections.abc import Callable
@@ -49,18 +50,18 @@ def part(function: F) -> F:
     return function
 
 
-def _keep_apart() -> None:
-    """Give the compiled code of every version of the laws a folder of its own.
-
-    Numba looks at the file of the compiled function only, not at the other files whose functions it calls.
-    """
+@functools.cache
+def laws_digest() -> str:
+    """Names the version of the laws: what was flown with another one cannot be compared to the last bit."""
     digest = hashlib.sha256()
     for package, folder in _COMPILED_FROM:
         for path in sorted((Path(str(package.__file__)).parent / folder).glob("*.py")):
             digest.update(path.read_bytes() + b"\0")
-    base = os.environ.get("NUMBA_CACHE_DIR") or Path("~/.cache/auv_sim").expanduser()
-    numba.config.CACHE_DIR = str(Path(base) / digest.hexdigest()[:16])
+    return digest.hexdigest()[:16]
 
 
 if COMPILED:
-    _keep_apart()
+    # Numba looks at the file of the compiled function only, not at the others whose functions it calls: so the
+    # compiled code of every version of the laws gets a folder of its own.
+    _BASE = os.environ.get("NUMBA_CACHE_DIR") or Path("~/.cache/auv_sim").expanduser()
+    numba.config.CACHE_DIR = str(Path(_BASE) / laws_digest())

@@ -18,6 +18,9 @@ from typing import Any
 import numpy as np
 
 from auv_msgs_py import topics
+from auv_path_following import vehicle
+from auv_path_following.paths.composite import CompositePath
+from auv_path_following.paths.line import Line
 from auv_sim import closed_loop
 from auv_sim.analysis.run import Run
 from auv_sim.batch import tally
@@ -75,6 +78,12 @@ def fly(
     else:
         rows = [one(scenario) for scenario in scenarios]
     return Flights.from_rows(rows)
+
+
+def compile_once() -> None:
+    """Compile now what the first flight would: a pool's processes then find it done."""
+    line = CompositePath([Line(0.0, 0.0, 10.0, 0.0)])
+    fly([Scenario(path=line, vehicle=vehicle.load("remus100"), thrust=1.0, time_limit=0.1)])
 
 
 def track(scenario: Scenario, every: int = 1) -> Run:

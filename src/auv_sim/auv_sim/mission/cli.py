@@ -51,6 +51,11 @@ def parser() -> argparse.ArgumentParser:
         help=f"file or one of: {shipped['vehicles']}",
     )
     p.add_argument(
+        "--believed",
+        metavar="FILE",
+        help="the hull as the nodes know it, where the simulator has another (default: --vehicle's)",
+    )
+    p.add_argument(
         "--params", default=plan.DEFAULT_PARAMS, metavar="FILE", help=f"file or one of: {shipped['params']}"
     )
     p.add_argument(

@@ -33,6 +33,7 @@ class Options:
 
     mission: str = DEFAULT_MISSION
     vehicle: str = DEFAULT_VEHICLE
+    believed: str | None = None
     params: str = DEFAULT_PARAMS
     current: tuple[float, float] | None = None
     initial: tuple[float, float, float] | None = None
@@ -68,6 +69,7 @@ class Plan:
     parameters: dict[str, Any]
     sources: dict[str, Path]
     verdicts: Verdicts
+    believed: Vehicle
 
     @property
     def lockstep(self) -> bool:
@@ -100,6 +102,7 @@ class Plan:
             guidance=self.parameters[topics.GUIDANCE].guidance,
             observer=self.parameters[topics.OBSERVER].observer,
             autopilot=self.parameters[topics.AUTOPILOT].autopilot,
+            controller_vehicle=self.believed,
         )
 
     def write(self, directory: Path) -> Path:
@@ -110,7 +113,7 @@ class Plan:
         """
         directory.mkdir(parents=True)
         here: dict[str, Path] = {}
-        for kind in ("mission", "vehicle", "sea"):
+        for kind in ("mission", "vehicle", "believed", "sea"):
             if kind not in self.sources:
                 continue
             here[kind] = directory / f"{kind}.yaml"
@@ -119,10 +122,12 @@ class Plan:
             copy = directory / file.relative_to(self.mission.source.parent)
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(file, copy)
-        told = {
-            name: dataclasses.replace(settings, **{k: str(here[k]) for k in here if hasattr(settings, k)})
-            for name, settings in self.parameters.items()
-        }
+        told = {}
+        for name, settings in self.parameters.items():
+            its = {k: str(here[k]) for k in here if hasattr(settings, k)}
+            if "vehicle" in its and "believed" in here and name != topics.PLANT:
+                its["vehicle"] = str(here["believed"])
+            told[name] = dataclasses.replace(settings, **its)
         target = directory / "params.yaml"
         yaml_file.dump(params_file.as_ros(told), target)
         return target
@@ -143,8 +148,12 @@ def make(options: Options, directory: Path) -> Plan:
         "vehicle": config_files.find("vehicles", options.vehicle).absolute(),
         "params": config_files.find("params", options.params).absolute(),
     }
-    hull = vehicle.load(str(sources["vehicle"]))
-    mission = mission_file.load(str(sources["mission"]), hull)
+    hull = believed = vehicle.load(str(sources["vehicle"]))
+    if options.believed is not None:
+        sources["believed"] = config_files.find("vehicles", options.believed).absolute()
+        believed = vehicle.load(str(sources["believed"]))
+    known = str(sources.get("believed", sources["vehicle"]))
+    mission = mission_file.load(str(sources["mission"]), believed)
     if not options.no_sim and hull.hull is None:
         raise ConfigurationError(
             f"{sources['vehicle']}: hull",
@@ -158,9 +167,9 @@ def make(options: Options, directory: Path) -> Plan:
         parameters[name] = dataclasses.replace(parameters[name], **timing)
     wishes = parameters[topics.GUIDANCE].with_wishes_of(mission).guidance
     _tell(parameters, topics.GUIDANCE, guidance=wishes, mission_switching=False)
-    _tell(parameters, topics.GUIDANCE, mission=str(sources["mission"]), vehicle=str(sources["vehicle"]))
-    _tell(parameters, topics.OBSERVER, vehicle=str(sources["vehicle"]))
-    _tell(parameters, topics.AUTOPILOT, vehicle=str(sources["vehicle"]))
+    _tell(parameters, topics.GUIDANCE, mission=str(sources["mission"]), vehicle=known)
+    _tell(parameters, topics.OBSERVER, vehicle=known)
+    _tell(parameters, topics.AUTOPILOT, vehicle=known)
     _tell(
         parameters,
         topics.PLANT,
@@ -189,7 +198,7 @@ def make(options: Options, directory: Path) -> Plan:
         raise refusal(mission, verdicts, "--force flies it all the same")
     if options.no_sim:
         del parameters[topics.PLANT]
-    return Plan(options, mission, hull, parameters, sources, verdicts)
+    return Plan(options, mission, hull, parameters, sources, verdicts, believed)
 
 
 def _sea(options: Options, parameters: dict[str, Any], sources: dict[str, Path]) -> Pair:

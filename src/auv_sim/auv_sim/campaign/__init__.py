@@ -1,0 +1,1 @@
+"""Campaigns: many missions with parameters drawn from distributions, flown, kept and summed up."""

@@ -1,0 +1,160 @@
+"""What a campaign shows in a few numbers, with how sure they are."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+
+from auv_sim.campaign import statistics
+from auv_sim.campaign.plan import StudyPlan
+from auv_sim.campaign.statistics import Estimate
+
+#: The figures that the summary tells about, with their units.
+TOLD = {
+    "rms_distance": "m",
+    "largest_distance": "m",
+    "late_rms_distance": "m",
+    "late_largest_distance": "m",
+    "time_to_path": "s",
+    "duration": "s",
+    "rms_heading_error": "deg",
+    "rudder_travel_per_metre": "deg/m",
+    "rms_rudder_rate": "deg/s",
+    "saturated": "",
+    "current_estimate_error": "m/s",
+}
+
+
+@dataclass(frozen=True)
+class Spread:
+    """One figure over all completed flights."""
+
+    mean: Estimate
+    median: Estimate
+    p95: Estimate
+    largest: float
+
+
+@dataclass(frozen=True)
+class Point:
+    """One point of the grids: its values, its flights, and the judged figure there."""
+
+    values: dict[str, Any]
+    runs: int
+    success: Estimate
+    completed: Estimate
+    judged: Estimate
+
+
+@dataclass(frozen=True)
+class Summary:
+    """A whole campaign.
+
+    Attributes:
+        name: of the study.
+        runs: flown.
+        success, completed: shares.
+        figures: by name, over the completed flights.
+        judge: the figure that `points` and `explained` are about.
+        explained: share of its variance that each drawn number explains by itself, the largest first.
+        points: of the grids; empty without any.
+        worst: numbers of the runs to look at: failed ones, then those with the largest judged figure.
+    """
+
+    name: str
+    runs: int
+    success: Estimate
+    completed: Estimate
+    figures: dict[str, Spread]
+    judge: str
+    explained: dict[str, float]
+    points: tuple[Point, ...]
+    worst: tuple[int, ...]
+
+    def to_json(self) -> str:
+        """Strict JSON, indented; NaN becomes null."""
+        return json.dumps(_plain(dataclasses.asdict(self)), indent=2, allow_nan=False) + "\n"
+
+
+def summarise(plan: StudyPlan, table: pa.Table) -> Summary:
+    """Sum up a campaign.
+
+    Args:
+        plan: the study.
+        table: its runs in order, as `store.Store.finish` gives them.
+    """
+    study = plan.study
+    completed = column(table, "completed").astype(bool)
+    success = column(table, "success").astype(bool)
+    judged = column(table, study.judge)
+    figures = {
+        name: _spread(column(table, name)[completed], study.seed)
+        for name in dict.fromkeys((*TOLD, study.judge))
+    }
+    drawn = [name for name in numeric(plan) if name not in plan.grids] + [
+        name for name in numeric(plan) if name in plan.grids
+    ]
+    explained = {name: statistics.explained(column(table, name), judged) for name in drawn}
+    order = np.lexsort((column(table, "run"), -np.nan_to_num(judged, nan=np.inf), success))
+    return Summary(
+        name=study.name,
+        runs=table.num_rows,
+        success=statistics.share(int(success.sum()), table.num_rows),
+        completed=statistics.share(int(completed.sum()), table.num_rows),
+        figures=figures,
+        judge=study.judge,
+        explained=dict(sorted(explained.items(), key=lambda item: -np.nan_to_num(item[1]))),
+        points=tuple(_points(plan, success, completed, judged)) if plan.grids else (),
+        worst=tuple(int(run) for run in order[:5]),
+    )
+
+
+def column(table: pa.Table, name: str) -> Any:
+    """A column as an array; what is missing is NaN."""
+    return table.column(name).to_numpy()
+
+
+def numeric(plan: StudyPlan) -> list[str]:
+    """The varied parameters whose values are numbers."""
+    return [name for name, distribution in plan.study.vary.items() if distribution.is_numeric]
+
+
+def _points(plan: StudyPlan, success: Any, completed: Any, judged: Any) -> list[Point]:
+    points = []
+    for number, values in enumerate(plan.points):
+        mine = slice(number, None, len(plan.points))
+        runs = len(success[mine])
+        points.append(
+            Point(
+                values=dict(zip(plan.grids, values, strict=True)),
+                runs=runs,
+                success=statistics.share(int(success[mine].sum()), runs),
+                completed=statistics.share(int(completed[mine].sum()), runs),
+                judged=statistics.mean(judged[mine][completed[mine]]),
+            )
+        )
+    return points
+
+
+def _spread(values: Any, seed: int) -> Spread:
+    known = values[np.isfinite(values)]
+    return Spread(
+        mean=statistics.mean(known),
+        median=statistics.quantile(known, 0.5, seed),
+        p95=statistics.quantile(known, 0.95, seed),
+        largest=float(known.max()) if known.size else math.nan,
+    )
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,0 +1,218 @@
+"""`scripts/campaign.py`: fly a study, go on with one that was interrupted, fly one of its runs again."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shlex
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
+from rich.table import Table
+
+from auv_msgs_py.errors import ConfigurationError, SuiteError
+from auv_path_following import config_files
+from auv_sim.batch import engine
+from auv_sim.batch.compiled import COMPILED
+from auv_sim.campaign import pictures, runner
+from auv_sim.campaign.plan import StudyPlan
+from auv_sim.campaign.statistics import Estimate
+from auv_sim.campaign.store import RESULTS, Store
+from auv_sim.campaign.summary import TOLD, Summary, summarise
+from auv_sim.command_line import EXIT_BAD_INPUT, EXIT_DONE, EXIT_FAILED, EXIT_INTERRUPTED, Parser
+from auv_sim.command_line import console as terminal
+from auv_sim.mission import campaign_replay
+
+_POINTS = 40
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    p = Parser(
+        prog="campaign.py",
+        description="Fly a study: many missions with parameters drawn from distributions or grids.",
+        epilog="Interrupted or killed, the same command goes on where it was.",
+        allow_abbrev=False,
+    )
+    shipped = ", ".join(config_files.shipped("studies"))
+    p.add_argument("study", metavar="STUDY", help=f"file, directory of a campaign, or one of: {shipped}")
+    p.add_argument("--out", type=Path, metavar="DIR", help="campaign directory (default: campaigns/STUDY)")
+    p.add_argument("--workers", type=_count, metavar="N", help="processes (default: one for each core)")
+    p.add_argument("--chunk", type=_count, metavar="N", help="runs that are handed out and kept together")
+    p.add_argument(
+        "--dask", nargs="?", const="", metavar="ADDRESS",
+        help="through Dask: a scheduler such as tcp://host:8786; without an address a cluster on this machine",
+    )  # fmt: skip
+    p.add_argument("--replay-run", type=_number, metavar="K", help="fly run K (from 0) again, and draw it")
+    p.add_argument("--graph", action="store_true", help="with --replay-run: over ROS 2, recorded")
+    p.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
+    return p
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"found '{text}', expected a whole number greater than 0")
+    return int(text)
+
+
+def _number(text: str) -> int:
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"found '{text}', expected the number of a run, from 0")
+    return int(text)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Fly; returns the exit code: 0 done, 1 failed, 2 bad input, 130 interrupted."""
+    options = parser().parse_args(argv)
+    try:
+        if options.graph and options.replay_run is None:
+            raise ConfigurationError("--graph", "without --replay-run", "--replay-run K with it")
+        store = _store(options)
+        if options.replay_run is not None:
+            return campaign_replay.replay(store, options.replay_run, options.graph, terminal(options.quiet))
+        return _fly(store, options)
+    except ConfigurationError as error:
+        print(error, file=sys.stderr)
+        return EXIT_BAD_INPUT
+    except SuiteError as error:
+        print(f"campaign failed: {error}", file=sys.stderr)
+        return EXIT_FAILED
+    except KeyboardInterrupt:
+        again = shlex.join(["python3", "scripts/campaign.py", *(argv if argv is not None else sys.argv[1:])])
+        print(f"\ncampaign interrupted; what was flown is kept. Go on:  {again}", file=sys.stderr)
+        return EXIT_INTERRUPTED
+
+
+def _store(options: argparse.Namespace) -> Store:
+    given = Path(options.study).expanduser()
+    if given.is_dir():
+        return Store(given)
+    plan = StudyPlan(config_files.find("studies", options.study).absolute())
+    return Store((options.out or Path("campaigns") / plan.source.stem).absolute(), plan)
+
+
+def _fly(store: Store, options: argparse.Namespace) -> int:
+    console, plan = terminal(options.quiet), store.plan
+    console.print(
+        f"[bold]{plan.study.name}[/bold]: {plan.runs} flights"
+        + (f", {len(plan.points)} points of the grids" if plan.grids else "")
+        + (f"\n  {plan.study.description}" if plan.study.description else "")
+    )
+    size = options.chunk or (50 if COMPILED and not plan.study.sea else 2)
+    chunks = store.missing(size)
+    if chunks and not store.same_laws:
+        raise ConfigurationError(
+            str(store.directory), "a campaign begun with other laws", "a new directory: --out DIR"
+        )
+    _fly_chunks(store, chunks, options, console)
+    table = store.finish()
+    summary = summarise(plan, table)
+    (store.directory / "summary.json").write_text(summary.to_json(), encoding="utf-8")
+    drawn = pictures.draw(plan, table, summary, store.directory)
+    _show(store, summary, drawn, console)
+    return EXIT_DONE
+
+
+def _fly_chunks(store: Store, chunks: list[range], options: argparse.Namespace, console: Console) -> None:
+    if not chunks:
+        return
+    if not COMPILED:
+        console.print("[yellow]Numba is not installed: this takes about a hundred times as long[/yellow]")
+    else:
+        with console.status("compiling the laws (once for each version of them)"):
+            engine.compile_once()
+    workers = options.workers or os.cpu_count() or 1
+    if options.dask is None:
+        results = runner.on_this_machine(store, chunks, workers)
+    else:
+        results = runner.through_dask(store, chunks, workers, options.dask)
+    total, left = store.plan.runs, sum(map(len, chunks))
+    bar = Progress(
+        TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(),
+        TimeRemainingColumn(), TextColumn("{task.fields[facts]}"), console=console, disable=options.quiet,
+    )  # fmt: skip
+    flown = good = seconds = 0.0
+    began = time.monotonic()
+    with bar:
+        task = bar.add_task("flying", total=total, completed=total - left, facts="starting")
+        for runs, table in results:
+            store.keep(runs, table)
+            flown += len(runs)
+            good += sum(table.column("success").to_pylist())
+            seconds += sum(table.column("duration").to_pylist())
+            wall = time.monotonic() - began
+            facts = (
+                f"success {100 * good / flown:.1f} %  {flown / wall:.1f}/s  x{seconds / wall:.0f} real time"
+            )
+            bar.update(task, advance=len(runs), facts=facts)
+
+
+def _show(store: Store, summary: Summary, drawn: list[Path], console: Console) -> None:
+    console.print(f"\nsuccess    {_percent(summary.success)}\ncompleted  {_percent(summary.completed)}\n")
+    if summary.points:
+        console.print(_points(store.plan, summary))
+    console.print(_figures(summary))
+    told = [f"{name} {100 * value:.0f} %" for name, value in summary.explained.items() if value >= 0.005]
+    if told:
+        console.print(f"what explains {summary.judge} by itself: {', '.join(told[:6])}\n", soft_wrap=True)
+    for path, what in (
+        (store.directory / RESULTS, "every run: its parameters and its figures"),
+        (store.directory / "summary.json", "the figures above, for programs"),
+        *((path, "") for path in drawn),
+    ):
+        console.print(f"  {path}  [dim]{what}[/dim]", soft_wrap=True)
+    place = shlex.quote(str(store.directory))
+    console.print(
+        f"\nFly the worst run again:  python3 scripts/campaign.py {place} --replay-run {summary.worst[0]}",
+        soft_wrap=True,
+    )
+
+
+def _figures(summary: Summary) -> Table:
+    table = Table(title="completed flights, with 95 % confidence intervals", title_justify="left")
+    table.add_column("figure")
+    for heading in ("mean", "median", "95 % of flights below", "largest"):
+        table.add_column(heading, justify="right")
+    for name, unit in (TOLD | {summary.judge: TOLD.get(summary.judge, "")}).items():
+        spread = summary.figures[name]
+        cells = [_estimate(value) for value in (spread.mean, spread.median, spread.p95)]
+        words = name.replace("_", " ")
+        table.add_row(f"{words} \\[{unit}]" if unit else words, *cells, f"{spread.largest:.4g}")
+    return table
+
+
+def _points(plan: StudyPlan, summary: Summary) -> Table:
+    table = Table(title="points of the grids", title_justify="left")
+    for name in plan.grids:
+        table.add_column(name)
+    for heading in ("flights", "success", f"mean {summary.judge.replace('_', ' ')}"):
+        table.add_column(heading, justify="right")
+    best = sorted(summary.points, key=lambda point: (-point.success.value, point.judged.value))
+    shown = summary.points if len(summary.points) <= _POINTS else best[:_POINTS]
+    for point in shown:
+        cells = [
+            f"{value:.4g}" if isinstance(value, float) else str(value) for value in point.values.values()
+        ]
+        table.add_row(*cells, str(point.runs), _percent(point.success), _estimate(point.judged))
+    if len(shown) < len(summary.points):
+        table.caption = f"the best {_POINTS} of {len(summary.points)}; all are in summary.json"
+    return table
+
+
+def _percent(estimate: Estimate) -> str:
+    return f"{100 * estimate.value:.2f} % ({100 * estimate.low:.2f} to {100 * estimate.high:.2f})"
+
+
+def _estimate(estimate: Estimate) -> str:
+    return f"{estimate.value:.4g} ({estimate.low:.4g} to {estimate.high:.4g})"
