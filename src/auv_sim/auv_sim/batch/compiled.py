@@ -61,7 +61,7 @@ def laws_digest() -> str:
 
 
 if COMPILED:
-    # Numba looks at the file of the compiled function only, not at the others whose functions it calls: so the
-    # compiled code of every version of the laws gets a folder of its own.
+    # Numba looks at the file of the compiled function only, not at the others whose functions it calls: so
+    # the compiled code of every version of the laws gets a folder of its own.
     _BASE = os.environ.get("NUMBA_CACHE_DIR") or Path("~/.cache/auv_sim").expanduser()
     numba.config.CACHE_DIR = str(Path(_BASE) / laws_digest())

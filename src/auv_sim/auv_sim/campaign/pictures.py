@@ -10,6 +10,7 @@ import numpy as np
 import pyarrow as pa
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from auv_sim.analysis.plot_style import BLUE, GREEN, GRID, INK, MUTED, ORANGE, RED, style
 from auv_sim.campaign import statistics
@@ -91,6 +92,7 @@ def _distribution(plan: StudyPlan, table: pa.Table, summary: Summary) -> Figure:
         place.hist(values, edges, weights=np.full(values.size, 1.0 / values.size), color=BLUE, alpha=0.35)
         if wide:
             place.set_xscale("log")
+            _plain_ticks(place.xaxis)
         beside = place.twinx()
         beside.plot(np.sort(values), np.arange(1, values.size + 1) / values.size, color=INK, linewidth=1.4)
         beside.set_ylim(0.0, 1.02)
@@ -100,8 +102,15 @@ def _distribution(plan: StudyPlan, table: pa.Table, summary: Summary) -> Figure:
         for at, color, text in ((0.5, GREEN, "median"), (0.95, ORANGE, "95 %")):
             value = float(np.quantile(values, at))
             place.axvline(value, color=color, linewidth=1.4, label=f"{text} {value:.3g}")
-        place.legend(frameon=False, fontsize=9, loc="upper right" if not wide else "center right")
+        place.legend(frameon=False, fontsize=9, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
     return figure
+
+
+def _plain_ticks(axis: Any) -> None:
+    """0.02, 0.05, 0.1 on a logarithmic axis, instead of powers."""
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def _success(plan: StudyPlan, table: pa.Table, summary: Summary, axes: tuple[str, ...]) -> Figure:
@@ -189,6 +198,7 @@ def _sensitivity(plan: StudyPlan, table: pa.Table, summary: Summary, names: list
         place.set_xlabel(label(name), color=INK, fontsize=9)
         if low > 0.0 and high > 10.0 * low:
             place.set_yscale("log")
+            _plain_ticks(place.yaxis)
         place.set_ylim(low if low > 0.0 else 0.0, max(high, low + 1e-9))
     places[1 % len(places)].set_ylabel(figure_label(summary.judge), color=INK)
     for place in places[len(names) + 1 :]:

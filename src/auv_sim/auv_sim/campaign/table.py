@@ -16,9 +16,9 @@ def schema_of(plan: StudyPlan) -> pa.Schema:
     """The columns of a study's table."""
     fields = [pa.field("run", pa.int64())]
     for name, distribution in plan.study.vary.items():
-        kinds = {type(value) for value in distribution.extremes}
-        kind = {float: pa.float64(), bool: pa.bool_()}.get(*kinds) if len(kinds) == 1 else None
-        fields.append(pa.field(name, kind or pa.string()))
+        switches = all(isinstance(value, bool) for value in distribution.extremes)
+        kind = pa.float64() if distribution.is_numeric else pa.bool_() if switches else pa.string()
+        fields.append(pa.field(name, kind))
     fields.append(pa.field("success", pa.bool_()))
     for field in dataclasses.fields(Flights):
         if field.name.startswith("subpath_"):

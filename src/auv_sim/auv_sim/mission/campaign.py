@@ -52,7 +52,7 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--chunk", type=_count, metavar="N", help="runs that are handed out and kept together")
     p.add_argument(
         "--dask", nargs="?", const="", metavar="ADDRESS",
-        help="through Dask: a scheduler such as tcp://host:8786; without an address a cluster on this machine",
+        help="through Dask: a scheduler such as tcp://host:8786; without one a cluster on this machine",
     )  # fmt: skip
     p.add_argument("--replay-run", type=_number, metavar="K", help="fly run K (from 0) again, and draw it")
     p.add_argument("--graph", action="store_true", help="with --replay-run: over ROS 2, recorded")
