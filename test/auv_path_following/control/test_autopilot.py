@@ -15,6 +15,7 @@ from auv_msgs_py.types import STOP, Navigation, Reference
 from auv_path_following import config_files, vehicle
 from auv_path_following.control.autopilot import HeadingAutopilot
 from auv_path_following.control.controller import ControllerOutput
+from auv_path_following.control.derivative import DerivativeConfig
 from auv_path_following.parameters import AutopilotParameters, GuidanceParameters, ObserverParameters
 
 _NODES = {
@@ -156,3 +157,32 @@ def test_it_turns_a_simple_ship_onto_its_course():
             r += DT * (-out.command.rudder - r) / 0.5
             psi += DT * r
         assert abs(out.psi_e) < 0.02
+
+
+def test_the_filter_behind_dr_dt_quiets_a_noisy_gyro_and_is_off_by_default():
+    """Both see the same noisy gyro; the clean part is a slow turn."""
+
+    def largest(bandwidth):
+        config = dataclasses.replace(CONFIG, derivative=DerivativeConfig(bandwidth=bandwidth))
+        autopilot = HeadingAutopilot(REMUS, config)
+        autopilot.controller = spy = Spy()
+        for k in range(200):
+            r = 0.01 * math.sin(0.02 * k) + (0.002 if k % 2 else -0.002)
+            autopilot.update(Navigation(0.0, 0.0, 0.0, r), Reference(0.0, 0.0, 6.0), DT if k else 0.0)
+        return max(abs(inputs.r_dot) for inputs in spy.seen[20:])
+
+    assert CONFIG.derivative.bandwidth == 0.0
+    assert largest(0.0) > 0.08  # 0.004 rad/s in 0.05 s
+    assert largest(5.0) < 0.02
+
+
+def test_the_filter_forgets_with_the_mission_and_takes_a_new_bandwidth():
+    autopilot = HeadingAutopilot(REMUS, CONFIG)
+    autopilot.configure(dataclasses.replace(CONFIG, derivative=DerivativeConfig(bandwidth=5.0)))
+    autopilot.controller = spy = Spy()
+    for k in range(10):
+        autopilot.update(Navigation(0.0, 0.0, 0.0, 0.1 * k), Reference(0.0, 0.0, 6.0), DT if k else 0.0)
+    assert 0.0 < spy.seen[-1].r_dot < 2.0
+    autopilot.update(Navigation(0.0, 0.0, 0.0, 1.0), Reference(0.0, 0.0, 0.0), DT)
+    autopilot.update(Navigation(0.0, 0.0, 0.0, 5.0), Reference(0.0, 0.0, 6.0), DT)
+    assert spy.seen[-1].r_dot == 0.0

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 
@@ -140,3 +141,29 @@ def test_a_run_that_never_started_is_no_error() -> None:
     summary = summarise(run, corner_path())
     assert (summary.completed, summary.steps) == (False, 2)
     assert math.isnan(summary.rms_distance)
+
+
+def test_distances_are_those_of_the_true_track() -> None:
+    """The odometry believes to be on the path all the time; the vehicle is half a metre beside it."""
+    on_the_path = run_along(0.0, 0.0)
+    first = on_the_path.s < 1.0
+    told = dataclasses.replace(
+        on_the_path,
+        x_true=on_the_path.x + np.where(first, 0.0, 0.5),
+        y_true=on_the_path.y + np.where(first, 0.5, 0.0),
+    )
+    summary = summarise(told, corner_path())
+    assert summarise(on_the_path, corner_path()).rms_distance == pytest.approx(0.0, abs=1e-9)
+    assert summary.rms_distance == pytest.approx(0.5, rel=0.01)
+    assert summary.navigation_error == pytest.approx(0.5)
+    assert math.isnan(summarise(on_the_path, corner_path()).navigation_error)
+
+
+def test_what_happens_near_a_corner_is_told_apart() -> None:
+    wide = run_along(0.0, 0.0)
+    near = np.hypot(wide.x - 100.0, wide.y) < 10.0
+    far = np.hypot(wide.x - 100.0, wide.y - 150.0) < 10.0
+    out = dataclasses.replace(wide, x=wide.x + np.where(near, 3.0, 0.0) + np.where(far, 1.0, 0.0))
+    summary = summarise(out, corner_path())
+    assert summary.largest_distance == pytest.approx(3.0)
+    assert summary.largest_distance_off_corners == pytest.approx(1.0)

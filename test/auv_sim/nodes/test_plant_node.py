@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import pytest
 from std_msgs.msg import Float64
@@ -57,3 +58,30 @@ def test_the_plant_waits_for_the_mission_and_begins_its_clock_at_one_second(benc
     bench.call("reset")
     stamps = [nanoseconds(message.header.stamp) for message in bench.received["odom"]]
     bench.until(lambda: nanoseconds(bench.received["odom"][-1].header.stamp) < stamps[-1])
+
+
+_BLIND = """
+name: blind
+sensors:
+  water_track: {dropouts: {every: 1, length: 3}}
+  bottom_track: {lock: false}
+"""
+
+
+def test_in_a_sea_the_truth_has_its_own_topic_and_a_blind_log_is_silent(bench: Bench, tmp_path: Path) -> None:
+    file = tmp_path / "blind.yaml"
+    file.write_text(_BLIND, encoding="utf-8")
+    bench.start(RemusPlantNode, hold_until_running=False, speed=20.0, sea=str(file), seed=2)
+    bench.until(lambda: len(bench.received["odom"]) > 200)
+    odometry, truth = bench.received["odom"], bench.received["true_odom"]
+    assert math.isnan(odometry[-1].twist.twist.linear.x)
+    assert math.isfinite(truth[-1].twist.twist.linear.x)
+    assert truth[0].pose.pose.position.x != odometry[0].pose.pose.position.x
+    told = {nanoseconds(message.header.stamp) for message in bench.received["velocity_through_water"]}
+    due = {nanoseconds(message.header.stamp) for message in odometry}
+    assert 20 < len(due - told) < 190
+
+
+def test_without_a_sea_there_is_no_truth_to_tell(bench: Bench) -> None:
+    node = bench.start(RemusPlantNode, hold_until_running=False, speed=20.0)
+    assert topics.TRUE_ODOM not in node.publishers_by_topic

@@ -24,8 +24,7 @@ PER_STEP = {
     "current_estimate": VECTOR, "desired_yaw": FLOAT, "desired_yaw_rate": FLOAT, "path_parameter": FLOAT,
     "path_error": VECTOR, "rudder_cmd": FLOAT, "thrust_cmd": FLOAT, "true_odom": ODOMETRY,
 }  # fmt: skip
-COVARIANCE = np.zeros(36)
-FRAMES = ("map", "auv/base_link")
+COVARIANCE, FRAMES = np.zeros(36), ("map", "auv/base_link")
 
 
 def make(name: str, *values: Any) -> Any:
@@ -100,8 +99,9 @@ def put_row(bag: Bag, truth: Run, k: int, log_ns: int, skip: tuple[str, ...] = (
     """Row k as the suite's nodes put it on the wire: ENU / FLU."""
     stamp = round(truth.t[k] * 1e9)
     row = {field.name: float(getattr(truth, field.name)[k]) for field in dataclasses.fields(Run)}
+    yaw, yaw_true = math.pi / 2 - row["psi"], math.pi / 2 - row["psi_true"]
     messages = {
-        "odom": odometry(stamp, row["y"], row["x"], math.pi / 2 - row["psi"], -row["r"], FRAMES),
+        "odom": odometry(stamp, row["y"], row["x"], yaw, -row["r"], FRAMES),
         "velocity_through_water": through_water(stamp, row["ur"], -row["vr"]),
         "rudder_state": number(row["rudder"]),
         "true_current": stamped(stamp, "map", row["Vy_true"], row["Vx_true"]),
@@ -112,9 +112,7 @@ def put_row(bag: Bag, truth: Run, k: int, log_ns: int, skip: tuple[str, ...] = (
         "path_error": stamped(stamp, "path_frd", row["xe"], row["ye"], row["psi_e"]),
         "rudder_cmd": number(row["rudder_cmd"]),
         "thrust_cmd": number(row["thrust_cmd"]),
-        "true_odom": odometry(
-            stamp, row["y_true"], row["x_true"], math.pi / 2 - row["psi_true"], 0.0, FRAMES
-        ),
+        "true_odom": odometry(stamp, row["y_true"], row["x_true"], yaw_true, 0.0, FRAMES),
     }
     assert set(messages) == set(PER_STEP)
     for topic, message in messages.items():

@@ -72,6 +72,7 @@ def _headline(figure: Figure, summary: MissionSummary, title: str) -> None:
         fact(summary.distance_covered, "{:.1f} m"),
         fact(summary.rms_distance, "rms distance {:.3f} m"),
         fact(summary.largest_distance, "largest {:.2f} m"),
+        fact(summary.navigation_error, "odometry off by {:.2f} m at most"),
         fact(summary.current_estimate_error, "current estimate within {:.4f} m/s"),
     ]
     figure.text(0.05, 0.957, title, fontsize=18, fontweight="bold", color=INK, va="center", parse_math=False)

@@ -15,7 +15,7 @@ from auv_sim.analysis.run import Column, Run
 def cross_track(axes: Axes, time: Column, flown: Run, path: CompositePath) -> None:
     """How far from the path: the geometric distance, and the error that guidance works on, Eq. (20)."""
     style(axes, "distance (m)")
-    distance = path.distance(flown.x, flown.y, flown.subpath(path.n))
+    distance = path.distance(*flown.track, flown.subpath(path.n))
     axes.fill_between(time, distance, color=PATH, alpha=0.6, linewidth=0.0, label="distance to the path")
     _line(axes, time, flown.ye, BLUE, "cross-track error ye (starboard positive)")
     _spread(axes, 0.1)

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.segment import PathPoint
 from auv_sim.analysis.metrics import MissionSummary
-from auv_sim.analysis.plot_style import BLUE, GREEN, HALO, INK, MUTED, PATH, RED, fact, style
+from auv_sim.analysis.plot_style import BLUE, GREEN, HALO, INK, MUTED, ORANGE, PATH, RED, fact, style
 from auv_sim.analysis.run import Run
 
 _TABLE_ROWS = 9
@@ -25,7 +25,10 @@ def track(axes: Axes, flown: Run, path: CompositePath) -> None:
     axes.set_xlabel("east y (m)", color=INK)
     path_x, path_y, _ = path.polyline(1.0)
     axes.plot(path_y, path_x, color=PATH, linewidth=6.0, solid_capstyle="round", label="path")
-    axes.plot(flown.y, flown.x, color=BLUE, linewidth=1.6, label="track")
+    x, y = flown.track
+    if np.isfinite(flown.x_true).any():
+        axes.plot(flown.y, flown.x, color=ORANGE, linewidth=0.8, label="odometry")
+    axes.plot(y, x, color=BLUE, linewidth=1.6, label="track")
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(0.07)
     for k, segment in enumerate(path.segments):
@@ -38,12 +41,12 @@ def track(axes: Axes, flown: Run, path: CompositePath) -> None:
     if flown.steps:
         for row, marker, size, color, label in ((0, "^", 12, GREEN, "start"), (-1, "s", 9, RED, "end")):
             axes.plot(
-                flown.y[row], flown.x[row], marker, color=color, markersize=size, markeredgecolor="white",
+                y[row], x[row], marker, color=color, markersize=size, markeredgecolor="white",
                 zorder=5, linestyle="none", label=label,
             )  # fmt: skip
         _current_arrow(axes, flown)
     axes.legend(
-        loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=4, fontsize=10, frameon=False, borderpad=0.2
+        loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=5, fontsize=10, frameon=False, borderpad=0.2
     )
 
 

@@ -1,0 +1,116 @@
+"""Many flights of one mission as figures: each flight's, and what all of them have in common."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from auv_path_following.paths.composite import CompositePath
+from auv_sim.analysis.metrics import summarise, under_way
+from auv_sim.analysis.run import Run
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One flight, judged by where the vehicle really was.
+
+    Attributes:
+        params: which gains.
+        seed: of the sea.
+        completed: whether the end of the path was reached.
+        duration: s.
+        largest_distance: to the path away from G0 corners, m.
+        largest_at_corners: to the path near them, m; NaN where there is none.
+        rms_distance: to the path, m.
+        navigation_error: largest distance of the odometry from the truth, m.
+        rudder_travel: for each metre covered, deg/m.
+        rudder_rate: rms, deg/s.
+    """
+
+    params: str
+    seed: int
+    completed: bool
+    duration: float
+    largest_distance: float
+    largest_at_corners: float
+    rms_distance: float
+    navigation_error: float
+    rudder_travel: float
+    rudder_rate: float
+
+
+def judge(run: Run, path: CompositePath, params: str, seed: int) -> Trial:
+    """The figures of one flight.
+
+    Args:
+        run: as flown.
+        path: what it followed, NED.
+        params, seed: what it was flown with.
+    """
+    summary = summarise(run, path)
+    flown = under_way(run, path.n)
+    rate = np.degrees(np.diff(flown.rudder)) / np.diff(flown.t)
+    corners = [corner.largest_distance for corner in summary.corners]
+    return Trial(
+        params=params,
+        seed=seed,
+        completed=summary.completed,
+        duration=summary.duration,
+        largest_distance=summary.largest_distance_off_corners,
+        largest_at_corners=max(corners, default=math.nan),
+        rms_distance=summary.rms_distance,
+        navigation_error=summary.navigation_error,
+        rudder_travel=summary.rudder_travel_per_metre,
+        rudder_rate=float(np.sqrt(np.mean(rate**2))) if rate.size else math.nan,
+    )
+
+
+@dataclass(frozen=True)
+class Together:
+    """All flights with one set of gains: medians, and the worst.
+
+    Attributes:
+        params: which gains.
+        flights, completed, within: how many; how many came to the end; how many of those within the limit.
+        median, worst: figure of `Trial` -> its value.
+    """
+
+    params: str
+    flights: int
+    completed: int
+    within: int
+    median: dict[str, float]
+    worst: dict[str, float]
+
+
+FIGURES = (
+    "duration", "largest_distance", "largest_at_corners", "rms_distance", "navigation_error", "rudder_travel",
+    "rudder_rate",
+)  # fmt: skip
+
+
+def together(trials: Sequence[Trial], limit: float) -> list[Together]:
+    """One row for each set of gains, in order of appearance.
+
+    Args:
+        trials: the flights.
+        limit: for `largest_distance`, m.
+    """
+    rows = []
+    for params in dict.fromkeys(trial.params for trial in trials):
+        mine = [trial for trial in trials if trial.params == params]
+        columns = {name: np.array([getattr(trial, name) for trial in mine]) for name in FIGURES}
+        rows.append(
+            Together(
+                params=params,
+                flights=len(mine),
+                completed=sum(trial.completed for trial in mine),
+                within=sum(trial.completed and trial.largest_distance <= limit for trial in mine),
+                median={name: float(np.median(column)) for name, column in columns.items()},
+                worst={name: float(np.max(column)) for name, column in columns.items()},
+            )
+        )
+    return rows
