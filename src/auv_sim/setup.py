@@ -33,6 +33,7 @@ setup(
         "matplotlib",
         "mcap",
         "numpy",
+        "pymavlink",
         "PyYAML",
         "rich",
         "rosbags",
@@ -45,6 +46,9 @@ setup(
             "remus_plant = auv_sim.nodes.plant_node:main",
             "recorder = auv_sim.nodes.recorder_node:main",
             "fault_relay = auv_sim.faults.relay:main",
+            "mavlink_driver = auv_sim.drivers.mavlink_driver:main",
+            "mavlink_emulator = auv_sim.drivers.emulator:main",
+            "check_vehicle = auv_sim.drivers.check_vehicle:main",
         ]
     },
 )

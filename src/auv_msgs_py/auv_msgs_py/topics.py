@@ -9,6 +9,8 @@ OBSERVER = "current_observer"
 GUIDANCE = "ailos_guidance"
 AUTOPILOT = "heading_autopilot"
 RECORDER = "recorder"
+#: Takes the simulator's place in front of a real vehicle.
+MAVLINK_DRIVER = "mavlink_driver"
 
 
 class Topic(NamedTuple):

@@ -13,6 +13,7 @@ from auv_path_following.parameters import (
     NodeParameters,
     ObserverParameters,
 )
+from auv_sim.driver_parameters import MavlinkDriverParameters
 from auv_sim.plant.remus import PlantState
 
 #: Speed through the water with which a simulated vehicle begins, m/s.
@@ -120,4 +121,5 @@ SUITE: dict[str, type[Any]] = {
     topics.GUIDANCE: GuidanceParameters,
     topics.AUTOPILOT: AutopilotParameters,
     topics.RECORDER: RecorderParameters,
+    topics.MAVLINK_DRIVER: MavlinkDriverParameters,
 }

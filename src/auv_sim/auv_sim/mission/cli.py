@@ -7,6 +7,7 @@ import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from auv_msgs_py.errors import ConfigurationError, SuiteError
 from auv_path_following import config_files
@@ -23,9 +24,11 @@ from auv_sim.command_line import (
     whole,
 )
 from auv_sim.command_line import console as terminal
+from auv_sim.drivers.mavlink_link import parse_address
 from auv_sim.mission import launcher, plan, results
 from auv_sim.mission.plan import Options
 from auv_sim.mission.progress import Progress
+from auv_sim.mission.vehicle_driver import DRIVERS
 
 _EXIT = {"complete": EXIT_DONE, "aborted": EXIT_FAILED, "interrupted": EXIT_INTERRUPTED}
 
@@ -88,6 +91,16 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument(
         "--use-sim-time", action="store_true", help="with --no-sim: follow the /clock that somebody publishes"
     )
+    p.add_argument(
+        "--vehicle-driver",
+        choices=tuple(DRIVERS),
+        help="a vehicle behind this driver, not the simulator (emulated, unless --vehicle-address)",
+    )
+    p.add_argument(
+        "--vehicle-address",
+        metavar="ADDRESS",
+        help="with --vehicle-driver: udpin:HOST:PORT to wait there, udpout:HOST:PORT to talk to it",
+    )
     p.add_argument("--out", type=Path, metavar="DIR", help="run directory (default: runs/MISSION-DATE)")
     p.add_argument("--composed", action="store_true", help="all nodes in one process")
     p.add_argument("--namespace", type=ros_namespace, default="/auv", help="of all nodes (default /auv)")
@@ -116,20 +129,26 @@ def _options(argv: Sequence[str] | None) -> Options:
     for name in ("current", "initial"):
         given[name] = tuple(given[name]) if given[name] is not None else None
     options = Options(**given)
-    conflicts = {
-        "--speed": options.speed,
-        "--initial": options.initial,
-        "--current": options.current,
-        "--sea": options.sea,
-        "--seed": options.seed,
-    }
-    if options.no_sim:
+    if options.vehicle_address is not None:
+        if options.vehicle_driver is None:
+            raise ConfigurationError("--vehicle-address", "no --vehicle-driver", "both")
+        parse_address(options.vehicle_address, "--vehicle-address")
+    if options.no_sim and options.vehicle_driver is not None:
+        raise ConfigurationError("--vehicle-driver", "together with --no-sim", "one of them")
+    conflicts: dict[str, Any] = {"--sea": options.sea, "--seed": options.seed}
+    if not options.emulator:
+        conflicts |= {"--speed": options.speed, "--initial": options.initial, "--current": options.current}
+    if not options.simulator:
+        reason = (
+            "--no-sim" if options.no_sim
+            else "--vehicle-address" if options.vehicle_address else "--vehicle-driver"
+        )  # fmt: skip
         for flag, value in conflicts.items():
             if value is not None:
                 raise ConfigurationError(
-                    flag, "together with --no-sim", "it only without, it is for the simulator"
+                    flag, f"together with {reason}", "it only without, it is for the simulator"
                 )
-    elif options.use_sim_time:
+    if options.use_sim_time and (options.simulator or options.emulator):
         raise ConfigurationError(
             "--use-sim-time", "without --no-sim", "both (the simulator always has its own clock)"
         )

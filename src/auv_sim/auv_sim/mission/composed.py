@@ -17,6 +17,7 @@ NODES = {
     topics.GUIDANCE: "auv_path_following.nodes.guidance_node:GuidanceNode",
     topics.AUTOPILOT: "auv_path_following.nodes.heading_autopilot_node:HeadingAutopilotNode",
     topics.PLANT: "auv_sim.nodes.plant_node:RemusPlantNode",
+    topics.MAVLINK_DRIVER: "auv_sim.drivers.mavlink_driver:MavlinkDriverNode",
 }
 
 

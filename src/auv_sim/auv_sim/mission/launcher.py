@@ -16,6 +16,7 @@ from auv_sim.mission.domains import free_domain
 from auv_sim.mission.plan import Plan
 from auv_sim.mission.processes import Child, Children
 from auv_sim.mission.progress import Progress
+from auv_sim.mission.vehicle_driver import EMULATOR, EMULATOR_MODULE
 
 #: Wall time for all nodes to find each other, s.
 _DISCOVERY_BOUND = 60.0
@@ -64,7 +65,7 @@ def fly(plan: Plan, directory: Path, domain: int, progress: Progress) -> Outcome
         MissionFailed: a node died or never came up; nothing is left running.
     """
     environment = {"ROS_DOMAIN_ID": str(domain)}
-    if not plan.options.no_sim or "ROS_AUTOMATIC_DISCOVERY_RANGE" not in os.environ:
+    if plan.options.simulator or "ROS_AUTOMATIC_DISCOVERY_RANGE" not in os.environ:
         environment["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     os.environ.update(environment)
     interrupt = StopRequest()
@@ -97,6 +98,8 @@ def _start_nodes(plan: Plan, children: Children, parameters: Path) -> None:
         "-p",
         f"use_sim_time:={sim_time}",
     ]
+    if plan.emulator is not None:
+        children.start(EMULATOR, EMULATOR_MODULE, plan.emulator)
     names = [name for name in NODES if name in plan.parameters]
     if plan.options.composed:
         children.start(_COMPOSED, "auv_sim.mission.composed", [json.dumps(dict.fromkeys(names, ros))])
@@ -122,6 +125,8 @@ class _Flight:
         refused = self._monitor.start()
         if refused:
             raise MissionFailed(f"the mission could not be started: {refused}")
+        if not self._plan.lockstep:
+            self._monitor.first_stamp = None  # what came before was no mission
         begin = time.monotonic()
         state = self._until_over(begin)
         wall = time.monotonic() - begin
@@ -151,10 +156,10 @@ class _Flight:
         return False
 
     def _vehicle_there(self) -> bool:
-        """Without the simulator: wait for somebody's odometry; False when interrupted."""
+        """Without our simulator: wait for somebody's odometry; False when interrupted."""
         deadline = time.monotonic() + _VEHICLE_BOUND
         topic = f"{self._plan.options.namespace}/{topics.ODOM.name}"
-        while self._plan.options.no_sim and not self._monitor.odometry_seen:
+        while not self._plan.options.simulator and not self._monitor.odometry_seen:
             if self._interrupt.requested:
                 return False
             self._check_children()
@@ -174,7 +179,7 @@ class _Flight:
             m.look(0.1)
             if m.stamp != stamp:
                 moved_at, stamp = time.monotonic(), m.stamp
-            elif not self._plan.options.no_sim and time.monotonic() - moved_at > _STALL_BOUND:
+            elif self._plan.options.simulator and time.monotonic() - moved_at > _STALL_BOUND:
                 raise MissionFailed(
                     f"time stood still at {m.mission_time:.2f} s of the mission for {_STALL_BOUND:g} s"
                 )

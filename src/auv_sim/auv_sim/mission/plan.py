@@ -18,6 +18,7 @@ from auv_path_following.paths import mission_file
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.closed_loop import Scenario
+from auv_sim.mission.vehicle_driver import DRIVERS, tell_driver
 from auv_sim.parameters import SUITE
 from auv_sim.planning.check import Verdicts, check, refusal
 from auv_sim.plant import sea
@@ -42,6 +43,8 @@ class Options:
     switching: str | None = None
     speed: float | None = None
     no_sim: bool = False
+    vehicle_driver: str | None = None
+    vehicle_address: str | None = None
     use_sim_time: bool = False
     out: Path | None = None
     composed: bool = False
@@ -49,6 +52,16 @@ class Options:
     domain: int | None = None
     quiet: bool = False
     force: bool = False
+
+    @property
+    def simulator(self) -> bool:
+        """Whether our simulator is the vehicle."""
+        return not self.no_sim and self.vehicle_driver is None
+
+    @property
+    def emulator(self) -> bool:
+        """Whether an emulated vehicle is started for the driver."""
+        return self.vehicle_driver is not None and self.vehicle_address is None
 
 
 @dataclass(frozen=True)
@@ -61,6 +74,7 @@ class Plan:
         parameters: node name -> settings object, for the nodes that are started.
         sources: what each input was read from: "mission", "vehicle", "params", with a sea "sea" -> path.
         verdicts: what was found when the mission was checked.
+        emulator: command line of the emulated vehicle, None without one.
     """
 
     options: Options
@@ -70,16 +84,18 @@ class Plan:
     sources: dict[str, Path]
     verdicts: Verdicts
     believed: Vehicle
+    emulator: tuple[str, ...] | None = None
 
     @property
     def lockstep(self) -> bool:
         """Whether the simulator waits for the nodes."""
-        return not self.options.no_sim and self.options.speed is None
+        return self.options.simulator and self.options.speed is None
 
     @property
     def use_sim_time(self) -> bool:
         """Whether the nodes follow /clock."""
-        return self.options.use_sim_time or not self.options.no_sim
+        emulated = self.options.emulator and self.options.speed is not None
+        return self.options.use_sim_time or self.options.simulator or emulated
 
     def scenario(self) -> Scenario:
         """The same flight for `closed_loop`.
@@ -87,7 +103,7 @@ class Plan:
         Raises:
             ValueError: there is no simulator in this plan.
         """
-        if self.options.no_sim:
+        if not self.options.simulator:
             raise ValueError("a mission without the simulator has no closed loop")
         plant = self.parameters[topics.PLANT]
         return Scenario(
@@ -154,14 +170,14 @@ def make(options: Options, directory: Path) -> Plan:
         believed = vehicle.load(str(sources["believed"]))
     known = str(sources.get("believed", sources["vehicle"]))
     mission = mission_file.load(str(sources["mission"]), believed)
-    if not options.no_sim and hull.hull is None:
+    if (options.simulator or options.emulator) and hull.hull is None:
         raise ConfigurationError(
             f"{sources['vehicle']}: hull",
             "nothing",
             "the hull's coefficients, or --no-sim: the simulator needs them",
         )
     parameters = params_file.load(sources["params"], SUITE)
-    timing = {"lockstep": not options.no_sim and options.speed is None}
+    timing = {"lockstep": options.simulator and options.speed is None}
     timing["recorded"] = timing["lockstep"]
     for name in parameters:
         parameters[name] = dataclasses.replace(parameters[name], **timing)
@@ -190,21 +206,25 @@ def make(options: Options, directory: Path) -> Plan:
         _tell(parameters, topics.GUIDANCE, guidance=dataclasses.replace(guidance, switching=switching))
     switching = parameters[topics.GUIDANCE].guidance.switching
     current = NO_CURRENT
-    if not options.no_sim:
+    if options.simulator or options.emulator:
         told = parameters[topics.PLANT].current.value
         current = Current(told.Vx + water[0], told.Vy + water[1])
     verdicts = check(mission, hull, current, switching)
     if verdicts.refusals and not options.force:
         raise refusal(mission, verdicts, "--force flies it all the same")
-    if options.no_sim:
-        del parameters[topics.PLANT]
-    return Plan(options, mission, hull, parameters, sources, verdicts, believed)
+    emulator, driver = None, DRIVERS.get(options.vehicle_driver or "")
+    if driver is not None:
+        file = str(sources["vehicle"])
+        emulator = tell_driver(driver, options.vehicle_address, options.speed, file, parameters)
+    for name in {topics.PLANT, *DRIVERS.values()} - {topics.PLANT if options.simulator else driver}:
+        del parameters[name]
+    return Plan(options, mission, hull, parameters, sources, verdicts, believed, emulator)
 
 
 def _sea(options: Options, parameters: dict[str, Any], sources: dict[str, Path]) -> Pair:
     """Tell the simulator its sea, asked for or of the parameter file; returns its mean current, m/s, NED."""
     name = options.sea if options.sea is not None else parameters[topics.PLANT].sea
-    if not name or options.no_sim:
+    if not name or not options.simulator:
         if options.seed is not None:
             raise ConfigurationError("--seed", "without a sea", "--sea with it: nothing else is random")
         return 0.0, 0.0

@@ -1,0 +1,48 @@
+"""The driver's parameters: ROS-free, so that a file is checked before the node starts."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from auv_msgs_py.settings import setting, settings
+from auv_path_following.parameters import NodeParameters
+
+
+@settings
+class MavlinkDriverParameters(NodeParameters):
+    """mavlink_driver."""
+
+    address: str = setting(
+        "udpin:0.0.0.0:14550", "udpin:HOST:PORT waits there for the vehicle, udpout:HOST:PORT talks to it"
+    )
+    vehicle: str = setting(
+        "remus100", "vehicle file, or the name of a shipped one: what full deflection means"
+    )
+    vehicle_system: int = setting(1, "MAVLink system id of the vehicle", ge=1, le=255)
+    system: int = setting(
+        255,
+        "our MAVLink system id; most autopilots obey only the one that their parameters name",
+        ge=1,
+        le=255,
+    )
+    component: int = setting(191, "our MAVLink component id: an onboard computer", ge=1, le=255)
+    turn_axis: Literal["clockwise", "counter-clockwise"] = setting(
+        "clockwise", "which way a positive r axis of MANUAL_CONTROL turns the vehicle"
+    )
+    rudder_servo: int = setting(
+        1, "output of SERVO_OUTPUT_RAW that moves the rudder, for rudder_state; 0 for none", ge=0, le=8
+    )
+    command_timeout: float = setting(
+        1.0, "commands silent for this long: the vehicle is told to stop", unit="s", gt=0.0, le=10.0
+    )
+    link_timeout: float = setting(
+        1.0, "vehicle silent for this long: an error in /diagnostics", unit="s", gt=0.0, le=60.0
+    )
+    clock_speed: float = setting(
+        0.0,
+        "0 for a vehicle; N for an emulator at N times real time: the driver publishes /clock",
+        ge=0.0,
+        le=1000.0,
+    )
+    world_frame: Literal["map", "odom"] = setting("map", "frame id of the odometry, ENU")
+    body_frame: Literal["base_link"] = setting("base_link", "frame id of the vehicle, FLU")

@@ -1,0 +1,225 @@
+"""mavlink_driver: a vehicle that speaks MAVLink over UDP, as the contract wants to see it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from typing import Any
+
+from geometry_msgs.msg import TwistWithCovarianceStamped
+from nav_msgs.msg import Odometry
+from pymavlink.dialects.v20 import common as mavlink
+from rclpy.clock import Clock as RosClock
+from rclpy.clock import ClockType
+from rosgraph_msgs.msg import Clock
+from std_msgs.msg import Float64
+
+from auv_msgs_py import topics
+from auv_msgs_py.conversions import fill_odometry, fill_water_velocity, finite, set_stamp
+from auv_msgs_py.errors import ConfigurationError, MessageRefused
+from auv_msgs_py.runtime import SuiteNode, run_nodes
+from auv_msgs_py.types import STOP, Command, WaterVelocity
+from auv_path_following import vehicle
+from auv_sim.driver_parameters import MavlinkDriverParameters
+from auv_sim.drivers.mavlink_link import MavlinkLink
+from auv_sim.drivers.mavlink_mapping import Limits, heartbeat, manual_control, rudder_of_pulse
+from auv_sim.drivers.mavlink_navigation import Assembly, Attitude, Position
+from auv_sim.drivers.vehicle_time import FollowedClock, OffsetEstimate
+
+#: A command may miss the stop by rounding.
+_ROUNDING = 1e-9
+#: How often the driver empties its socket, looks at its watches, sends its heartbeat and asks for the
+#: vehicle's time, s of ROS time.
+_LISTEN, _LOOK, _HEARTBEAT, _TIMESYNC = 0.005, 0.05, 1.0, 0.5
+#: /clock moves in steps of so much, ns.
+_CLOCK_PERIOD = 20_000_000
+
+
+class MavlinkDriverNode(SuiteNode):
+    """Publishes the contract's vehicle topics and hands on its commands."""
+
+    def __init__(self, **arguments: Any) -> None:
+        super().__init__(topics.MAVLINK_DRIVER, MavlinkDriverParameters, **arguments)
+        p: MavlinkDriverParameters = self.parameters
+        if p.lockstep:
+            raise ConfigurationError(
+                f"{self.get_name()}: parameter lockstep", "true", "false: vehicles never wait"
+            )
+        self.limits = Limits.of(vehicle.load(p.vehicle))
+        self.link = MavlinkLink(p.address, p.system, p.component, f"{self.get_name()}: parameter address")
+        self._time: OffsetEstimate | FollowedClock = (
+            FollowedClock(topics.FIRST_STAMP_NS, p.clock_speed) if p.clock_speed else OffsetEstimate()
+        )
+        self._assembly = Assembly()
+        self._water_boot_ms = 0
+        self._heard_at: int | None = None
+        self._status = ""
+        self._commands: dict[str, tuple[float, int]] = {}
+        self._due = dict.fromkeys((_HEARTBEAT, _TIMESYNC), 0)
+        self._odometry, self._water = Odometry(), TwistWithCovarianceStamped()
+        self._odometry.header.frame_id, self._odometry.child_frame_id = p.world_frame, p.body_frame
+        self._water.header.frame_id = p.body_frame
+        self._publish = {
+            topic: self.advertise(topic).publish
+            for topic in (topics.ODOM, topics.WATER_VELOCITY, topics.RUDDER_STATE)
+        }
+        self._tell_clock = self.advertise(topics.CLOCK).publish if p.clock_speed else None
+        self._clock_message, self._told_time = Clock(), 0
+        self.listen(topics.RUDDER_CMD, lambda message: self._on_command(topics.RUDDER_CMD.name, message))
+        self.listen(topics.THRUST_CMD, lambda message: self._on_command(topics.THRUST_CMD.name, message))
+        self._handlers = {
+            "HEARTBEAT": self._on_heartbeat, "STATUSTEXT": self._on_text, "TIMESYNC": self._on_timesync,
+            "ATTITUDE": self._on_attitude, "LOCAL_POSITION_NED": self._on_position,
+            "ODOMETRY": self._on_water_track, "SERVO_OUTPUT_RAW": self._on_servo,
+        }  # fmt: skip
+        steady = RosClock(clock_type=ClockType.STEADY_TIME)
+        for period, look in ((_LISTEN, self._listen_to_vehicle), (_LOOK, self._look)):
+            self.create_timer(period / max(p.clock_speed, 1.0), look, clock=steady)
+
+    def report(self) -> dict[str, Any]:
+        values = {"vehicle": self._status or "not heard yet", "messages lost": self.link.lost}
+        values |= {"datagrams damaged": self.link.damaged, "vehicle restarts": self._time.restarts}
+        if isinstance(self._time, OffsetEstimate) and self._time.round_trip is not None:
+            values["round trip [ms]"] = f"{self._time.round_trip * 1e-6:.1f}"
+        return values | {f"dropped {what}": count for what, count in self._assembly.dropped.items()}
+
+    def time_ns(self) -> int:
+        """ROS time, also before our own /clock has come round."""
+        if isinstance(self._time, FollowedClock):
+            return self._time.now
+        return int(self.get_clock().now().nanoseconds)
+
+    def close(self) -> None:
+        self.link.send(manual_control(STOP, self.limits, True, self.parameters.vehicle_system))
+        self.link.close()
+
+    # --- from the vehicle
+
+    def _listen_to_vehicle(self) -> None:
+        while datagram := self.link.receive(0.0):
+            for message in self.link.messages(datagram):
+                handler = self._handlers.get(message.get_type())
+                if handler is not None and message.get_srcSystem() == self.parameters.vehicle_system:
+                    self._heard_at = self.time_ns()
+                    try:
+                        handler(message)
+                    except MessageRefused as error:
+                        self.health.refuse(error)
+
+    def _stamp(self, boot_ms: int) -> int:
+        """ROS time of a measurement; a vehicle that was started anew is begun with anew."""
+        boot = boot_ms * 1_000_000
+        if isinstance(self._time, FollowedClock):
+            anew = self._time.heard(boot, time.monotonic_ns())
+            self._tell_time(self._time.now)
+        else:
+            anew = self._time.heard(boot, self.time_ns())
+        if anew:
+            self.get_logger().warning("the vehicle was started anew")
+            self._assembly.reset()
+            self._water_boot_ms = 0
+        return self._time.stamp(boot)
+
+    def _tell_time(self, now: int) -> None:
+        """Publish /clock, not more often than somebody could need it."""
+        if self._tell_clock is not None and now >= self._told_time + _CLOCK_PERIOD:
+            self._told_time = now
+            set_stamp(self._clock_message.clock, now)
+            self._tell_clock(self._clock_message)
+
+    def _on_heartbeat(self, message: Any) -> None:
+        if message.get_srcComponent() != mavlink.MAV_COMP_ID_AUTOPILOT1:
+            return
+        armed = "armed" if message.base_mode & mavlink.MAV_MODE_FLAG_SAFETY_ARMED else "not armed"
+        state = mavlink.enums["MAV_STATE"][message.system_status].name.removeprefix("MAV_STATE_").lower()
+        self._status = f"{state}, {armed}"
+        self.health.warn("armed", "the vehicle is not armed" if armed == "not armed" else "")
+
+    def _on_text(self, message: Any) -> None:
+        self.get_logger().warning(f"the vehicle says: {message.text}")
+
+    def _on_timesync(self, message: Any) -> None:
+        if message.tc1 and isinstance(self._time, OffsetEstimate):
+            self._time.exchanged(message.ts1, message.tc1, self.time_ns())
+
+    def _on_attitude(self, message: Any) -> None:
+        self._stamp(message.time_boot_ms)
+        self._assembly.attitude(Attitude(message.time_boot_ms, message.yaw, message.yawspeed))
+
+    def _on_position(self, message: Any) -> None:
+        self._stamp(message.time_boot_ms)
+        m = message
+        fused = self._assembly.position(Position(m.time_boot_ms, m.x, m.y, m.vx, m.vy))
+        if fused is not None:
+            stamp = self._time.stamp(fused.boot_ms * 1_000_000)
+            fill_odometry(self._odometry, fused.navigation, fused.u, fused.v, stamp)
+            self._publish[topics.ODOM](self._odometry)
+
+    def _on_water_track(self, message: Any) -> None:
+        if message.child_frame_id != mavlink.MAV_FRAME_BODY_FRD:
+            raise MessageRefused("ODOMETRY", f"child_frame_id {message.child_frame_id}", "MAV_FRAME_BODY_FRD")
+        finite(message.vx + message.vy, "ODOMETRY")
+        boot_ms = message.time_usec // 1000
+        stamp = self._stamp(boot_ms)
+        if boot_ms > self._water_boot_ms:
+            self._water_boot_ms = boot_ms
+            fill_water_velocity(self._water, WaterVelocity(message.vx, message.vy), stamp)
+            self._publish[topics.WATER_VELOCITY](self._water)
+
+    def _on_servo(self, message: Any) -> None:
+        if self.parameters.rudder_servo:
+            pulse = getattr(message, f"servo{self.parameters.rudder_servo}_raw")
+            self._publish[topics.RUDDER_STATE](Float64(data=rudder_of_pulse(pulse, self.limits)))
+
+    # --- to the vehicle
+
+    def _on_command(self, topic: str, message: Float64) -> None:
+        lowest, highest = {
+            topics.RUDDER_CMD.name: (-self.limits.rudder, self.limits.rudder),
+            topics.THRUST_CMD.name: (0.0, self.limits.thrust),
+        }[topic]
+        value = finite(message.data, topic)
+        if not lowest - _ROUNDING <= value <= highest + _ROUNDING:
+            raise MessageRefused(topic, f"{value:g}", f"from {lowest:g} to {highest:g}")
+        self._commands[topic] = value, self.time_ns()
+        if topic == topics.THRUST_CMD.name and topics.RUDDER_CMD.name in self._commands:
+            self._send_command()
+
+    def _send_command(self) -> None:
+        """The newest commands; a stop when one of them is missing."""
+        oldest = self.time_ns() - self.parameters.command_timeout * 1e9
+        values = [
+            self._commands.get(topic.name, (0.0, 0)) for topic in (topics.RUDDER_CMD, topics.THRUST_CMD)
+        ]
+        silent = bool(self._commands) and any(at < oldest for _, at in values)
+        self.health.error("commands", "no commands: the vehicle is told to stop" if silent else "")
+        command = STOP if silent else Command(*(value for value, _ in values))
+        clockwise = self.parameters.turn_axis == "clockwise"
+        self.link.send(manual_control(command, self.limits, clockwise, self.parameters.vehicle_system))
+
+    def _look(self) -> None:
+        """What has to happen when nothing else does."""
+        p, now = self.parameters, self.time_ns()
+        if isinstance(self._time, FollowedClock) and self._time.pass_silence(time.monotonic_ns()):
+            self._tell_time(self._time.now)
+        if self._commands and now - max(at for _, at in self._commands.values()) > 1e9 * p.command_timeout:
+            self._send_command()
+        if self._heard_at is not None:
+            silent = now - self._heard_at > p.link_timeout * 1e9
+            self.health.error("link", f"no word from the vehicle for {p.link_timeout:g} s" if silent else "")
+        for period, message in (
+            (_HEARTBEAT, heartbeat()),
+            (_TIMESYNC, mavlink.MAVLink_timesync_message(0, now)),
+        ):
+            if now >= self._due[period] or now < self._due[period] - 2e9 * period:  # or the clock went back
+                self._due[period] = now + round(period * 1e9)
+                self.link.send(message)
+
+
+def main(args: Sequence[str] | None = None) -> int:
+    """The executable `mavlink_driver`."""
+    return run_nodes([MavlinkDriverNode], args)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,144 @@
+"""From a vehicle's time since boot to ROS time. ROS-free; all times in ns.
+
+A vehicle stamps its measurements with the time since its boot. What the suite needs is when they were made
+in ROS time: the offset between the two clocks has to be estimated from messages that take a while to come.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+
+_MS = 1_000_000
+_SECOND = 1_000 * _MS
+#: A vehicle whose time goes back by more than this has been started anew.
+REBOOT = _SECOND
+#: A wrong offset is put right at once beyond this, and below it little by little, so that dt stays true.
+STEP = 250 * _MS
+#: How fast little by little is: a share of the time that passes.
+SLEW = 0.002
+#: How long a good sample counts, and how many time exchanges are compared.
+WINDOW, EXCHANGES = 10 * _SECOND, 20
+
+
+class OffsetEstimate:
+    """ROS time minus time since boot, for a vehicle that lives in real time.
+
+    A message cannot arrive before it was sent, so every arrival is an upper bound, and the least of them is
+    too large by the shortest delay. An exchange of times (TIMESYNC) knows how long it took, and half of it
+    is a better guess of the delay: the quickest of the last exchanges is used, if there are any.
+    """
+
+    def __init__(self) -> None:
+        self.restarts = self.steps = 0
+        self._forget()
+
+    def _forget(self) -> None:
+        self._newest: int | None = None
+        self._applied: int | None = None
+        self._applied_at = 0
+        # Arrivals that no later one undercuts: the first is the least of the window.
+        self._bounds: deque[tuple[int, int]] = deque()
+        self._exchanges: deque[tuple[int, int]] = deque(maxlen=EXCHANGES)
+
+    @property
+    def round_trip(self) -> int | None:
+        """Of the quickest exchange, None without any."""
+        return min(self._exchanges)[0] if self._exchanges else None
+
+    def heard(self, boot: int, now: int) -> bool:
+        """A message with this time arrived now; True when the vehicle has been started anew."""
+        anew = self._newest is not None and boot < self._newest - REBOOT
+        if anew:
+            self.restarts += 1
+            self._forget()
+        self._newest = boot if self._newest is None else max(self._newest, boot)
+        bound = now - boot
+        while self._bounds and self._bounds[-1][1] >= bound:
+            self._bounds.pop()
+        self._bounds.append((now, bound))
+        while self._bounds[0][0] < now - WINDOW or self._bounds[0][0] > now:
+            self._bounds.popleft()
+        self._apply(now)
+        return anew
+
+    def exchanged(self, sent: int, vehicle: int, received: int) -> None:
+        """TIMESYNC: sent and received by us, answered by the vehicle in between at `vehicle`."""
+        offset = (sent + received) // 2 - vehicle
+        if self._bounds and abs(offset - self._bounds[0][1]) < _SECOND:
+            # Otherwise it answers with another clock than it stamps with, say with the time of day.
+            self._exchanges.append((received - sent, offset))
+
+    def _target(self) -> int:
+        return min(self._exchanges)[1] if self._exchanges else self._bounds[0][1]
+
+    def _apply(self, now: int) -> None:
+        target = self._target()
+        if self._applied is None:
+            self._applied = target
+        elif abs(target - self._applied) > STEP:
+            self.steps += 1
+            self._applied = self._bounds[0][1]
+            self._exchanges.clear()
+        else:
+            reach = round(SLEW * max(now - self._applied_at, 0))
+            self._applied += min(max(target - self._applied, -reach), reach)
+        self._applied_at = now
+
+    def stamp(self, boot: int) -> int:
+        """When that was in ROS time. Something must have been heard before."""
+        assert self._applied is not None
+        return boot + self._applied
+
+
+class FollowedClock:
+    """ROS time that follows an emulated vehicle's, for a vehicle that lives faster than real time.
+
+    What the vehicle says moves time on, so a machine that cannot keep the pace makes time slow and nothing
+    else. When the vehicle is silent, time goes on by itself: who waits for the vehicle must notice.
+
+    Args:
+        first: the time to begin with.
+        speed: how many times faster than the wall clock time goes on in silence.
+        patience: silence on the wall clock after which it does.
+    """
+
+    def __init__(self, first: int, speed: float, patience: int = 2 * _SECOND) -> None:
+        self.now = first
+        self.restarts = 0
+        self._speed = speed
+        self._patience = patience
+        self._offset: int | None = None
+        self._newest = 0
+        self._moved_at: int | None = None
+
+    def heard(self, boot: int, wall: int) -> bool:
+        """A message with this time arrived; True when the vehicle has been started anew."""
+        anew = self._offset is not None and boot < self._newest - REBOOT
+        if anew:
+            self.restarts += 1
+        lags = self._offset is not None and boot + self._offset < self.now - REBOOT
+        if self._offset is None or anew or lags:
+            self._offset = self.now - boot
+            self._newest = boot
+        self._newest = max(self._newest, boot)
+        if boot + self._offset > self.now:
+            self.now = boot + self._offset
+        self._moved_at = wall
+        return anew
+
+    def pass_silence(self, wall: int) -> bool:
+        """Look at the wall clock; True when time has moved on in silence."""
+        if self._moved_at is None:
+            self._moved_at = wall - self._patience
+        silence = wall - self._moved_at
+        if silence < self._patience:
+            return False
+        # Never far at once: a machine that was held up is no reason for a jump.
+        self.now += round(self._speed * min(silence - self._patience, _SECOND / 100))
+        self._moved_at = wall - self._patience
+        return True
+
+    def stamp(self, boot: int) -> int:
+        """When that was. Something must have been heard before."""
+        assert self._offset is not None
+        return boot + self._offset

@@ -1,0 +1,58 @@
+"""A vehicle behind a driver in place of the simulator: what the driver is told, and the emulated vehicle."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import socket
+from typing import Any
+
+from auv_msgs_py import topics
+from auv_sim.parameters import PlantParameters
+
+#: What `--vehicle-driver` may say -> the driver's node.
+DRIVERS = {"mavlink": topics.MAVLINK_DRIVER}
+#: The emulated vehicle's name among the mission's processes, and its module.
+EMULATOR, EMULATOR_MODULE = "vehicle_emulator", "auv_sim.drivers.emulator"
+
+
+def tell_driver(
+    driver: str, address: str | None, speed: float | None, vehicle: str, parameters: dict[str, Any]
+) -> tuple[str, ...] | None:
+    """Tell the driver's node where the vehicle is and how time passes.
+
+    Args:
+        driver: the node's name.
+        address: of the vehicle; None for an emulated one.
+        speed: of the emulated vehicle, times real time; None for real time on the wall clock.
+        vehicle: its file.
+        parameters: node name -> settings, changed in place; the emulated vehicle begins as the simulator.
+
+    Returns:
+        The command line of the emulated vehicle, None when `address` is given.
+    """
+    told: dict[str, Any] = {"vehicle": vehicle}
+    emulator = None
+    if address is not None:
+        told["address"] = address
+    else:
+        port = _free_port()
+        told |= {"address": f"udpin:127.0.0.1:{port}", "clock_speed": speed or 0.0}
+        plant: PlantParameters = parameters[topics.PLANT]
+        start, current = plant.initial, plant.current
+        emulator = (
+            "--address", f"udpout:127.0.0.1:{port}",
+            "--vehicle", vehicle,
+            "--initial", *map(repr, (start.x, start.y, math.degrees(start.psi))),
+            "--surge", repr(start.surge),
+            "--current", *map(repr, (current.Vx, current.Vy)),
+            "--speed", repr(speed or 1.0),
+        )  # fmt: skip
+    parameters[driver] = dataclasses.replace(parameters[driver], **told)
+    return emulator
+
+
+def _free_port() -> int:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
