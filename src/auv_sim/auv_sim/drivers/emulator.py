@@ -41,9 +41,9 @@ STEP_MS = 10
 COMMAND_TIMEOUT_MS = 1000
 #: What the vehicle's clock shows when the program starts, ms: it has been on for a while.
 BOOT_MS = 12_340
-#: Faster than real time: a lag of more is not caught up, s of the vehicle's time; a command is overdue after
-#: so long, ms; it is waited for so long, and looked for so often, s of wall time.
-_PATIENCE, _OVERDUE_MS, _WAIT, _LOOK = 0.1, 150, 1.0, 0.001
+#: Faster than real time: a lag of more is not caught up, s of the vehicle's time; how long an answer is
+#: waited for, and how often looked for, s of wall time.
+_PATIENCE, _WAIT, _LOOK = 0.1, 0.25, 0.001
 
 
 class Channel(NamedTuple):
@@ -87,11 +87,6 @@ class Emulator:
         #: What it has said and nobody has fetched yet: (kind of message, message).
         self.said: list[tuple[Channel, Any]] = []
         self._command, self._commanded_at = STOP, -COMMAND_TIMEOUT_MS
-
-    @property
-    def command_overdue(self) -> bool:
-        """Whether somebody who sends commands is late with the next."""
-        return not self.failsafe and self.now_ms - self._commanded_at > _OVERDUE_MS
 
     def hear(self, message: Any) -> None:
         """Take in what came from the driver."""
@@ -176,11 +171,6 @@ class Line:
         due = now + max(0.0, channel.delay + self._dice.uniform(-channel.jitter, channel.jitter))
         heapq.heappush(self._under_way, (due, self._number, item))
 
-    @property
-    def under_way(self) -> bool:
-        """Whether something is still to come out."""
-        return bool(self._under_way)
-
     def take(self, now: float) -> Iterator[Any]:
         """What has come out by `now`, ms."""
         while self._under_way and self._under_way[0][0] <= now:
@@ -191,34 +181,41 @@ def live(emulator: Emulator, link: MavlinkLink, speed: float, loss: float, seed:
     """Let the vehicle live at `speed` times real time, with a share of messages lost both ways.
 
     In real time it never waits for anybody. Faster, every delay of this machine would be `speed` times as
-    long for the vehicle: there its time stands still while a command is overdue, for `_WAIT` at most.
+    long for the vehicle. There its time stands still between a position and the command that answers it, so
+    that only the line's own delays are left; but for `_WAIT` at most, and only while commands come.
     """
     dice = random.Random(seed)  # noqa: S311 - delays, not secrets
     down, up = Line(loss, dice), Line(loss, dice)
-    next_step = heard_at = time.monotonic()
+    next_step = time.monotonic()
+    answer_due = float("-inf")
     while True:
-        while datagram := link.receive(max(next_step - time.monotonic(), 0.0)):
+        wait = next_step - time.monotonic()
+        while datagram := link.receive(max(wait, 0.0)):
             for message in link.messages(datagram):
                 up.put(emulator.now_ms, UPLINK, message)
-            heard_at = time.monotonic()
+                if message.get_type() == "MANUAL_CONTROL":
+                    answer_due = float("-inf")
+            wait = next_step - time.monotonic()
         now = time.monotonic()
         if now < next_step:
             continue  # what was heard is that nobody listens
-        for message in up.take(emulator.now_ms):
-            emulator.hear(message)
-        if speed > 1.0 and emulator.command_overdue and not up.under_way and now - heard_at < _WAIT:
+        if now < answer_due:
             next_step = now + _LOOK
             continue
+        for message in up.take(emulator.now_ms):
+            emulator.hear(message)
         emulator.step()
-        next_step += STEP_MS * 1e-3 / speed
+        next_step += STEP_MS * 1e-3 / (1.0 if emulator.moored else speed)  # nothing is gained by waiting fast
         if speed > 1.0:
             next_step = max(next_step, now - _PATIENCE / speed)
         for channel, message in emulator.said:
             component = WATER_LOG if message.get_type() == "ODOMETRY" else None
-            down.put(emulator.now_ms, channel, link.pack(message, component))
+            down.put(emulator.now_ms, channel, (channel, link.pack(message, component)))
         emulator.said.clear()
-        for data in down.take(emulator.now_ms):
+        for channel, data in down.take(emulator.now_ms):
             link.send_bytes(data)
+            if speed > 1.0 and channel is CHANNELS["position"] and not emulator.failsafe:
+                answer_due = time.monotonic() + _WAIT
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -53,6 +53,10 @@ class OffsetEstimate:
             self._forget()
         self._newest = boot if self._newest is None else max(self._newest, boot)
         bound = now - boot
+        if self._bounds and abs(bound - self._bounds[-1][1]) > REBOOT:
+            # No delay changes that much: somebody has set one of the two clocks.
+            self._bounds.clear()
+            self._exchanges.clear()
         while self._bounds and self._bounds[-1][1] >= bound:
             self._bounds.pop()
         self._bounds.append((now, bound))
@@ -77,8 +81,7 @@ class OffsetEstimate:
             self._applied = target
         elif abs(target - self._applied) > STEP:
             self.steps += 1
-            self._applied = self._bounds[0][1]
-            self._exchanges.clear()
+            self._applied = target
         else:
             reach = round(SLEW * max(now - self._applied_at, 0))
             self._applied += min(max(target - self._applied, -reach), reach)

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import random
 import socket
 from typing import Any
 
 from auv_msgs_py import topics
+from auv_msgs_py.errors import ConfigurationError
 from auv_sim.parameters import PlantParameters
 
 #: What `--vehicle-driver` may say -> the driver's node.
 DRIVERS = {"mavlink": topics.MAVLINK_DRIVER}
+#: Below what DDS uses (from 7400) and what Linux hands out by itself.
+_PORTS = range(6000, 7400)
 #: The emulated vehicle's name among the mission's processes, and its module.
 EMULATOR, EMULATOR_MODULE = "vehicle_emulator", "auv_sim.drivers.emulator"
 
@@ -36,7 +40,7 @@ def tell_driver(
     if address is not None:
         told["address"] = address
     else:
-        port = _free_port()
+        port = free_port()
         told |= {"address": f"udpin:127.0.0.1:{port}", "clock_speed": speed or 0.0}
         plant: PlantParameters = parameters[topics.PLANT]
         start, current = plant.initial, plant.current
@@ -52,7 +56,14 @@ def tell_driver(
     return emulator
 
 
-def _free_port() -> int:
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
+def free_port() -> int:
+    """A UDP port that nobody uses, and that neither DDS nor Linux will hand out before the driver has it."""
+    ports = random.sample(_PORTS, len(_PORTS))
+    for port in ports:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+            try:
+                probe.bind(("127.0.0.1", port))
+            except OSError:
+                continue
+        return port
+    raise ConfigurationError("--vehicle-driver", "no free UDP port", f"one of {_PORTS}")
