@@ -38,8 +38,14 @@ class Bench:
         self._publishers: dict[str, Any] = {}
         self._under_test: list[SuiteNode] = []
 
-    def start(self, make: Callable[..., SuiteNode], **parameters: Any) -> SuiteNode:
-        """Create the node under test and wait until the bench is matched with it."""
+    def start(self, make: Callable[..., SuiteNode], role: str = "", **parameters: Any) -> SuiteNode:
+        """Create the node under test and wait until the bench is matched with it.
+
+        Args:
+            make: the node's class.
+            role: whose place in the table of topics it takes; its own by default.
+            parameters: overrides, with `__` for a dot.
+        """
         if getattr(make, "__name__", "") in _NAVIGATED:
             # The bench's stamps have nothing to do with the clock.
             parameters = {"lateness": 60.0, **parameters}
@@ -47,10 +53,12 @@ class Bench:
         node = make(namespace="/auv", parameter_overrides=overrides, use_global_arguments=False)
         self._under_test.append(node)
         self.executor.add_node(node)
+        role = role or node.get_name()
+        heard = {subscription.topic_name for subscription in node.subscriptions}
         for topic in topics.CONTRACT:
-            if topic.publisher == node.get_name() or topic is topics.DIAGNOSTICS:
+            if topic.publisher == role or topic is topics.DIAGNOSTICS:
                 self._listen(topic)
-            elif node.get_name() in topic.subscribers:
+            elif role in topic.subscribers and node.resolve_topic_name(topic.name) in heard:
                 kind = qos.message_class(topic.type)
                 self._publishers[topic.name] = self.node.create_publisher(
                     kind, topic.name, qos.offered(topic)

@@ -156,6 +156,7 @@ def test_nothing_names_a_machine_or_a_registry() -> None:
         "auv_path_following.nodes.heading_autopilot_node",
         "auv_sim.nodes.plant_node",
         "auv_sim.nodes.recorder_node",
+        "auv_sim.drivers.mavlink_driver",
     ],
 )
 def test_a_node_does_not_pay_for_what_it_does_not_use(module: str) -> None:

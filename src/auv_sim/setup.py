@@ -48,7 +48,6 @@ setup(
             "fault_relay = auv_sim.faults.relay:main",
             "mavlink_driver = auv_sim.drivers.mavlink_driver:main",
             "mavlink_emulator = auv_sim.drivers.emulator:main",
-            "check_vehicle = auv_sim.drivers.check_vehicle:main",
         ]
     },
 )
