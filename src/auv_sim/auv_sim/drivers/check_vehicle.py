@@ -1,0 +1,195 @@
+"""`check_vehicle`: whether what publishes the vehicle's topics keeps the contract, item by item."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from collections.abc import Callable, Sequence
+
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.signals import SignalHandlerOptions
+from rclpy.utilities import remove_ros_args
+
+from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.runtime import StopRequest
+from auv_path_following import vehicle
+from auv_path_following.vehicle import Vehicle
+from auv_sim.command_line import (
+    EXIT_BAD_INPUT,
+    EXIT_DONE,
+    EXIT_FAILED,
+    EXIT_INTERRUPTED,
+    Parser,
+    console,
+    positive,
+    ros_namespace,
+)
+from auv_sim.drivers.check_listener import VehicleListener
+from auv_sim.vehicle_check import report
+from auv_sim.vehicle_check.checks import check, mistakes
+from auv_sim.vehicle_check.samples import Recording
+from auv_sim.vehicle_check.wiggle import END, THRUST_SHARE
+
+#: How long discovery and the first message may take, and how long ROS time may stand still, s of wall time.
+_DISCOVERY, _FIRST, _STILL = 2.0, 15.0, 10.0
+_PERIOD = 0.05
+_CONSENT = "--yes-the-vehicle-may-move"
+
+
+class Interrupted(Exception):
+    """Ctrl-C."""
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    p = Parser(
+        prog="check_vehicle",
+        description="Listen to a vehicle's topics and say, item by item, whether they keep the contract.",
+        epilog="Exit code: 0 nothing failed, 1 something failed, 2 input that cannot be used.",
+        allow_abbrev=False,
+    )
+    p.add_argument(
+        "--namespace", type=ros_namespace, default="/auv", help="of the vehicle's topics (default /auv)"
+    )
+    p.add_argument(
+        "--duration", type=positive, default=10.0, metavar="S", help="how long to listen (default 10 s)"
+    )
+    p.add_argument(
+        "--vehicle",
+        default="remus100",
+        metavar="FILE",
+        help="what the vehicle is: file or shipped name (default remus100)",
+    )
+    p.add_argument(
+        "--wiggle", action="store_true",
+        help="move: a small test of rudder and thrust, half a minute within 40 m; asks first",
+    )  # fmt: skip
+    p.add_argument(_CONSENT, action="store_true", dest="consent", help="the answer to that question")
+    p.add_argument("--json", action="store_true", help="print JSON in place of the table")
+    p.add_argument(
+        "--self-test", action="store_true",
+        help="check the check: simulated vehicles with one mistake each, over ROS 2, nothing else moves",
+    )  # fmt: skip
+    return p
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Check; returns the exit code."""
+    arguments = list(sys.argv[1:] if argv is None else argv)
+    options = parser().parse_args(remove_ros_args(["check_vehicle", *arguments])[1:])
+    try:
+        hull = vehicle.load(options.vehicle)
+        if options.self_test:
+            from auv_sim.drivers.check_self_test import self_test
+
+            return self_test(console(), hull)
+        if options.wiggle:
+            _ask(options.consent)
+        elif options.consent:
+            raise ConfigurationError(_CONSENT, "no --wiggle", "both: without it nothing moves")
+        return _check(options, arguments, hull)
+    except ConfigurationError as error:
+        print(error, file=sys.stderr)
+        return EXIT_BAD_INPUT
+    except (Interrupted, KeyboardInterrupt):
+        print("interrupted: zero commands were sent", file=sys.stderr)
+        return EXIT_INTERRUPTED
+
+
+def _ask(consent: bool) -> None:
+    """The vehicle moves only if a person says so."""
+    if consent:
+        return
+    if not sys.stdin.isatty():
+        raise ConfigurationError("--wiggle", "nobody to ask", f"{_CONSENT} as well, or a terminal")
+    print(
+        f"The vehicle will move for {END:g} s: {THRUST_SHARE:.0%} of its thrust, rudder up to 20 degrees,"
+        " within some 40 m."
+    )
+    if input("Type yes if it may: ").strip().lower() != "yes":
+        raise ConfigurationError("--wiggle", "another answer", "yes")
+
+
+def _check(options: argparse.Namespace, arguments: list[str], hull: Vehicle) -> int:
+    rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
+    stop = StopRequest()
+    node = Node("check_vehicle", start_parameter_services=False)
+    try:
+        listener = VehicleListener(node, options.namespace, hull if options.wiggle else None)
+        recording = _listen(node, listener, options, stop)
+    finally:
+        stop.withdraw()
+        node.destroy_node()
+        rclpy.try_shutdown()
+    verdicts = check(recording, hull)
+    if options.json:
+        print(json.dumps(report.as_dict(verdicts, recording), indent=2))
+    else:
+        out = console()
+        clock = "/clock" if recording.sim_time else "the system's clock"
+        out.print(report.table(verdicts, f"{options.namespace}, {recording.duration:.1f} s by {clock}"))
+        if listener.cut_short:
+            out.print(f"[yellow]the small test was cut short[/yellow]: {listener.cut_short}")
+        out.print(report.conclusion(verdicts))
+    return EXIT_FAILED if mistakes(verdicts) else EXIT_DONE
+
+
+def _listen(
+    node: Node, listener: VehicleListener, options: argparse.Namespace, stop: StopRequest
+) -> Recording:
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+
+    def spin(until: Callable[[], bool], patience: float) -> bool:
+        """Until it is so; False when it is not within `patience` s of wall time."""
+        deadline = time.monotonic() + patience
+        while not until():
+            if stop.requested:
+                raise Interrupted
+            if time.monotonic() > deadline:
+                return False
+            executor.spin_once(timeout_sec=0.01)
+        return True
+
+    recording = listener.recording
+    spin(lambda: bool(recording.odom) and bool(recording.water), _DISCOVERY)
+    sim_time = node.count_publishers("/clock") > 0
+    if sim_time:
+        node.set_parameters([Parameter("use_sim_time", value=True)])
+        spin(lambda: listener.now() > 0.0, _FIRST)
+    if options.wiggle and (others := listener.other_commanders()):
+        raise ConfigurationError(
+            "--wiggle", f"{', '.join(others)} sending commands", "nobody else at the rudder"
+        )
+    spin(lambda: bool(recording.odom), _FIRST)
+    # What came before the clock was known is not judged.
+    for samples in (
+        recording.odom,
+        recording.water,
+        recording.rudder_state,
+        recording.rudder_cmd,
+        recording.thrust_cmd,
+    ):
+        samples.clear()
+    begin = listener.now()
+    try:
+        if options.wiggle and spin(lambda: bool(recording.odom), _FIRST):
+            going, due = True, begin
+            while going:
+                going, due = listener.tick(), due + _PERIOD
+                if not spin(lambda due=due: listener.now() >= due, _STILL):  # type: ignore[misc]
+                    break
+        else:
+            spin(lambda: listener.now() >= begin + options.duration, max(_STILL, 1.5 * options.duration))
+    finally:
+        listener.stop()
+    return listener.finish(begin, sim_time)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
