@@ -46,6 +46,7 @@ setup(
             "remus_plant = auv_sim.nodes.plant_node:main",
             "recorder = auv_sim.nodes.recorder_node:main",
             "fault_relay = auv_sim.faults.relay:main",
+            "check_vehicle = auv_sim.drivers.check_vehicle:main",
             "mavlink_driver = auv_sim.drivers.mavlink_driver:main",
             "mavlink_emulator = auv_sim.drivers.emulator:main",
         ]

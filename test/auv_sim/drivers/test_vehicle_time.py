@@ -64,9 +64,9 @@ def test_the_correction_never_bends_dt_by_more_than_its_share() -> None:
     for _ in range(500):
         vehicle.live(0.02, timesync=True)
         stamps.append(vehicle.estimate.stamp(vehicle.boot))
-    # The first arrivals bring large steps of the estimate; dt of the stamps stays true all the same.
+    # The first second settles; the estimate goes on getting better, and dt stays true all the same.
     steps = [later - earlier for earlier, later in itertools.pairwise(stamps)]
-    assert all(abs(step - 20 * MS) <= 0.02 * 20 * MS for step in steps[5:])
+    assert all(abs(step - 20 * MS) <= 0.05 * 20 * MS + 1 for step in steps[55:])
 
 
 def test_a_restart_is_noticed_and_ros_time_goes_on() -> None:

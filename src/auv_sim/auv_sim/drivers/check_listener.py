@@ -26,6 +26,8 @@ _DIAGONAL = slice(0, 36, 7)
 _BYSTANDERS = {topics.RECORDER, topics.AUTOPILOT, "mission_launcher"}
 #: The small test ends at once without odometry for so long (s), or so far from where it began (m).
 _SILENCE, _FAR = 1.0, 100.0
+#: Without odometry a command is sent so often, s.
+_PERIOD = 0.1
 
 
 _COMMANDS = (topics.RUDDER_CMD, topics.THRUST_CMD)
@@ -51,6 +53,7 @@ class VehicleListener:
         self.node = node
         self.recording = Recording()
         self.cut_short = ""
+        self._answered = 0
         self._namespace = namespace.rstrip("/")
         self._wiggle = Wiggle.of(vehicle) if vehicle is not None else None
         self._begin: float | None = None
@@ -60,7 +63,8 @@ class VehicleListener:
         self._listen(topics.WATER_VELOCITY, self._on_water)
         self._listen(topics.RUDDER_STATE, self._keep(self.recording.rudder_state))
         recording = self.recording
-        for topic, values in zip(_COMMANDS, (recording.rudder_cmd, recording.thrust_cmd), strict=True):
+        values_of = (recording.rudder_cmd, recording.thrust_cmd)
+        for topic, values in zip(_COMMANDS, values_of, strict=True):
             if self._wiggle is None:
                 self._listen(topic, self._keep(values))
             else:
@@ -80,10 +84,10 @@ class VehicleListener:
         self.node.create_subscription(kind, self.name(topic), callback, wanted)
 
     def _on_odometry(self, message: Odometry) -> None:
-        pose, twist = message.pose.pose, message.twist.twist
+        header, pose, twist = message.header, message.pose.pose, message.twist.twist
         q = pose.orientation
         sample = OdometrySample(
-            self.now(), nanoseconds(message.header.stamp) * 1e-9, message.header.frame_id, message.child_frame_id,
+            self.now(), nanoseconds(header.stamp) * 1e-9, header.frame_id, message.child_frame_id,
             pose.position.x, pose.position.y, (q.x, q.y, q.z, q.w),
             twist.linear.x, twist.linear.y, twist.angular.z,
             tuple(message.pose.covariance[_DIAGONAL]), tuple(message.twist.covariance[_DIAGONAL]),
@@ -117,8 +121,9 @@ class VehicleListener:
         return tuple(endpoint for endpoint in found if endpoint.node != self.node.get_name())
 
     def tick(self) -> bool:
-        """Give the next command, 20 times a second of ROS time; False when the small test is over."""
+        """Give the next command; False when the small test is over."""
         assert self._wiggle is not None
+        self._answered = len(self.recording.odom)
         now, odom = self.now(), self.recording.odom
         if self._begin is None:
             self._begin, self._origin = now, odom[-1] if odom else None
@@ -132,6 +137,11 @@ class VehicleListener:
             values.append(Value(now, value))
             publisher.publish(Float64(data=value))
         return seconds < END + FAREWELL
+
+    def due(self) -> bool:
+        """Whether the next command is due: an odometry has come, or none for too long."""
+        last = self.recording.thrust_cmd[-1].received
+        return len(self.recording.odom) > self._answered or not last <= self.now() < last + _PERIOD
 
     def _danger(self, now: float) -> str:
         odom = self.recording.odom

@@ -37,7 +37,6 @@ from auv_sim.vehicle_check.wiggle import END, THRUST_SHARE
 
 #: How long discovery and the first message may take, and how long ROS time may stand still, s of wall time.
 _DISCOVERY, _FIRST, _STILL = 2.0, 15.0, 10.0
-_PERIOD = 0.05
 _CONSENT = "--yes-the-vehicle-may-move"
 
 
@@ -67,7 +66,7 @@ def parser() -> argparse.ArgumentParser:
     )
     p.add_argument(
         "--wiggle", action="store_true",
-        help="move: a small test of rudder and thrust, half a minute within 40 m; asks first",
+        help="move: a small test of rudder and thrust, 20 s within 40 m; asks first",
     )  # fmt: skip
     p.add_argument(_CONSENT, action="store_true", dest="consent", help="the answer to that question")
     p.add_argument("--json", action="store_true", help="print JSON in place of the table")
@@ -179,11 +178,9 @@ def _listen(
     begin = listener.now()
     try:
         if options.wiggle and spin(lambda: bool(recording.odom), _FIRST):
-            going, due = True, begin
-            while going:
-                going, due = listener.tick(), due + _PERIOD
-                if not spin(lambda due=due: listener.now() >= due, _STILL):  # type: ignore[misc]
-                    break
+            # As the autopilot does: a command for each odometry, and in silence of itself.
+            while listener.tick() and spin(listener.due, _STILL):
+                pass
         else:
             spin(lambda: listener.now() >= begin + options.duration, max(_STILL, 1.5 * options.duration))
     finally:

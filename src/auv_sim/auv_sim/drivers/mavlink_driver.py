@@ -18,6 +18,7 @@ from auv_msgs_py import topics
 from auv_msgs_py.conversions import fill_odometry, fill_water_velocity, finite, set_stamp
 from auv_msgs_py.errors import ConfigurationError, MessageRefused
 from auv_msgs_py.runtime import SuiteNode, run_nodes
+from auv_msgs_py.topics import Topic
 from auv_msgs_py.types import STOP, Command, WaterVelocity
 from auv_path_following import vehicle
 from auv_sim.driver_parameters import MavlinkDriverParameters
@@ -52,6 +53,7 @@ class MavlinkDriverNode(SuiteNode):
         )
         self._assembly = Assembly()
         self._water_boot_ms = 0
+        self._told: dict[Topic, int] = {}
         self._heard_at: int | None = None
         self._status = ""
         self._commands: dict[str, tuple[float, int]] = {}
@@ -120,6 +122,16 @@ class MavlinkDriverNode(SuiteNode):
             self._water_boot_ms = 0
         return self._time.stamp(boot)
 
+    def _tell(self, topic: Topic, message: Any, stamp: int) -> None:
+        """Publish a measurement if its stamp can be relied on and does not go back."""
+        if not self._time.settled:
+            return
+        if stamp <= self._told.get(topic, 0):
+            self._assembly.dropped[f"{topic.name} while time was corrected"] += 1
+            return
+        self._told[topic] = stamp
+        self._publish[topic](message)
+
     def _tell_time(self, now: int) -> None:
         """Publish /clock, not more often than somebody could need it."""
         if self._tell_clock is not None and now >= self._told_time + _CLOCK_PERIOD:
@@ -153,7 +165,7 @@ class MavlinkDriverNode(SuiteNode):
         if fused is not None:
             stamp = self._time.stamp(fused.boot_ms * 1_000_000)
             fill_odometry(self._odometry, fused.navigation, fused.u, fused.v, stamp)
-            self._publish[topics.ODOM](self._odometry)
+            self._tell(topics.ODOM, self._odometry, stamp)
 
     def _on_water_track(self, message: Any) -> None:
         if message.child_frame_id != mavlink.MAV_FRAME_BODY_FRD:
@@ -164,7 +176,7 @@ class MavlinkDriverNode(SuiteNode):
         if boot_ms > self._water_boot_ms:
             self._water_boot_ms = boot_ms
             fill_water_velocity(self._water, WaterVelocity(message.vx, message.vy), stamp)
-            self._publish[topics.WATER_VELOCITY](self._water)
+            self._tell(topics.WATER_VELOCITY, self._water, stamp)
 
     def _on_servo(self, message: Any) -> None:
         if self.parameters.rudder_servo:

@@ -13,9 +13,11 @@ _SECOND = 1_000 * _MS
 #: A vehicle whose time goes back by more than this has been started anew.
 REBOOT = _SECOND
 #: A wrong offset is put right at once beyond this, and below it little by little, so that dt stays true.
-STEP = 250 * _MS
-#: How fast little by little is: a share of the time that passes.
-SLEW = 0.002
+STEP = 500 * _MS
+#: How fast little by little is, as a share of the time that passes: near, and further away than `NEAR`.
+SLEW, FAST, NEAR = 0.002, 0.05, 15 * _MS
+#: So long after it was first heard a vehicle's time can be relied on.
+SETTLING = _SECOND
 #: How long a good sample counts, and how many time exchanges are compared.
 WINDOW, EXCHANGES = 10 * _SECOND, 20
 
@@ -34,6 +36,7 @@ class OffsetEstimate:
 
     def _forget(self) -> None:
         self._newest: int | None = None
+        self._heard_from: int | None = None
         self._applied: int | None = None
         self._applied_at = 0
         # Arrivals that no later one undercuts: the first is the least of the window.
@@ -54,7 +57,7 @@ class OffsetEstimate:
         self._newest = boot if self._newest is None else max(self._newest, boot)
         bound = now - boot
         if self._bounds and abs(bound - self._bounds[-1][1]) > REBOOT:
-            # No delay changes that much: somebody has set one of the two clocks.
+            # No delay changes that much: somebody has set one of the two clocks, or we were asleep.
             self._bounds.clear()
             self._exchanges.clear()
         while self._bounds and self._bounds[-1][1] >= bound:
@@ -73,17 +76,26 @@ class OffsetEstimate:
             self._exchanges.append((received - sent, offset))
 
     def _target(self) -> int:
-        return min(self._exchanges)[1] if self._exchanges else self._bounds[0][1]
+        least = self._bounds[0][1]
+        return min(min(self._exchanges)[1], least) if self._exchanges else least
+
+    @property
+    def settled(self) -> bool:
+        """Whether it has been listened to for long enough."""
+        return self._heard_from is not None and self._applied_at - self._heard_from >= SETTLING
 
     def _apply(self, now: int) -> None:
         target = self._target()
-        if self._applied is None:
+        if self._heard_from is None:
+            self._heard_from = now
+        if self._applied is None or not self.settled:
             self._applied = target
         elif abs(target - self._applied) > STEP:
             self.steps += 1
             self._applied = target
         else:
-            reach = round(SLEW * max(now - self._applied_at, 0))
+            share = SLEW if abs(target - self._applied) <= NEAR else FAST
+            reach = round(share * max(now - self._applied_at, 0))
             self._applied += min(max(target - self._applied, -reach), reach)
         self._applied_at = now
 
@@ -128,6 +140,11 @@ class FollowedClock:
             self.now = boot + self._offset
         self._moved_at = wall
         return anew
+
+    @property
+    def settled(self) -> bool:
+        """Whether the vehicle's time can be relied on: at once, since ours follows it."""
+        return True
 
     def pass_silence(self, wall: int) -> bool:
         """Look at the wall clock; True when time has moved on in silence."""

@@ -20,12 +20,12 @@ from auv_sim.vehicle_check.samples import Array, Motion, Recording, Value
 from auv_sim.vehicle_check.values import convention_of
 from auv_sim.vehicle_check.verdict import Mistake, Verdict, failed, passed, unknown, warned
 
-_STEP = 0.02
+_STEP = 0.05
 #: The rudder must have been asked to move by so much, rad rms.
 _LEAST_RUDDER = math.radians(2.0)
 #: Shares of the file's rudder rate, and dead times (s), that are tried.
-_RATES = (0.1, 0.2, 0.3, 0.45, 0.65, 1.0, 1.6, 3.0)
-_DELAYS = np.arange(0.0, 2.001, _STEP)
+_RATES = (0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.4, 2.0, 3.0)
+_DELAYS = np.arange(0.0, 1.501, 0.02)
 #: Dead time from where on the rudder begins to swing (docs/driver.md), and where the test fails, s.
 GOOD_DELAY, WORST_DELAY = 0.15, 0.4
 _DEGREES = 180.0 / math.pi
@@ -36,13 +36,21 @@ _NEEDED = "rudder commands of some degrees while the vehicle moves: --wiggle, or
 
 
 class Fit(NamedTuple):
-    """How a signal follows the model: a factor, a share of the file's rudder rate, a dead time (s), and the
-    part of the signal that stays unexplained (0 to 1)."""
+    """How a signal follows the model.
+
+    Attributes:
+        gain: its factor.
+        rate: share of the file's rudder rate.
+        delay: dead time, s.
+        unexplained: the part of the signal that stays so, 0 to 1.
+        scale: of the command on its way to the rudder: 1, or what taking degrees for radians makes of it.
+    """
 
     gain: float
     rate: float
     delay: float
     unexplained: float
+    scale: float = 1.0
 
 
 def check_response(recording: Recording, motion: Motion, vehicle: Vehicle) -> list[Verdict]:
@@ -76,7 +84,17 @@ def _held(values: list[Value], t: Array) -> Array:
     return np.where(row >= 0, held[np.maximum(row, 0)], 0.0)
 
 
-def _servo(t: Array, rudder: Array, vehicle: Vehicle, rate: float) -> Array:
+class _Way(NamedTuple):
+    """What may become of a command: its scale, and the share of the file's rudder rate."""
+
+    scale: float
+    rate: float
+
+
+_WAYS = (*(_Way(1.0, rate) for rate in _RATES), _Way(1.0 / _DEGREES, 1.0), _Way(_DEGREES, 1.0))
+
+
+def _servo(rudder: Array, vehicle: Vehicle, rate: float) -> Array:
     servo = RudderServo(vehicle.rudder.max_angle, rate * vehicle.rudder.max_rate)
     angles = np.empty_like(rudder)
     for k, angle in enumerate(rudder):
@@ -86,11 +104,11 @@ def _servo(t: Array, rudder: Array, vehicle: Vehicle, rate: float) -> Array:
     return angles
 
 
-def _best(t: Array, models: dict[float, Array], times: Array, values: Array) -> Fit:
+def _best(t: Array, models: dict[_Way, Array], times: Array, values: Array) -> Fit:
     """The rate, the dead time and the factor that explain a signal best."""
     power = float(values @ values) or 1e-12
     best = Fit(0.0, 1.0, 0.0, 1.0)
-    for rate, model in models.items():
+    for way, model in models.items():
         for delay in _DELAYS:
             expected = np.interp(times - delay, t, model, left=0.0)
             own = float(expected @ expected)
@@ -99,7 +117,7 @@ def _best(t: Array, models: dict[float, Array], times: Array, values: Array) -> 
             gain = float(expected @ values) / own
             rest = 1.0 - gain * float(expected @ values) / power
             if rest < best.unexplained - 1e-6:
-                best = Fit(gain, rate, float(delay), rest)
+                best = Fit(gain, way.rate, float(delay), rest, way.scale)
     return best
 
 
@@ -112,7 +130,7 @@ def _fit_state(recording: Recording, t: Array, rudder: Array, vehicle: Vehicle) 
     times, values = np.array([s.received for s in samples]), np.array([s.value for s in samples])
     if float(np.abs(values).max()) < 1e-4:
         return Fit(0.0, 1.0, 0.0, 1.0)
-    return _best(t, {rate: _servo(t, rudder, vehicle, rate) for rate in _RATES}, times, values)
+    return _best(t, {way: _servo(way.scale * rudder, vehicle, way.rate) for way in _WAYS}, times, values)
 
 
 def _fit_yaw(
@@ -126,14 +144,14 @@ def _fit_yaw(
         return None
     ned = convention_of(recording) is Convention.NED_FRD
     models = {}
-    for rate in _RATES:
+    for way in _WAYS:
         plant = RemusPlant(vehicle, PlantState(0.0, 0.0, 0.0, _speed(recording, t[0]), 0.0, 0.0), _STEP)
-        plant.rudder = RudderServo(vehicle.rudder.max_angle, rate * vehicle.rudder.max_rate)
+        plant.rudder = RudderServo(vehicle.rudder.max_angle, way.rate * vehicle.rudder.max_rate)
         model = np.empty_like(t)
         for k in range(t.size):
             model[k] = plant.state.r if ned else -plant.state.r
-            plant.advance(Command(float(rudder[k]), float(thrust[k])), _STEP)
-        models[rate] = model
+            plant.advance(Command(way.scale * float(rudder[k]), float(thrust[k])), _STEP)
+        models[way] = model
     return _best(t, models, motion.t[inside], motion.r[inside])
 
 
@@ -146,7 +164,7 @@ def _speed(recording: Recording, at: float) -> float:
 def _sign(item: str, state: Fit | None, yaw: Fit | None) -> Verdict:
     expected = "1: positive turns to port, radians"
     told = "; ".join(
-        f"{name} {fit.gain:.2g}"
+        f"{name} {fit.scale * fit.gain:.2g}"
         for name, fit in (("rudder_state", state), ("yaw rate", yaw))
         if fit is not None
     )
@@ -156,7 +174,7 @@ def _sign(item: str, state: Fit | None, yaw: Fit | None) -> Verdict:
     judge = yaw if yaw is not None and yaw.unexplained < 0.5 else state if yaw is None else yaw
     assert judge is not None
     for fit in (state, yaw):
-        if fit is not None and 0.5 / _DEGREES < abs(fit.gain) < 2.0 / _DEGREES and fit.unexplained < 0.5:
+        if fit is not None and fit.scale != 1.0 and fit.unexplained < 0.5 and 0.3 < abs(fit.gain) < 3.0:
             return failed(item, Mistake.RUDDER_DEGREES, told, expected)
     if judge.unexplained > 0.8 or abs(judge.gain) < 0.05:
         return failed(item, Mistake.RUDDER_DEAD, told, expected)
@@ -176,7 +194,7 @@ def _rate_and_delay(
     items: tuple[str, ...], state: Fit | None, yaw: Fit | None, vehicle: Vehicle
 ) -> list[Verdict]:
     fit = state if state is not None and state.unexplained < 0.3 else yaw
-    if fit is None or fit.unexplained > 0.5:
+    if fit is None or fit.unexplained > 0.5 or fit.scale != 1.0:
         return [unknown(item, "the rudder does not follow closely enough", _NEEDED) for item in items]
     file = vehicle.rudder.max_rate_deg_s
     told, expected = f"about {fit.rate * file:.0f} deg/s", f"{file:g} deg/s, from the vehicle's file"

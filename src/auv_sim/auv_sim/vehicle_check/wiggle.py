@@ -11,8 +11,8 @@ from auv_path_following.vehicle import Vehicle
 #: Share of the largest thrust; speed comes before the rudder.
 THRUST_SHARE = 0.6
 #: (until, rudder in degrees): a rest and the run-up, both sides, twice as much, neutral.
-_RUDDER = ((10.0, 0.0), (14.0, 10.0), (20.0, -10.0), (24.0, 20.0), (27.0, 0.0))
-_THRUST_FROM, END = 2.0, 28.0
+_RUDDER = ((7.0, 0.0), (10.0, 10.0), (15.0, -10.0), (18.0, 20.0), (20.0, 0.0))
+_THRUST_FROM, END = 1.0, 21.0
 #: Whoever commands goes on with zeros for so long, s.
 FAREWELL = 1.0
 
