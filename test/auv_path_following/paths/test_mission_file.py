@@ -169,3 +169,33 @@ def test_a_gap_below_a_millimetre_is_allowed(tmp_path):
 def test_a_missing_mission_names_the_shipped_ones():
     with pytest.raises(ConfigurationError, match=r"nowhere\.yaml: .*paper_composite"):
         mission_file.load("nowhere.yaml")
+
+
+LINE = (
+    "version: 1\nname: x\nframe: enu\nthrust: 6\n"
+    "segments: [{line: {start: [0, 0], length: 100, course_deg: 0}}]\n"
+)
+
+
+def test_limits_and_geofence_are_read_in_the_frame_of_the_file(tmp_path):
+    file = tmp_path / "m.yaml"
+    file.write_text(LINE + "limits: {path_distance: 20}\ngeofence: [[-10, -20], [10, -20], [10, 120]]\n")
+    mission = mission_file.load(str(file))
+    assert mission.limits.path_distance == 20.0
+    assert mission.limits.duration == 0.0
+    assert mission.geofence == ((-20.0, -10.0), (-20.0, 10.0), (120.0, 10.0))
+
+
+@pytest.mark.parametrize(
+    ("keys", "where"),
+    [
+        ("geofence: [[0, 0], [1, 1]]", "geofence"),
+        ("limits: {path_distance: -1}", "limits.path_distance"),
+        ("limits: {distance: 1}", "limits.distance"),
+    ],
+)
+def test_wrong_limits_are_refused_with_their_key(tmp_path, keys, where):
+    file = tmp_path / "m.yaml"
+    file.write_text(LINE + keys + "\n")
+    with pytest.raises(ConfigurationError, match=rf"m\.yaml: {where}: "):
+        mission_file.load(str(file))

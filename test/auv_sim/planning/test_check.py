@@ -176,3 +176,14 @@ def test_a_loop_in_one_subpath_crosses_itself():
 def test_what_runs_along_itself_does_not_cross():
     circle = Arc(0.0, 0.0, 20.0, 0.0, 2.0 * math.pi)
     assert crossings([circle, circle]) == []
+
+
+@pytest.mark.parametrize(("width", "refused"), [(30, False), (20, True)])
+def test_a_path_that_leaves_its_geofence_is_refused(tmp_path, width, refused):
+    file = tmp_path / "m.yaml"
+    file.write_text(
+        "version: 1\nname: x\nframe: ned\nthrust: 6\nloiter: {centre: [0, 0], radius: 25, turns: 1}\n"
+        f"geofence: [[-60, -{width}], [60, -{width}], [60, {width}], [-60, {width}]]\n"
+    )
+    found = check(mission_file.load(str(file)), vehicle.load("remus100"))
+    assert [verdict.where for verdict in found.refusals] == (["geofence"] if refused else [])

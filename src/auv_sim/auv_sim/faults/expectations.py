@@ -195,7 +195,7 @@ TABLE: tuple[Expectation, ...] = (
 )
 #: What the tests run: one of each way to notice and of each outcome.
 REPRESENTATIVE = (
-    "odom jump", "odom stop", "velocity_through_water reverse", "current_estimate nan", "desired_yaw nan",
+    "odom jump", "odom stop", "velocity_through_water reverse", "desired_yaw nan",
     "rudder_cmd stop", "thrust_cmd freeze then abort", "heading_autopilot kill", "ailos_guidance kill",
 )  # fmt: skip
 

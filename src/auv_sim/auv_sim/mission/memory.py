@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 
 def of_children(pid: int) -> dict[str, int]:
@@ -23,8 +22,8 @@ def of_children(pid: int) -> dict[str, int]:
     return found
 
 
-def draw(rows: Sequence[tuple[float, dict[str, int]]], file: Path) -> None:
-    """Memory of each process over the steps."""
+def draw(rows: Sequence[tuple[float, dict[str, int]]], warm: float, file: Path) -> None:
+    """How each process has grown since step `warm`."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -32,22 +31,18 @@ def draw(rows: Sequence[tuple[float, dict[str, int]]], file: Path) -> None:
 
     from auv_sim.analysis.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, RED, style
 
+    late = [row for row in rows if row[0] >= warm]
     figure, axes = pyplot.subplots(figsize=(9.0, 4.0), layout="constrained")
-    steps = [row[0] / 1e3 for row in rows]
-    for name, colour in zip(sorted(rows[-1][1]), (BLUE, ORANGE, GREEN, RED, MUTED, INK), strict=False):
-        megabytes: list[Any] = [row[1][name] / 1e3 if name in row[1] else None for row in rows]
-        axes.plot(steps, megabytes, color=colour, linewidth=1.4)
-        axes.annotate(
-            name,
-            (steps[-1], megabytes[-1]),
-            xytext=(6, 0),
-            textcoords="offset points",
-            color=colour,
-            va="center",
-        )
-    style(axes, "resident memory [MB]")
+    for name, colour in zip(sorted(late[-1][1]), (BLUE, ORANGE, GREEN, RED, MUTED, INK), strict=False):
+        known = [(steps / 1e3, held[name]) for steps, held in late if name in held]
+        first = known[0][1]
+        label = f"{name}, {first / 1e3:.1f} MB"
+        axes.plot([x for x, _ in known], [(y - first) / 1e3 for _, y in known], color=colour, label=label)
+    style(axes, "growth of resident memory [MB]")
     axes.set_xlabel("steps [thousand]", color=INK)
-    axes.set_ylim(bottom=0.0)
+    low, high = axes.get_ylim()
+    axes.set_ylim(min(low, -2.0), max(high, 2.0))
     axes.margins(x=0.0)
+    axes.legend(loc="upper left", frameon=False, labelcolor=INK, fontsize=9)
     figure.savefig(file, dpi=120)
     pyplot.close(figure)

@@ -137,7 +137,7 @@ def _soak(arguments: argparse.Namespace) -> int:
         raise launcher.MissionFailed(f"{outcome.state}: {outcome.reason}")
     steps, lost = _counted(directory / "bag", resolved.parameters[topics.PLANT].step)
     grown = growth(watch.rows)
-    memory.draw(watch.rows, directory / "soak.png")
+    memory.draw(watch.rows, _WARM * watch.rows[-1][0], directory / "soak.png")
     table = Table(
         title=f"{outcome.mission_time / 60.0:.1f} minutes of mission, {steps} steps", title_justify="left"
     )

@@ -43,6 +43,26 @@ _MESSAGE_FIXED = MESSAGE_HEAD.size - 9
 _INDEX_HEAD = struct.Struct("<BQHI")
 
 
+class _ChunkIndexes:
+    """The chunk indexes for the end of the file, packed: 7,000 an hour, and memory has to be flat."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        self._packer = zlib.compressobj()
+        self._packed = bytearray()
+
+    def append(self, index: ChunkIndex) -> None:
+        builder = RecordBuilder()
+        index.write(builder)
+        self._packed += self._packer.compress(builder.end())  # type: ignore[no-untyped-call]
+        self.count += 1
+
+    def write(self, builder: RecordBuilder) -> None:
+        """All of them; there is none after it."""
+        self._packed += self._packer.flush()
+        builder.write(zlib.decompress(bytes(self._packed)))
+
+
 class McapFile:
     """Writes one file: `schema`, `channel`, `add` as often as wanted, `flush`, at last `finish`.
 
@@ -62,7 +82,7 @@ class McapFile:
         self._chunk_size = chunk_size
         self._schemas: list[Schema] = []
         self._channels: list[Channel] = []
-        self._chunks: list[ChunkIndex] = []
+        self._chunks = _ChunkIndexes()
         self._metadata: list[MetadataIndex] = []
         self._counts: dict[int, int] = {}
         self.first_ns = self.last_ns = self.messages = 0
@@ -138,18 +158,18 @@ class McapFile:
             attachment_count=0,
             channel_count=len(self._channels),
             channel_message_counts=self._counts,
-            chunk_count=len(self._chunks),
+            chunk_count=self._chunks.count,
             message_count=self.messages,
             message_end_time=self.last_ns,
             message_start_time=self.first_ns,
             metadata_count=len(self._metadata),
             schema_count=len(self._schemas),
         )
-        groups: list[tuple[Opcode, list[McapRecord]]] = [
+        groups: list[tuple[Opcode, list[McapRecord | _ChunkIndexes]]] = [
             (Opcode.SCHEMA, [*self._schemas]),
             (Opcode.CHANNEL, [*self._channels]),
             (Opcode.STATISTICS, [statistics]),
-            (Opcode.CHUNK_INDEX, [*self._chunks]),
+            (Opcode.CHUNK_INDEX, [self._chunks] if self._chunks.count else []),
             (Opcode.METADATA_INDEX, [*self._metadata]),
         ]
         start = self.journal.position

@@ -1,0 +1,45 @@
+"""How the growth of a process is measured, and the memory of the processes themselves."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from auv_sim.mission import memory
+from auv_sim.mission.soak import growth, main
+
+
+def test_what_grows_is_found_and_the_warm_up_does_not_count() -> None:
+    rows = [
+        (steps, {"flat": 100_000 if steps >= 1000 else 50_000, "leak": 80_000 + steps // 10})
+        for steps in map(float, range(0, 10_000, 100))
+    ]
+    flat, leak = growth([(steps, {k: int(v) for k, v in held.items()}) for steps, held in rows])
+    assert (flat.name, leak.name) == ("flat", "leak")
+    assert flat.slope == pytest.approx(0.0, abs=1e-6)
+    assert leak.slope == pytest.approx(100.0)
+
+
+def test_memory_of_a_child_is_read_and_drawn(tmp_path: Path) -> None:
+    sleeper = subprocess.Popen([sys.executable, "-m", "timeit", "-n", "1", "import time; time.sleep(20)"])
+    try:
+        held: dict[str, int] = {}
+        while held.get("timeit", 0) < 1000:  # the interpreter needs more than that once it has begun
+            assert sleeper.poll() is None
+            held = memory.of_children(os.getpid())
+        memory.draw([(0.0, held), (1000.0, held), (2000.0, held)], 0.0, tmp_path / "soak.png")
+        assert (tmp_path / "soak.png").stat().st_size > 1000
+    finally:
+        sleeper.kill()
+        sleeper.wait()
+
+
+def test_a_directory_that_exists_is_never_written_to(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["--out", str(tmp_path)]) == 2
+    assert "--out" in capsys.readouterr().err
