@@ -106,6 +106,12 @@ def test_a_frozen_pose_is_refused_until_it_changes(gate):
     assert fly(gate, [at(1.1), at(1.2)]) == [BELIEVED, BELIEVED]
 
 
+def test_a_pose_that_froze_under_way_is_refused_also_when_the_vehicle_is_stopped_meanwhile(gate):
+    fly(gate, [at(k * DT) for k in range(11)])
+    assert set(fly(gate, [at(1.0)] * 10)) == {BELIEVED}
+    assert REFUSED in fly(gate, [at(1.0)] * 15, under_way=False)
+
+
 def test_after_a_freeze_the_vehicle_may_be_where_it_can_have_come_to(gate):
     fly(gate, [at(k * DT) for k in range(11)])
     fly(gate, [at(1.0)] * 50)

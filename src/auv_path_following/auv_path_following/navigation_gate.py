@@ -138,8 +138,8 @@ class NavigationGate:
         if self._last is None or navigation[:3] != self._last[:3]:
             self._believe(navigation)
             return _BELIEVED
-        # Once frozen it stays so until the pose changes: the vehicle has been stopped since.
-        if under_way or self._still >= bound:
+        # What has begun under way goes on until the pose changes: somebody else may have stopped the vehicle.
+        if under_way or self._still > 0.0:
             self._still += dt
         else:
             self._since = self._still = 0.0
