@@ -84,10 +84,10 @@ class FloorNode(Node):  # type: ignore[misc]
         self._gate = LockstepGate(self, by_topic, recorded)
         for topic in inputs:
             self._listen(topic, self._on_input)
-        if self._leads:
+        if name in topics.MISSION_STATE.subscribers:
             self._listen(topics.MISSION_STATE, self._on_state)
-            if recorded:
-                self._listen(topics.RECORDED_STEPS, self._on_recorded)
+        if self._leads and recorded:
+            self._listen(topics.RECORDED_STEPS, self._on_recorded)
 
     def _advertise(self, topic: Topic) -> Any:
         return self.create_publisher(qos.message_class(topic.type), topic.name, qos.offered(topic))
