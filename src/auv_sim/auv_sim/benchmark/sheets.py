@@ -102,7 +102,12 @@ def _simulation(figures: dict[str, Any]) -> list[Sheet]:
     rows = [("closed_loop, one vehicle", "1.0", f"{scalar:,.0f}", f"{1e6 / scalar:.2f}")]
     for number, rate in figures.get("batch", {}).get("vehicle_steps_per_second", {}).items():
         rows.append(
-            (f"batch, {int(number):,} vehicles", f"{rate / scalar:.1f}", f"{rate:,.0f}", f"{1e6 / rate:.3f}")
+            (
+                f"batch, {int(number):,} vehicle{'s' * (number != '1')}",
+                f"{rate / scalar:.1f}",
+                f"{rate:,.0f}",
+                f"{1e6 / rate:.3f}",
+            )
         )
     heads = ("", "times closed_loop", "vehicle-steps a second", "us a vehicle-step")
     return [Sheet("Simulation without ROS", heads, tuple(rows))]
