@@ -226,7 +226,8 @@ def _show(claims: Sequence[Claim], out: Path, console: Console) -> None:
 def _starts(options: argparse.Namespace, console: Console) -> int:
     work = starts.jobs(options.runs, options.seed, options.laws, options.plants)
     with _progress(console) as bar:
-        results = _tracked(bar, "flying from everywhere", starts.judge, work, options.workers)
+        task = bar.add_task("flying from everywhere", total=len(work))
+        results = starts.study(work, options.workers, lambda: bar.advance(task))
     name = f"starts-seed{options.seed}"
     starts.write(results, options.out / f"{name}.csv")
     table = Table(title=f"{options.runs} random starts, seed {options.seed}", title_justify="left")

@@ -82,7 +82,7 @@ class Flight:
             ConfigurationError: a file or a value that cannot be used.
         """
         mission = _mission()
-        parameters = params_file.load(config_files.find("params", self.params), SUITE)
+        parameters = _parameters(self.params)
         guidance = parameters[topics.GUIDANCE].guidance
         autopilot = parameters[topics.AUTOPILOT].autopilot
         switching = dataclasses.replace(guidance.switching, mode=self.switching)
@@ -122,6 +122,11 @@ def changed(config: T, values: Mapping[str, Any]) -> T:
 @functools.cache
 def _mission() -> Any:
     return mission_file.load(MISSION)
+
+
+@functools.cache
+def _parameters(name: str) -> dict[str, Any]:
+    return params_file.load(config_files.find("params", name), SUITE)
 
 
 @functools.cache

@@ -12,13 +12,12 @@ from typing import Any
 import numpy as np
 
 from auv_path_following.paths import mission_file
-from auv_sim.reproduction.flights import MISSION, PLANTS, Flight, each, fly
+from auv_sim.batch import engine
+from auv_sim.reproduction.flights import MISSION, PLANTS, Flight
 
 #: Starts lie within this distance of the path's start, m; currents are up to this strong, m/s.
 LARGEST_OFFSET = 30.0
 STRONGEST_CURRENT = 0.4
-#: From here on the distance to the path counts, s.
-SETTLED = 120.0
 #: Subpaths from this one on (counted from 0) count for the rms: what follows the corner.
 FIRST_SUBPATH = 2
 
@@ -33,7 +32,10 @@ LAWS: dict[str, dict[str, Any]] = {
 
 @dataclass(frozen=True)
 class Result:
-    """One start. Distances in m, the rate in rad/s; NaN where the flight never came so far."""
+    """One start. Distances in m, the rate in rad/s; NaN where the flight never came so far.
+
+    `distance_after_settling` counts from `auv_sim.batch.tally.SETTLED` on.
+    """
 
     law: str
     plant: str
@@ -101,34 +103,33 @@ def jobs(runs: int, seed: int, laws: Sequence[str], plants: Sequence[str]) -> li
     ]
 
 
-def judge(job: _Job) -> Result:
-    """Fly one start."""
-    flown = fly(job.flight)
-    scenario = job.flight.scenario()
-    path = scenario.path
-    subpath = flown.subpath(path.n)
-    distance = path.distance(flown.x, flown.y, subpath)
-    late = distance[flown.t - flown.t[0] > SETTLED]
-    after = distance[subpath >= FIRST_SUBPATH]
-    rate = np.abs(np.diff(flown.rudder_cmd[:-1])) / scenario.step  # the last command is the stop
-    return Result(
-        job.law,
-        job.plant,
-        job.seed,
-        job.run,
-        bool(flown.s[-1] >= path.n),
-        float(late.max()) if late.size else math.nan,
-        float(np.sqrt(np.mean(after**2))) if after.size else math.nan,
-        float(rate.max()),
-    )
-
-
 def study(work: Sequence[_Job], workers: int, done: Callable[[], None] = lambda: None) -> list[Result]:
-    """Fly all jobs; results in their order."""
-    results: list[Result | None] = [None] * len(work)
-    for index, result in each(judge, work, workers, done):
-        results[index] = result
-    return [result for result in results if result is not None]
+    """Fly all jobs by the batch engine; results in their order.
+
+    Args:
+        work: what to fly.
+        workers: threads.
+        done: called after each flight, from any thread.
+    """
+    flights = engine.fly([job.flight.scenario() for job in work], workers, lambda _: done())
+    # Of equal steps, so the rms over several subpaths weighs each with its time.
+    time = np.nan_to_num(flights.subpath_duration[:, FIRST_SUBPATH:])
+    squares = np.nan_to_num(flights.subpath_rms_distance[:, FIRST_SUBPATH:]) ** 2
+    with np.errstate(invalid="ignore"):
+        rms = np.sqrt((squares * time).sum(axis=1) / time.sum(axis=1))
+    return [
+        Result(
+            job.law,
+            job.plant,
+            job.seed,
+            job.run,
+            bool(flights.completed[k]),
+            float(flights.late_largest_distance[k]),
+            float(rms[k]),
+            math.radians(flights.largest_rudder_rate[k]),
+        )
+        for k, job in enumerate(work)
+    ]
 
 
 def table(results: Sequence[Result]) -> list[Row]:
