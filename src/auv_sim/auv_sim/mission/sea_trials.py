@@ -99,7 +99,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     console = terminal()
     try:
         _directory(options.out)
-        if options.study == "noise":
+        noise = options.study == "noise"
+        _parts(options.page, *((noise_study.BEGIN, noise_study.END) if noise else (BEGIN, END)))
+        if noise:
             with _progress(console) as bar:
                 study = noise_study.fly(
                     options.mission, options.vehicle, options.sea, partial(_tracked, bar, options)
@@ -203,15 +205,21 @@ def _markdown(rows: Sequence[Together]) -> str:
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
-def _renew(page: Path | None, begin: str, end: str, table: str) -> None:
+def _parts(page: Path | None, begin: str, end: str) -> tuple[str, str]:
+    """What stands before and behind the page's table; asked once before the flights, not only after."""
     if page is None:
-        return
+        return "", ""
     text = page.read_text(encoding="utf-8") if page.is_file() else ""
     if begin not in text or end not in text:
         found = f"{page} without a table to renew"
         raise ConfigurationError("--page", found, f"a page with {begin} and {end}")
-    before, after = text.split(begin)[0], text.split(end)[1]
-    page.write_text(f"{before}{begin}\n{table}\n{end}{after}", encoding="utf-8")
+    return text.split(begin)[0], text.split(end)[1]
+
+
+def _renew(page: Path | None, begin: str, end: str, table: str) -> None:
+    before, after = _parts(page, begin, end)
+    if page is not None:
+        page.write_text(f"{before}{begin}\n{table}\n{end}{after}", encoding="utf-8")
 
 
 def _directory(out: Path) -> None:
