@@ -89,7 +89,7 @@ def test_the_listing_is_a_driver(
     file.write_text(listing(), encoding="utf-8")
     python = command_line("x")[0]
     spawn([python, str(file), "--ros-args", "-r", "__ns:=/auv", "-p", f"port:={json_vehicle.port}"])
-    asked = ["--wiggle", "--yes-the-vehicle-may-move", "--json"]
+    asked = ["--wiggle", "--yes-the-vehicle-may-move", "--wait", "90", "--json"]
     checker = spawn(command_line("auv_sim.drivers.check_vehicle", *asked))
     out, err = checker.communicate(timeout=240)  # type: ignore[attr-defined]
     assert out, err

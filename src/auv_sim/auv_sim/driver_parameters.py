@@ -38,6 +38,13 @@ class MavlinkDriverParameters(NodeParameters):
     link_timeout: float = setting(
         1.0, "vehicle silent for this long: an error in /diagnostics", unit="s", gt=0.0, le=60.0
     )
+    settling: float = setting(
+        1.0,
+        "for so long the vehicle's clock is watched before anything is published",
+        unit="s",
+        ge=0.0,
+        le=60.0,
+    )
     clock_speed: float = setting(
         0.0,
         "0 for a vehicle; N for an emulator at N times real time: the driver publishes /clock",

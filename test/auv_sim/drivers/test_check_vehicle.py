@@ -78,18 +78,14 @@ def test_the_driver_passes(
     spawn(command_line("auv_sim.drivers.mavlink_driver", "--ros-args", "-r", "__ns:=/auv", *flags))
     emulator = ["--address", f"udpout:127.0.0.1:{port}", "--speed", "20", "--initial", "0", "0", "25"]
     spawn(command_line("auv_sim.drivers.emulator", *emulator))
-    assert main([*CONSENT, "--json"]) == 0
+    assert main([*CONSENT, "--wait", "90", "--json"]) == 0
     report = json.loads(capsys.readouterr().out)
     assert report["passed"] is True
     assert {item["verdict"] for item in report["items"]} <= {"pass", "warning"}
 
 
 def test_nothing_there_is_a_failure_and_named(domain: int, capsys: pytest.CaptureFixture[str]) -> None:
-    import auv_sim.drivers.check_vehicle as module
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(module, "_FIRST", 0.2)
-        assert main(["--duration", "0.2", "--json"]) == 1
+    assert main(["--duration", "0.2", "--wait", "0.2", "--json"]) == 1
     items = json.loads(capsys.readouterr().out)["items"]
     assert {item["mistake"] for item in items if item["verdict"] == "fail"} == {"MISSING_TOPIC", "DEAF"}
 

@@ -48,7 +48,7 @@ def test_each_kind_of_message_has_its_rate(emulator: Emulator) -> None:
     }  # fmt: skip
 
 
-def test_it_is_moored_until_the_first_thrust(emulator: Emulator) -> None:
+def test_it_lies_still_until_the_first_thrust(emulator: Emulator) -> None:
     said = live(emulator, 2_000, STOP)
     positions = {(m.x, m.y, m.vx, m.vy) for m in said if m.get_type() == "LOCAL_POSITION_NED"}
     assert positions == {(10.0, -5.0, 0.0, 0.0)}

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 from pymavlink.dialects.v20 import common as mavlink
-from std_msgs.msg import Float64
+from std_msgs.msg import Float64, String
 
 from auv_msgs_py import topics
 from auv_msgs_py.conversions import nanoseconds
@@ -57,6 +57,7 @@ def vehicle_and_driver(bench: Bench) -> Iterator[tuple[Vehicle, SuiteNode]]:
         address=f"udpin:127.0.0.1:{port}",
         link_timeout=0.4,
         command_timeout=0.4,
+        settling=0.0,
     )
     vehicle = Vehicle(port)
     yield vehicle, node
@@ -115,6 +116,28 @@ def test_commands_are_handed_on_and_a_missing_one_is_a_stop(
 
     boot_ms = itertools.count(5_050, 50)
     bench.until(diagnosed)
+
+
+@pytest.mark.parametrize("state", ["holding", "complete", "aborted"])
+def test_no_command_moves_the_vehicle_when_the_mission_is_over(
+    bench: Bench, vehicle_and_driver: tuple[Vehicle, SuiteNode], state: str
+) -> None:
+    vehicle, _ = vehicle_and_driver
+    vehicle.measure(5_000)
+    bench.send(topics.MISSION_STATE, String(data=state))
+    bench.spin(0.2)
+    heard: list[Any] = []
+
+    def commanded() -> bool:
+        bench.send(topics.RUDDER_CMD, Float64(data=0.1))
+        bench.send(topics.THRUST_CMD, Float64(data=5.0))
+        heard.extend(vehicle.commands())
+        return len(heard) > 3
+
+    bench.until(commanded)
+    assert {(command.x, command.r) for command in heard} == {(0, 0)}
+    bench.send(topics.MISSION_STATE, String(data="running"))
+    bench.until(lambda: commanded() and heard[-1].x > 0)
 
 
 @pytest.mark.parametrize(("rudder", "thrust"), [(math.nan, 1.0), (0.1, math.inf), (0.7, 1.0), (0.1, -1.0)])

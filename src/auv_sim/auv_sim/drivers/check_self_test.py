@@ -34,6 +34,8 @@ _BEGIN, _STEP = 100.0, 0.05
 #: Wall time for all to find each other, and for one step's messages to arrive, s.
 _DISCOVERY, _ARRIVAL = 30.0, 2.0
 _DEPTH = 100
+#: Somebody who has just been found may miss the first time that he is told.
+_TELLINGS = 10
 
 
 class PlantedDriver:
@@ -173,8 +175,11 @@ def find_all(
         going, message = True, Clock()
         while going:
             set_stamp(message.clock, round(fleet.now * 1e9))
-            tell_time.publish(message)
-            until(fleet.knows_the_time, _ARRIVAL, checking)
+            for _ in range(_TELLINGS):
+                tell_time.publish(message)
+                until(fleet.knows_the_time, _ARRIVAL, checking)
+                if fleet.knows_the_time():
+                    break
             for driver in drivers:
                 driver.live(fleet.now)
             until(fleet.measured, _ARRIVAL, checking)

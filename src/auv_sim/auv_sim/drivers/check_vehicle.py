@@ -35,8 +35,8 @@ from auv_sim.vehicle_check.checks import check, mistakes
 from auv_sim.vehicle_check.samples import Recording
 from auv_sim.vehicle_check.wiggle import END, THRUST_SHARE
 
-#: How long discovery and the first message may take, and how long ROS time may stand still, s of wall time.
-_DISCOVERY, _FIRST, _STILL = 2.0, 15.0, 10.0
+#: How long the discovery of a /clock may take, and how long ROS time may stand still, s of wall time.
+_DISCOVERY, _STILL = 1.0, 10.0
 _CONSENT = "--yes-the-vehicle-may-move"
 
 
@@ -69,6 +69,9 @@ def parser() -> argparse.ArgumentParser:
         help="move: a small test of rudder and thrust, 20 s within 40 m; asks first",
     )  # fmt: skip
     p.add_argument(_CONSENT, action="store_true", dest="consent", help="the answer to that question")
+    p.add_argument(
+        "--wait", type=positive, default=15.0, metavar="S", help="for the first message (default 15 s)"
+    )
     p.add_argument("--json", action="store_true", help="print JSON in place of the table")
     p.add_argument(
         "--self-test", action="store_true",
@@ -156,16 +159,16 @@ def _listen(
         return True
 
     recording = listener.recording
-    spin(lambda: bool(recording.odom) and bool(recording.water), _DISCOVERY)
+    spin(lambda: bool(recording.odom) and bool(recording.water), options.wait)
+    spin(lambda: node.count_publishers("/clock") > 0, _DISCOVERY)
     sim_time = node.count_publishers("/clock") > 0
     if sim_time:
         node.set_parameters([Parameter("use_sim_time", value=True)])
-        spin(lambda: listener.now() > 0.0, _FIRST)
+        spin(lambda: listener.now() > 0.0, options.wait)
     if options.wiggle and (others := listener.other_commanders()):
         raise ConfigurationError(
             "--wiggle", f"{', '.join(others)} sending commands", "nobody else at the rudder"
         )
-    spin(lambda: bool(recording.odom), _FIRST)
     # What came before the clock was known is not judged.
     for samples in (
         recording.odom,
@@ -177,7 +180,7 @@ def _listen(
         samples.clear()
     begin = listener.now()
     try:
-        if options.wiggle and spin(lambda: bool(recording.odom), _FIRST):
+        if options.wiggle and spin(lambda: bool(recording.odom), _STILL):
             # As the autopilot does: a command for each odometry, and in silence of itself.
             while listener.tick() and spin(listener.due, _STILL):
                 pass

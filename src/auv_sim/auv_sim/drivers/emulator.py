@@ -68,7 +68,7 @@ UPLINK = Channel(0, 20.0, 5.0)
 class Emulator:
     """The vehicle, its instruments and its failsafe; time comes in from outside, ms since boot.
 
-    Until the first thrust it is moored: it stays where it is, and says so.
+    Until the first thrust it lies in its launching tube: it stays where it is, and says so.
 
     Args:
         hull: what it is.
@@ -81,7 +81,7 @@ class Emulator:
         self.current = current
         self.limits = Limits.of(hull)
         self.now_ms = BOOT_MS
-        self.moored = True
+        self.in_tube = True
         self.failsafe = True
         self.failsafes = 0
         #: What it has said and nobody has fetched yet: (kind of message, message).
@@ -95,7 +95,7 @@ class Emulator:
             self._command, self._commanded_at = command_of(message, self.limits, clockwise=True), self.now_ms
             self.failsafe = False
             if self._command.thrust > 0.0:
-                self.moored = False
+                self.in_tube = False
         elif kind == "TIMESYNC" and message.tc1 == 0:
             answer = mavlink.MAVLink_timesync_message(self.now_ms * 1_000_000, message.ts1)
             self.said.append((CHANNELS["heartbeat"], answer))
@@ -112,12 +112,12 @@ class Emulator:
             message = mavlink.MAVLink_statustext_message(mavlink.MAV_SEVERITY_CRITICAL, text)
             self.said.append((CHANNELS["heartbeat"], message))
         command: Command = STOP if self.failsafe else self._command
-        if not self.moored:
+        if not self.in_tube:
             self.plant.advance(command, STEP_MS * 1e-3, self.current)
         self.now_ms += STEP_MS
 
     def _heartbeat(self) -> Any:
-        state = mavlink.MAV_STATE_CRITICAL if self.failsafe and not self.moored else mavlink.MAV_STATE_ACTIVE
+        state = mavlink.MAV_STATE_CRITICAL if self.failsafe and not self.in_tube else mavlink.MAV_STATE_ACTIVE
         mode = mavlink.MAV_MODE_FLAG_SAFETY_ARMED | mavlink.MAV_MODE_FLAG_MANUAL_INPUT_ENABLED
         return mavlink.MAVLink_heartbeat_message(
             mavlink.MAV_TYPE_SUBMARINE, mavlink.MAV_AUTOPILOT_GENERIC, mode, 0, state, 3
@@ -125,24 +125,19 @@ class Emulator:
 
     def _attitude(self) -> Any:
         state = self.plant.state
-        psi, r = math.remainder(state.psi, math.tau), 0.0 if self.moored else state.r
+        psi, r = math.remainder(state.psi, math.tau), 0.0 if self.in_tube else state.r
         return mavlink.MAVLink_attitude_message(self.now_ms, 0.0, 0.0, psi, 0.0, 0.0, r)
 
     def _position(self) -> Any:
         state = self.plant.state
-        u, v = (0.0, 0.0) if self.moored else self.plant.ground_velocity(self.current)
+        u, v = (0.0, 0.0) if self.in_tube else self.plant.ground_velocity(self.current)
         cos_psi, sin_psi = math.cos(state.psi), math.sin(state.psi)
         return mavlink.MAVLink_local_position_ned_message(
             self.now_ms, state.x, state.y, 0.0, u * cos_psi - v * sin_psi, u * sin_psi + v * cos_psi, 0.0
         )
 
     def _water(self) -> Any:
-        if self.moored:  # the water flows past it
-            _, _, psi, *_ = self.plant.state
-            ur = -self.current.Vx * math.cos(psi) - self.current.Vy * math.sin(psi)
-            vr = self.current.Vx * math.sin(psi) - self.current.Vy * math.cos(psi)
-        else:
-            ur, vr = self.plant.water_velocity
+        ur, vr = (0.0, 0.0) if self.in_tube else self.plant.water_velocity
         return water_track(self.now_ms * 1000, ur, vr)
 
     def _servo(self) -> Any:
@@ -205,7 +200,9 @@ def live(emulator: Emulator, link: MavlinkLink, speed: float, loss: float, seed:
         for message in up.take(emulator.now_ms):
             emulator.hear(message)
         emulator.step()
-        next_step += STEP_MS * 1e-3 / (1.0 if emulator.moored else speed)  # nothing is gained by waiting fast
+        next_step += (
+            STEP_MS * 1e-3 / (1.0 if emulator.in_tube else speed)
+        )  # nothing is gained by waiting fast
         if speed > 1.0:
             next_step = max(next_step, now - _PATIENCE / speed)
         for channel, message in emulator.said:

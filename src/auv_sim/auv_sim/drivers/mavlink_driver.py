@@ -27,6 +27,8 @@ from auv_sim.drivers.mavlink_mapping import Limits, heartbeat, manual_control, r
 from auv_sim.drivers.mavlink_navigation import Assembly, Attitude, Position
 from auv_sim.drivers.vehicle_time import FollowedClock, OffsetEstimate
 
+#: States of the mission in which no command moves the vehicle, whoever sends it.
+_OVER = ("holding", "complete", "aborted")
 #: A command may miss the stop by rounding.
 _ROUNDING = 1e-9
 #: How often the driver empties its socket, looks at its watches, sends its heartbeat and asks for the
@@ -49,7 +51,9 @@ class MavlinkDriverNode(SuiteNode):
         self.limits = Limits.of(vehicle.load(p.vehicle))
         self.link = MavlinkLink(p.address, p.system, p.component, f"{self.get_name()}: parameter address")
         self._time: OffsetEstimate | FollowedClock = (
-            FollowedClock(topics.FIRST_STAMP_NS, p.clock_speed) if p.clock_speed else OffsetEstimate()
+            FollowedClock(topics.FIRST_STAMP_NS, p.clock_speed)
+            if p.clock_speed
+            else OffsetEstimate(round(p.settling * 1e9))
         )
         self._assembly = Assembly()
         self._water_boot_ms = 0
@@ -57,6 +61,7 @@ class MavlinkDriverNode(SuiteNode):
         self._heard_at: int | None = None
         self._status = ""
         self._commands: dict[str, tuple[float, int]] = {}
+        self._mission_over = False
         self._due = dict.fromkeys((_HEARTBEAT, _TIMESYNC), 0)
         self._odometry, self._water = Odometry(), TwistWithCovarianceStamped()
         self._odometry.header.frame_id, self._odometry.child_frame_id = p.world_frame, p.body_frame
@@ -69,6 +74,7 @@ class MavlinkDriverNode(SuiteNode):
         self._clock_message, self._told_time = Clock(), 0
         self.listen(topics.RUDDER_CMD, lambda message: self._on_command(topics.RUDDER_CMD.name, message))
         self.listen(topics.THRUST_CMD, lambda message: self._on_command(topics.THRUST_CMD.name, message))
+        self.listen(topics.MISSION_STATE, self._on_mission_state)
         self._handlers = {
             "HEARTBEAT": self._on_heartbeat, "STATUSTEXT": self._on_text, "TIMESYNC": self._on_timesync,
             "ATTITUDE": self._on_attitude, "LOCAL_POSITION_NED": self._on_position,
@@ -108,7 +114,7 @@ class MavlinkDriverNode(SuiteNode):
                     except MessageRefused as error:
                         self.health.refuse(error)
 
-    def _stamp(self, boot_ms: int) -> int:
+    def _ros_time_of(self, boot_ms: int) -> int:
         """ROS time of a measurement; a vehicle that was started anew is begun with anew."""
         boot = boot_ms * 1_000_000
         if isinstance(self._time, FollowedClock):
@@ -155,11 +161,11 @@ class MavlinkDriverNode(SuiteNode):
             self._time.exchanged(message.ts1, message.tc1, self.time_ns())
 
     def _on_attitude(self, message: Any) -> None:
-        self._stamp(message.time_boot_ms)
+        self._ros_time_of(message.time_boot_ms)
         self._assembly.attitude(Attitude(message.time_boot_ms, message.yaw, message.yawspeed))
 
     def _on_position(self, message: Any) -> None:
-        self._stamp(message.time_boot_ms)
+        self._ros_time_of(message.time_boot_ms)
         m = message
         fused = self._assembly.position(Position(m.time_boot_ms, m.x, m.y, m.vx, m.vy))
         if fused is not None:
@@ -172,7 +178,7 @@ class MavlinkDriverNode(SuiteNode):
             raise MessageRefused("ODOMETRY", f"child_frame_id {message.child_frame_id}", "MAV_FRAME_BODY_FRD")
         finite(message.vx + message.vy, "ODOMETRY")
         boot_ms = message.time_usec // 1000
-        stamp = self._stamp(boot_ms)
+        stamp = self._ros_time_of(boot_ms)
         if boot_ms > self._water_boot_ms:
             self._water_boot_ms = boot_ms
             fill_water_velocity(self._water, WaterVelocity(message.vx, message.vy), stamp)
@@ -197,15 +203,18 @@ class MavlinkDriverNode(SuiteNode):
         if topic == topics.THRUST_CMD.name and topics.RUDDER_CMD.name in self._commands:
             self._send_command()
 
+    def _on_mission_state(self, message: Any) -> None:
+        self._mission_over = message.data in _OVER
+
     def _send_command(self) -> None:
-        """The newest commands; a stop when one of them is missing."""
+        """The newest commands; a stop when one of them is missing or the mission is over."""
         oldest = self.time_ns() - self.parameters.command_timeout * 1e9
         values = [
             self._commands.get(topic.name, (0.0, 0)) for topic in (topics.RUDDER_CMD, topics.THRUST_CMD)
         ]
         silent = bool(self._commands) and any(at < oldest for _, at in values)
         self.health.error("commands", "no commands: the vehicle is told to stop" if silent else "")
-        command = STOP if silent else Command(*(value for value, _ in values))
+        command = STOP if silent or self._mission_over else Command(*(value for value, _ in values))
         clockwise = self.parameters.turn_axis == "clockwise"
         self.link.send(manual_control(command, self.limits, clockwise, self.parameters.vehicle_system))
 

@@ -28,10 +28,14 @@ class OffsetEstimate:
     A message cannot arrive before it was sent, so every arrival is an upper bound, and the least of them is
     too large by the shortest delay. An exchange of times (TIMESYNC) knows how long it took, and half of it
     is a better guess of the delay: the quickest of the last exchanges is used, if there are any.
+
+    Args:
+        settling: for so long after the first message the estimate moves freely.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, settling: int = SETTLING) -> None:
         self.restarts = self.steps = 0
+        self._settling = settling
         self._forget()
 
     def _forget(self) -> None:
@@ -65,7 +69,7 @@ class OffsetEstimate:
         self._bounds.append((now, bound))
         while self._bounds[0][0] < now - WINDOW or self._bounds[0][0] > now:
             self._bounds.popleft()
-        self._apply(now)
+        self._apply(self._newest)
         return anew
 
     def exchanged(self, sent: int, vehicle: int, received: int) -> None:
@@ -82,12 +86,12 @@ class OffsetEstimate:
     @property
     def settled(self) -> bool:
         """Whether it has been listened to for long enough."""
-        return self._heard_from is not None and self._applied_at - self._heard_from >= SETTLING
+        return self._heard_from is not None and self._applied_at - self._heard_from >= self._settling
 
-    def _apply(self, now: int) -> None:
+    def _apply(self, newest: int) -> None:
         target = self._target()
         if self._heard_from is None:
-            self._heard_from = now
+            self._heard_from = newest
         if self._applied is None or not self.settled:
             self._applied = target
         elif abs(target - self._applied) > STEP:
@@ -95,9 +99,11 @@ class OffsetEstimate:
             self._applied = target
         else:
             share = SLEW if abs(target - self._applied) <= NEAR else FAST
-            reach = round(share * max(now - self._applied_at, 0))
+            reach = round(
+                share * (newest - self._applied_at)
+            )  # in the vehicle's time: arrivals come in bursts
             self._applied += min(max(target - self._applied, -reach), reach)
-        self._applied_at = now
+        self._applied_at = newest
 
     def stamp(self, boot: int) -> int:
         """When that was in ROS time. Something must have been heard before."""

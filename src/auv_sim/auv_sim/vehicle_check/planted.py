@@ -144,7 +144,7 @@ class PlantedVehicle:
         self._count = 0
         self._under_way: deque[tuple[float, Command]] = deque()
         self._command, self._commanded_at = STOP, begin
-        #: Moored until the first thrust.
+        #: In its launching tube until the first thrust.
         self.moving = False
 
     def order(self, command: Command) -> None:
@@ -186,10 +186,7 @@ class PlantedVehicle:
         odom = OdometrySample(
             self._now, self._now, "map", "base_link", x, y, (0.0, 0.0, z, w), u, -v, -state.r
         )
-        cos, sin = math.cos(state.psi), math.sin(state.psi)
-        ur, vr = (state.ur, state.vr) if self.moving else (
-            -CURRENT.Vx * cos - CURRENT.Vy * sin, CURRENT.Vx * sin - CURRENT.Vy * cos
-        )  # fmt: skip
+        ur, vr = (state.ur, state.vr) if self.moving else (0.0, 0.0)
         water = WaterSample(self._now, self._now, "base_link", ur, -vr)
         planted = self.planted
         return planted.odom(odom, self._count), planted.water(water, self._count), self.plant.rudder.angle
