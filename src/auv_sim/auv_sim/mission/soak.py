@@ -143,10 +143,10 @@ def _soak(arguments: argparse.Namespace) -> int:
     )
     table.add_column("process")
     for heading in (
-        "after warm-up [MB]",
-        "at the end [MB]",
-        "slope [kB per 1000 steps]",
-        "[kB per minute flown]",
+        "after warm-up, MB",
+        "at the end, MB",
+        "slope, kB per 1000 steps",
+        "kB per minute flown",
     ):
         table.add_column(heading, justify="right")
     per_minute = 60.0 / resolved.parameters[topics.PLANT].step / 1e3
