@@ -27,7 +27,14 @@ PACKAGES = ("auv_msgs_py", "auv_path_following", "auv_sim")
 EXECUTABLES = {
     "auv_msgs_py": set(),
     "auv_path_following": {"current_observer", "ailos_guidance", "heading_autopilot"},
-    "auv_sim": {"remus_plant", "recorder", "check_vehicle", "mavlink_driver", "mavlink_emulator"},
+    "auv_sim": {
+        "remus_plant",
+        "recorder",
+        "fault_relay",
+        "check_vehicle",
+        "mavlink_driver",
+        "mavlink_emulator",
+    },
 }
 #: Import names that differ from the name to install.
 DISTRIBUTIONS = {"yaml": "PyYAML", "pydantic_core": "pydantic"}

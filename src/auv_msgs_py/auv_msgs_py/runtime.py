@@ -149,10 +149,7 @@ class SuiteNode(Node):  # type: ignore[misc]
         now = self.now()
         still = self._clock_watch.stands_still(now, time.monotonic())
         self.health.error("clock", "the clock stands still: is the simulator dead?" if still else "")
-        floods = self._rates.floods(now)
-        if floods is not None:
-            told = ", ".join(f"{name} comes at {rate:.0f} Hz" for name, rate in floods.items())
-            self.health.warn("flood", f"{told}: more than {self._rates.highest:g} Hz" if told else "")
+        self.health.warn("flood", self._rates.told(now))
 
     def now(self) -> float:
         """ROS time, s."""

@@ -19,6 +19,7 @@ class RateWatch:
         self.highest = highest
         self.counts: Counter[str] = Counter()
         self._at: float | None = None
+        self._told = ""
 
     def floods(self, now: float) -> dict[str, float] | None:
         """The rates (Hz) that are too high, by topic; None while too little time has passed to say."""
@@ -30,6 +31,14 @@ class RateWatch:
             return {}
         rates = {topic: count / (now - before) for topic, count in counts.items()}
         return {topic: rate for topic, rate in rates.items() if rate > self.highest}
+
+    def told(self, now: float) -> str:
+        """The same for people; empty when nothing floods."""
+        rates = self.floods(now)
+        if rates is not None:
+            text = ", ".join(f"{name} comes at {rate:.0f} Hz" for name, rate in rates.items())
+            self._told = f"{text}: more than {self.highest:g} Hz" if text else ""
+        return self._told
 
 
 class ClockWatch:

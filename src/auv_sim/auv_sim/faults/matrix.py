@@ -168,6 +168,11 @@ class Matrix:
                 since = flight.now
             if time.monotonic() > deadline:
                 return False
+        if (
+            row.outcome == "aborts" and not row.then_abort
+        ):  # straight ahead: there has to be a turn to be missed
+            plant = flight.plant
+            flight.until(lambda: plant and abs(plant.command.rudder) < _STRAIGHT, "straight ahead")
         return True
 
     def _back_to_start(self) -> None:
