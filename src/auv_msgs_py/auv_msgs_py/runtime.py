@@ -14,17 +14,17 @@ from rclpy.clock import Clock, ClockType
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.serialization import deserialize_message
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 from rclpy.time import Time
 
-from auv_msgs_py import params, qos, topics, wire
+from auv_msgs_py import params, qos, topics
 from auv_msgs_py.conversions import nanoseconds
 from auv_msgs_py.errors import LockstepBroken, MessageRefused, SuiteError
 from auv_msgs_py.health import Health
 from auv_msgs_py.lockstep_gate import LockstepGate
 from auv_msgs_py.topics import Topic
+from auv_msgs_py.transport import WirePublisher, reader
 from auv_msgs_py.watch import ClockWatch, RateWatch
 
 try:
@@ -35,32 +35,6 @@ except ImportError:  # an rclpy without it: slower, otherwise the same
 T = TypeVar("T")
 #: Exit code for input that cannot be used; 1 is for everything else that went wrong.
 EXIT_BAD_INPUT = 2
-
-
-class WirePublisher(Publisher):  # type: ignore[misc]
-    """Sends light messages (see `wire`) as the bytes that they are."""
-
-    def __init__(self, *arguments: Any, **named: Any) -> None:
-        super().__init__(*arguments, **named)
-        # What `Publisher.publish` ends with for bytes; its checks before cost as much again.
-        self._send = self.handle.publish_raw
-
-    def publish(self, message: Any) -> None:
-        if isinstance(message, wire.Message):
-            self._send(message.serialized())
-        else:
-            super().publish(message)
-
-
-def _reader(light: wire.Message, kind: type[Any]) -> Callable[[bytes], Any]:
-    def read(data: bytes) -> Any:
-        try:
-            light.read(data)
-        except wire.ForeignLayout:
-            return deserialize_message(data, kind)
-        return light
-
-    return read
 
 
 class SuiteNode(Node):  # type: ignore[misc]
@@ -120,8 +94,7 @@ class SuiteNode(Node):  # type: ignore[misc]
         A message that `wire` knows arrives as its light class, the same object each time: do not keep it.
         """
         kind = qos.message_class(topic.type)
-        light = wire.LIGHT.get(topic.type)
-        understand = _reader(light(), kind) if light is not None else None
+        understand = reader(topic.type)
         tells_time = topic is topics.ODOM and self.parameters.lockstep
 
         name, rates = topic.name, self._rates
@@ -140,7 +113,7 @@ class SuiteNode(Node):  # type: ignore[misc]
                 self.fail(str(error))
 
         profile = qos.requested(topic, self.parameters.lockstep)
-        self.create_subscription(kind, topic.name, guarded, profile, raw=light is not None)
+        self.create_subscription(kind, topic.name, guarded, profile, raw=understand is not None)
 
     def _look(self) -> None:
         """Free running: what no single message shows."""

@@ -12,8 +12,16 @@ size counted from behind the header, a string as its length with the final NUL, 
 from __future__ import annotations
 
 import struct
-from collections.abc import Sequence
 from typing import Any
+
+from auv_msgs_py.wire_parts import (
+    Header,
+    Pose,
+    PoseWithCovariance,
+    Time,
+    TwistWithCovariance,
+    Vector,
+)
 
 _LITTLE_ENDIAN = b"\x00\x01"
 _HEADER = b"\x00\x01\x00\x00"
@@ -22,7 +30,6 @@ _LENGTH = struct.Struct("<I")
 _FLOAT64 = struct.Struct("<4xd")
 #: Where the first string of a stamped message begins: behind the header and the stamp.
 _TEXTS = 12
-_NO_COVARIANCE = (0.0,) * 36
 
 
 class ForeignLayout(ValueError):
@@ -64,20 +71,13 @@ class Float64(Message):
         return _HEADER + struct.pack("<d", self.data)
 
 
-class _Time:
-    __slots__ = ("nanosec", "sec")
-
-    def __init__(self) -> None:
-        self.sec = self.nanosec = 0
-
-
 class Clock(Message):
     """rosgraph_msgs/msg/Clock."""
 
     __slots__ = ("clock",)
 
     def __init__(self) -> None:
-        self.clock = _Time()
+        self.clock = Time()
 
     def read(self, data: bytes) -> None:
         if data[:2] != _LITTLE_ENDIAN or len(data) < _TEXTS:
@@ -86,58 +86,6 @@ class Clock(Message):
 
     def serialized(self) -> bytes:
         return _HEADER + _STAMP.pack(self.clock.sec, self.clock.nanosec)
-
-
-class _Header:
-    __slots__ = ("frame_id", "stamp")
-
-    def __init__(self) -> None:
-        self.stamp, self.frame_id = _Time(), ""
-
-
-class _Vector:
-    __slots__ = ("x", "y", "z")
-
-    def __init__(self) -> None:
-        self.x = self.y = self.z = 0.0
-
-
-class _Quaternion:
-    __slots__ = ("w", "x", "y", "z")
-
-    def __init__(self) -> None:
-        self.x = self.y = self.z = 0.0
-        self.w = 1.0
-
-
-class _Pose:
-    __slots__ = ("orientation", "position")
-
-    def __init__(self) -> None:
-        self.position, self.orientation = _Vector(), _Quaternion()
-
-
-class _Twist:
-    __slots__ = ("angular", "linear")
-
-    def __init__(self) -> None:
-        self.linear, self.angular = _Vector(), _Vector()
-
-
-class _PoseWithCovariance:
-    __slots__ = ("covariance", "pose")
-
-    def __init__(self) -> None:
-        self.pose = _Pose()
-        self.covariance: Sequence[float] = _NO_COVARIANCE
-
-
-class _TwistWithCovariance:
-    __slots__ = ("covariance", "twist")
-
-    def __init__(self) -> None:
-        self.twist = _Twist()
-        self.covariance: Sequence[float] = _NO_COVARIANCE
 
 
 class _Stamped(Message):
@@ -151,7 +99,7 @@ class _Stamped(Message):
     _numbers: struct.Struct
 
     def __init__(self, frame_id: str = "") -> None:
-        self.header = _Header()
+        self.header = Header()
         self.header.frame_id = frame_id
         self._seen, self._start = b"", 0
         self._written: tuple[str, ...] | None = None
@@ -219,7 +167,7 @@ class Vector3Stamped(_Stamped):
 
     def __init__(self, frame_id: str = "") -> None:
         super().__init__(frame_id)
-        self.vector = _Vector()
+        self.vector = Vector()
 
     def read(self, data: bytes) -> None:
         v = self.vector
@@ -238,7 +186,7 @@ class PoseStamped(_Stamped):
 
     def __init__(self, frame_id: str = "") -> None:
         super().__init__(frame_id)
-        self.pose = _Pose()
+        self.pose = Pose()
 
     def read(self, data: bytes) -> None:
         p, q = self.pose.position, self.pose.orientation
@@ -257,7 +205,7 @@ class TwistWithCovarianceStamped(_Stamped):
 
     def __init__(self, frame_id: str = "") -> None:
         super().__init__(frame_id)
-        self.twist = _TwistWithCovariance()
+        self.twist = TwistWithCovariance()
 
     def read(self, data: bytes) -> None:
         v, w = self.twist.twist.linear, self.twist.twist.angular
@@ -279,7 +227,7 @@ class Odometry(_Stamped):
     def __init__(self, frame_id: str = "", child_frame_id: str = "") -> None:
         super().__init__(frame_id)
         self.child_frame_id = child_frame_id
-        self.pose, self.twist = _PoseWithCovariance(), _TwistWithCovariance()
+        self.pose, self.twist = PoseWithCovariance(), TwistWithCovariance()
 
     def _texts(self) -> tuple[str, ...]:
         return self.header.frame_id, self.child_frame_id
