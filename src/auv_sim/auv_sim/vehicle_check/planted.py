@@ -6,11 +6,12 @@ The samples of an honest driver (ENU/FLU) are changed on their way; what is comm
 from __future__ import annotations
 
 import math
-import random
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
+
+import numpy as np
 
 from auv_msgs_py import topics
 from auv_msgs_py.frames import flip_yaw, quaternion_of_yaw, swap_axes, yaw_of_quaternion
@@ -50,7 +51,7 @@ class Planted:
     odom: Callable[[OdometrySample, int], OdometrySample] = lambda sample, _: sample
     water: Callable[[WaterSample, int], WaterSample] = lambda sample, _: sample
     command: Callable[[Command], Command] = lambda command: command
-    period: Callable[[int, random.Random], float] = lambda count, dice: PERIOD
+    period: Callable[[int, np.random.Generator], float] = lambda count, dice: PERIOD
     dead_time: float = 0.0
     rudder_rate: float = 1.0
     water_type: str = topics.WATER_VELOCITY.type
@@ -139,7 +140,7 @@ class PlantedVehicle:
         self.plant = RemusPlant(vehicle, START)
         limits = vehicle.rudder
         self.plant.rudder = RudderServo(limits.max_angle, planted.rudder_rate * limits.max_rate)
-        self._dice = random.Random(4)  # noqa: S311 - a mistake, not a secret
+        self._dice = np.random.default_rng(4)
         self._now = self._next = begin
         self._count = 0
         self._under_way: deque[tuple[float, Command]] = deque()
