@@ -47,7 +47,7 @@ def main(arguments: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    ensure_environment(extra=("batch", "dev"))
+    ensure_environment(extra=("batch", "cluster", "dev"))
     try:
         sys.exit(main(sys.argv[1:]))
     except KeyboardInterrupt:

@@ -33,13 +33,16 @@ setup(
         "matplotlib",
         "mcap",
         "numpy",
+        "pyarrow",
+        "pydantic",
         "pymavlink",
         "PyYAML",
         "rich",
         "rosbags",
         "zstandard",
     ],
-    extras_require={"batch": ["numba"]},  # without it the batch engine is slow, nothing else
+    # Without numba the batch engine is slow, without distributed a campaign stays on one machine.
+    extras_require={"batch": ["numba"], "cluster": ["distributed"]},
     zip_safe=False,
     entry_points={
         "console_scripts": [

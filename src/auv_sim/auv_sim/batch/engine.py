@@ -55,15 +55,18 @@ def fly(
     Raises:
         ConfigurationError: a scenario that cannot be flown.
     """
-    curves: dict[int, Curve] = {}  # a path is turned into numbers once, however many scenarios share it
+    # Mistakes come before the first flight. What several scenarios share is turned into numbers once.
+    flights: dict[int, Any] = {}
+    curves: dict[int, Curve] = {}
     for scenario in scenarios:
-        flight_of(scenario)  # mistakes come before the first flight
+        if id(scenario) not in flights:
+            flights[id(scenario)] = flight_of(scenario)
         if scenario.sea is None and id(scenario.path) not in curves:
             curves[id(scenario.path)] = curve_of(scenario.path)
 
     def one(scenario: Scenario) -> dict[str, Any]:
         if scenario.sea is None:
-            flight = flight_of(scenario)
+            flight = flights[id(scenario)]
             end, whole, subpaths, _ = _flown(flight, scenario, curves[id(scenario.path)], 0)
             figures = figures_of(end, whole, subpaths, flight.dt)
         else:

@@ -66,7 +66,10 @@ class StudyPlan:
         if kind in self._bundled:
             return str(self.source.parent / self._bundled[kind][name])
         beside = self.source.parent / Path(name).expanduser()
-        return str(beside if beside.is_file() else config_files.find(kind, name))
+        try:
+            return str(beside if beside.is_file() else config_files.find(kind, name))
+        except ConfigurationError as error:
+            raise ConfigurationError(f"{self.where}: {error.where}", error.found, error.expected) from None
 
     def files(self) -> Iterator[tuple[config_files.Kind, str, tuple[Path, ...]]]:
         """Every file that the study names: its kind, its name there, itself and what belongs to it."""

@@ -153,6 +153,8 @@ def _spread(values: Any, seed: int) -> Spread:
 
 
 def _plain(value: Any) -> Any:
+    if isinstance(value, Estimate):
+        return _plain(value._asdict())
     if isinstance(value, dict):
         return {key: _plain(item) for key, item in value.items()}
     if isinstance(value, list | tuple):

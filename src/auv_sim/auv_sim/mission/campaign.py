@@ -216,3 +216,7 @@ def _percent(estimate: Estimate) -> str:
 
 def _estimate(estimate: Estimate) -> str:
     return f"{estimate.value:.4g} ({estimate.low:.4g} to {estimate.high:.4g})"
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
