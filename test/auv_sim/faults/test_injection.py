@@ -50,7 +50,7 @@ def seen(messages: list[Any]) -> list[tuple[int, float]]:
         ("delay", [(12, 2.0), (13, 3.0)]),
         ("freeze", [(12, 1.0), (13, 1.0), (14, 1.0), (15, 1.0)]),
         ("jump", [(12, 102.0), (13, 103.0), (14, 104.0), (15, 105.0)]),
-        ("reverse", [(11, 1.0), (10, 0.0)]),
+        ("reverse", [(11, 1.0), (10, 0.0), (10, 0.0), (10, 0.0)]),
     ],
 )
 def test_odometry(fault: str, expected: list[tuple[int, float]]) -> None:

@@ -24,7 +24,7 @@ class Injector:
     nan         its first number is NaN; a text becomes ``nan``.
     freeze      the content of the last good message, with the stamp of this one.
     jump        its first number is larger by so much.
-    reverse     the last good messages in reverse order, as they were.
+    reverse     the last good messages in reverse order, as they were, and the first of them from then on.
     flood       the message so many times, spread over the time to the next one.
     frameless   an empty frame_id.
 
@@ -66,7 +66,7 @@ class Injector:
                 self._under_way.append((now + self.delay, data))
                 return self.due(now)
             case "reverse":
-                return [self._past.pop()] if self._past else []
+                return [self._past.pop() if len(self._past) > 1 else self._past[0]] if self._past else []
             case "flood":
                 gap = min(now - self._came, 1.0) / self.copies
                 self._came = now
