@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import signal
 import subprocess
@@ -11,10 +12,12 @@ from pathlib import Path
 import pytest
 
 from auv_msgs_py import topics
-from auv_sim.benchmark import page, sheets
+from auv_sim.benchmark import graph, laws, page, sheets
 from auv_sim.benchmark.cli import main
-from auv_sim.benchmark.rig import Setup, free_running, lockstep
+from auv_sim.benchmark.rig import Setup, Timing, free_running, lockstep
+from auv_sim.benchmark.scale import QUICK
 from auv_sim.benchmark.stopwatch import BLOCK
+from auv_sim.benchmark.usage import Memory, Usage
 from conftest import children_of
 
 NODES = {topics.PLANT, topics.OBSERVER, topics.GUIDANCE, topics.AUTOPILOT}
@@ -41,14 +44,42 @@ def test_every_odometry_is_answered_against_the_wall_clock() -> None:
 
 def test_a_section_as_table_and_json(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "figures.json"
-    assert main(["--quick", "--only", "simulation", "subpaths", "--json", str(file)]) == 0
+    assert main(["--quick", "--only", "subpaths", "--json", str(file)]) == 0
     figures = json.loads(file.read_text())
     assert figures["machine"]["cores"]
-    assert figures["simulation"]["closed_loop"]["vehicle_steps_per_second"] > 0.0
     assert set(figures["subpaths"]["step_us"]) == {"10", "100"}
     told = capsys.readouterr().out
     assert "Guidance, by number of subpaths" in told
     assert "Keep them" in told
+
+
+def test_one_vehicle_and_many_are_counted_in_vehicle_steps() -> None:
+    told: list[str] = []
+    scale = dataclasses.replace(QUICK, vehicles=(3,), flight=0.5)
+    assert laws.closed_loop_figures(scale, told.append)["vehicle_steps_per_second"] > 0.0
+    assert laws.batch_figures(scale, told.append)["vehicle_steps_per_second"]["3"] > 0.0
+    assert told == ["closed loop", "batch, 3 vehicles"]
+
+
+def test_the_suite_is_compared_with_its_own_floor(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A suite that takes one and a half times its floor, a plain floor twice as slow as the other."""
+
+    def timed(setup: Setup) -> Timing:
+        step = 400e-6 * (2.0 if setup.plain else 1.0 if setup.floor else 1.5)
+        names = ["composed"] if setup.composed else sorted(NODES)
+        names += [topics.RECORDER] * (setup.recorded and not setup.composed)
+        usage, memory = Usage(1e-4, 4.0), Memory(2**26, 2**25)
+        return Timing((step, step), dict.fromkeys(names, usage), dict.fromkeys(names, memory))
+
+    monkeypatch.setattr(graph, "lockstep", timed)
+    assert main(["--quick", "--only", "lockstep"]) == 0
+    rows = [[cell.strip() for cell in line.split("│")[1:-1]] for line in capsys.readouterr().out.splitlines()]
+    assert ["the mission", "1.50", "600", "400", "16.0", "83"] in rows
+    assert ["the mission with its recorder", "1.50", "600", "500", "20.0", "83"] in rows
+    assert ["plain rclpy nodes, empty callbacks", "2.00", "800", "400", "16.0", "62"] in rows
+    assert ["all", "500", "320", "160"] in rows
 
 
 def figures() -> dict[str, object]:

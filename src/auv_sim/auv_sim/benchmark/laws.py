@@ -58,7 +58,7 @@ def batch_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
     for number in scale.vehicles:
         tick(f"batch, {number} vehicles")
         # Few vehicles fly longer, or what is measured is the preparation.
-        scenarios = _different(_scenario(min(600.0, scale.flight * max(1.0, 10_000 / number))), number)
+        scenarios = _different(_scenario(scale.flight * min(30.0, max(1.0, 10_000 / number))), number)
 
         def measure(scenarios: list[Scenario] = scenarios) -> float:
             begin = time.perf_counter()
