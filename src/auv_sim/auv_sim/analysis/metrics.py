@@ -102,7 +102,7 @@ class MissionSummary:
 
     def to_json(self) -> str:
         """Strict JSON, indented; NaN becomes null."""
-        return json.dumps(_without_nan(dataclasses.asdict(self)), indent=2, allow_nan=False)
+        return json.dumps(without_nan(dataclasses.asdict(self)), indent=2, allow_nan=False)
 
 
 def summarise(run: Run, path: CompositePath) -> MissionSummary:
@@ -211,9 +211,10 @@ def _sum(values: Column) -> float:
     return float(known.sum()) if known.size else math.nan
 
 
-def _without_nan(value: Any) -> Any:
+def without_nan(value: Any) -> Any:
+    """Plain data with null where a number is not finite, for strict JSON."""
     if isinstance(value, dict):
-        return {key: _without_nan(item) for key, item in value.items()}
+        return {key: without_nan(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
-        return [_without_nan(item) for item in value]
+        return [without_nan(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -125,8 +125,9 @@ def draw(study: Study, png: Path) -> None:
         axes.plot([], [], "--", color=MUTED, label="the same with an ideal rudder")
         axes.set_ylim(bottom=0.0)
         axes.margins(x=0.03)
-    figure.axes[0].legend(frameon=False, fontsize=9)
-    figure.tight_layout()
+    handles, labels = figure.axes[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="upper center", ncols=4, frameon=False, fontsize=9)
+    figure.tight_layout(rect=(0.0, 0.0, 1.0, 0.93))
     figure.savefig(png)
 
 
@@ -157,6 +158,14 @@ def table(study: Study) -> Table:
     for row in _rows(study):
         shown.add_row(*row)
     return shown
+
+
+def record(study: Study) -> list[dict[str, Any]]:
+    """For programs: one entry for each flight."""
+    return [
+        {"gains": label, "rudder": rudder, "noise": level, **dataclasses.asdict(trial)}
+        for (label, rudder, level), trial in study.items()
+    ]
 
 
 def markdown(study: Study) -> str:

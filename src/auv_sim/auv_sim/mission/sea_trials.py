@@ -19,6 +19,7 @@ from rich.table import Table
 from auv_msgs_py.errors import ConfigurationError, SuiteError
 from auv_path_following import config_files
 from auv_sim import closed_loop
+from auv_sim.analysis.metrics import without_nan
 from auv_sim.analysis.trials import Together, Trial, judge, together
 from auv_sim.command_line import (
     EXIT_BAD_INPUT,
@@ -107,6 +108,7 @@ def main(argv: Sequence[str] | None = None) -> int:
                     options.mission, options.vehicle, options.sea, partial(_tracked, bar, options)
                 )
             noise_study.draw(study, options.out / "rudder_activity.png")
+            _write(options.out / "rudder_activity.json", noise_study.record(study))
             _renew(options.page, noise_study.BEGIN, noise_study.END, noise_study.markdown(study))
             console.print(noise_study.table(study))
             console.print(f"Picture: {options.out / 'rudder_activity.png'}", highlight=False)
@@ -159,7 +161,7 @@ def _trials(options: argparse.Namespace, console: Console) -> int:
         "trials": [dataclasses.asdict(trial) for trial in trials],
     }
     target = options.out / f"{Path(options.sea).stem}.json"
-    target.write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
+    _write(target, record)
     _renew(options.page, BEGIN, END, _markdown(rows))
     console.print(_table(rows, options))
     worst = max(trials, key=lambda trial: (not trial.completed, trial.largest_distance))
@@ -203,6 +205,12 @@ def _markdown(rows: Sequence[Together]) -> str:
     lines = [["gains", *(heading for heading, _ in _COLUMNS)], ["---", *["---:"] * len(_COLUMNS)]]
     lines += [[f"`{row.params}.yaml`", *(cell(row) for _, cell in _COLUMNS)] for row in rows]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def _write(file: Path, record: Any) -> None:
+    """Strict JSON; what is not known (a corner where there is none) becomes null."""
+    text = json.dumps(without_nan(record), indent=2, allow_nan=False)
+    file.write_text(text + "\n", encoding="utf-8")
 
 
 def _parts(page: Path | None, begin: str, end: str) -> tuple[str, str]:
