@@ -195,7 +195,9 @@ def test_the_rows_are_what_a_recording_would_hold(runs):
     assert (run.s[:-1] < 7.0).all()
     assert (np.diff(run.s) >= -1e-9).all()
     for field in dataclasses.fields(run):
-        assert np.isfinite(getattr(run, field.name)).all(), field.name
+        # The odometry is the truth here: nobody tells it apart.
+        told = field.name not in ("x_true", "y_true", "psi_true")
+        assert (np.isfinite(getattr(run, field.name)) == told).all(), field.name
 
 
 def test_it_begins_at_the_paths_first_point_and_ends_at_the_time_limit():
