@@ -22,6 +22,8 @@ from auv_sim.mission.plan import Options, Plan
 
 NAMESPACE = "/auv"
 COMPOSED = "composed"
+#: A vehicle's driver would stand in the simulator's place.
+_GRAPH = tuple(name for name in NODES if name != topics.MAVLINK_DRIVER)
 _TIMED = "auv_sim.benchmark.timed_plant"
 _FLOOR = "auv_sim.benchmark.floor"
 #: Wall time for the nodes to find each other, and for a measurement that is expected to take no time, s.
@@ -91,7 +93,7 @@ def lockstep(setup: Setup) -> Timing:
     """
 
     def start(directory: Path, children: Measured) -> set[str]:
-        names = [name for name in NODES if setup.recorded or name != topics.RECORDER]
+        names = [name for name in _GRAPH if setup.recorded or name != topics.RECORDER]
         if setup.floor:
             flags = {"--recorded": setup.recorded, "--plain": setup.plain}
             words = ["--steps", str(setup.steps), *(flag for flag, given in flags.items() if given)]
@@ -122,7 +124,7 @@ def free_running(rate: float, seconds: float) -> Observed:
         plant = dataclasses.replace(resolved.parameters[topics.PLANT], step=1.0 / rate)
         resolved = dataclasses.replace(resolved, parameters={**resolved.parameters, topics.PLANT: plant})
         _start_suite(resolved, directory, children, "latency", round(rate * seconds), False)
-        return set(NODES)
+        return set(_GRAPH)
 
     return observe(start, seconds)
 
