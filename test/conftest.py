@@ -19,6 +19,8 @@ REPOSITORY = Path(__file__).resolve().parents[1]
 SHORT_MISSION = Path(__file__).parent / "data" / "short.yaml"
 
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+# xdist tells its workers how wide the terminal is; the commands under test write into pipes.
+os.environ.pop("COLUMNS", None)
 _ASKED = itertools.count()
 
 
