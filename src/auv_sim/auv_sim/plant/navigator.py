@@ -37,7 +37,7 @@ class NavigatorConfig:
     )
     error_time: float = setting(2000.0, "time in which these errors change", unit="s", gt=0.0)
     current_time: float = setting(20.0, "over which the current is learned", unit="s", gt=0.0)
-    blend: float = setting(1.5, "a correction is spread over so long: the pose never jumps", unit="s", ge=0.0)
+    blend: float = setting(5.0, "a correction is spread over so long: the pose never jumps", unit="s", ge=0.0)
 
 
 class NavigatorOutput(NamedTuple):
