@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import functools
-import multiprocessing
-import os
 import tempfile
-import threading
 from collections.abc import Iterator, Mapping
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import as_completed
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -19,6 +16,7 @@ from auv_sim.batch import engine
 from auv_sim.campaign.plan import StudyPlan
 from auv_sim.campaign.store import Store, bundle_of, fingerprint, write_bundle
 from auv_sim.campaign.table import table_of
+from auv_sim.pool import worker_pool
 
 #: A chunk, or the three parts of the error that ended it: an exception of ours does not survive pickling.
 Result: TypeAlias = "pa.Table | tuple[str, str, str]"
@@ -63,9 +61,7 @@ def on_this_machine(store: Store, chunks: list[range], workers: int) -> Iterator
     Raises:
         ConfigurationError: a run whose values do not go together.
     """
-    # Spawned, not forked: whoever calls may have threads.
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(workers, mp_context=context, initializer=_end_with_parent) as pool:
+    with worker_pool(workers) as pool:
         source = str(store.plan.source)
         futures = {pool.submit(fly_chunk, source, chunk.start, chunk.stop): chunk for chunk in chunks}
         try:
@@ -73,18 +69,6 @@ def on_this_machine(store: Store, chunks: list[range], workers: int) -> Iterator
                 yield futures[future], _table(future.result())
         finally:
             pool.shutdown(wait=True, cancel_futures=True)
-
-
-def _end_with_parent() -> None:
-    """A worker whose parent was killed would wait for work for ever."""
-    parent = multiprocessing.parent_process()
-
-    def watch() -> None:
-        if parent is not None:
-            parent.join()
-            os._exit(1)
-
-    threading.Thread(target=watch, daemon=True).start()
 
 
 def through_dask(

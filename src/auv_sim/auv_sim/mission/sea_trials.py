@@ -33,7 +33,7 @@ from auv_sim.command_line import (
 from auv_sim.command_line import console as terminal
 from auv_sim.mission import noise_study, plan
 from auv_sim.mission.plan import Options, Plan
-from auv_sim.reproduction.flights import each
+from auv_sim.pool import each
 
 BEGIN, END = "<!-- trials: begin -->", "<!-- trials: end -->"
 

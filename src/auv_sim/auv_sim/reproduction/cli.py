@@ -21,11 +21,12 @@ from auv_path_following.paths import mission_file
 from auv_sim.analysis.run import Run
 from auv_sim.command_line import Parser
 from auv_sim.command_line import console as terminal
+from auv_sim.pool import each
 from auv_sim.reproduction import claims_current, claims_following, corner, figures, page, starts
 from auv_sim.reproduction.cases import flights
 from auv_sim.reproduction.claim import FAILS, HOLDS, Claim
 from auv_sim.reproduction.corner import Bound
-from auv_sim.reproduction.flights import MISSION, PLANTS, Flight, each, fly
+from auv_sim.reproduction.flights import MISSION, PLANTS, Flight, fly
 
 _BOUNDS = {"the rudder may move before the corner": True, "it may not": False}
 

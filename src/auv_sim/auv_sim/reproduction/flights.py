@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-import multiprocessing
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
@@ -137,30 +135,3 @@ def _vehicle(name: str) -> Vehicle:
 def fly(flight: Flight) -> Run:
     """Fly it here and now."""
     return closed_loop.fly(flight.scenario())
-
-
-def each(
-    work: Callable[[Any], T], items: Sequence[Any], workers: int, done: Callable[[], None] = lambda: None
-) -> Iterator[tuple[int, T]]:
-    """`work` on every item in a pool of processes; (index, result) as they come.
-
-    Args:
-        work: a function of a module.
-        items: what to work on.
-        workers: processes; 1 works here.
-        done: called after each.
-    """
-    if workers <= 1:
-        for index, item in enumerate(items):
-            yield index, work(item)
-            done()
-        return
-    # Spawned, not forked: whoever calls may have threads.
-    with ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn")) as pool:
-        futures = {pool.submit(work, item): index for index, item in enumerate(items)}
-        try:
-            for future in as_completed(futures):
-                yield futures[future], future.result()
-                done()
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)

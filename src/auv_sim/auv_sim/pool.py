@@ -1,0 +1,57 @@
+"""Processes that share out work, and are gone when whoever started them is."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from typing import Any, TypeVar
+
+T = TypeVar("T")
+
+
+def worker_pool(workers: int) -> ProcessPoolExecutor:
+    """So many processes. Spawned, not forked: whoever calls may have threads."""
+    return ProcessPoolExecutor(
+        workers, mp_context=multiprocessing.get_context("spawn"), initializer=_end_with_parent
+    )
+
+
+def each(
+    work: Callable[[Any], T], items: Sequence[Any], workers: int, done: Callable[[], None] = lambda: None
+) -> Iterator[tuple[int, T]]:
+    """`work` on every item in a pool of processes; (index, result) as they come.
+
+    Args:
+        work: a function of a module.
+        items: what to work on.
+        workers: processes; 1 works here.
+        done: called after each.
+    """
+    if workers <= 1:
+        for index, item in enumerate(items):
+            yield index, work(item)
+            done()
+        return
+    with worker_pool(workers) as pool:
+        futures = {pool.submit(work, item): index for index, item in enumerate(items)}
+        try:
+            for future in as_completed(futures):
+                yield futures[future], future.result()
+                done()
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _end_with_parent() -> None:
+    """A worker whose parent was killed would wait for work for ever."""
+    parent = multiprocessing.parent_process()
+
+    def watch() -> None:
+        if parent is not None:
+            parent.join()
+            os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
