@@ -112,6 +112,13 @@ def test_a_pose_that_froze_under_way_is_refused_also_when_the_vehicle_is_stopped
     assert REFUSED in fly(gate, [at(1.0)] * 15, under_way=False)
 
 
+@pytest.mark.parametrize("late", [1, 3])
+def test_a_vehicle_that_stops_dead_may_lie_still_though_its_log_says_so_a_moment_later(gate, late):
+    fly(gate, [at(k * DT) for k in range(11)])
+    assert set(fly(gate, [at(1.0)] * late)) == {BELIEVED}
+    assert set(fly(gate, [at(1.0)] * 1000, under_way=False)) == {BELIEVED}
+
+
 def test_after_a_freeze_the_vehicle_may_be_where_it_can_have_come_to(gate):
     fly(gate, [at(k * DT) for k in range(11)])
     fly(gate, [at(1.0)] * 50)

@@ -35,6 +35,10 @@ class NavigationGateConfig:
     )  # fmt: skip
 
 
+#: For so long what says that the vehicle moves may be older than the pose that says it does not, s.
+_LAG = 0.5
+
+
 class Passed(enum.Enum):
     """What to do with a measurement."""
 
@@ -61,7 +65,8 @@ class NavigationGate:
     believed, or have agreed among themselves for `accept_after`: then the vehicle is where they say
     (`MOVED`), and what was derived from the old place has to be forgotten.
 
-    A pose that repeats itself to the last bit while the vehicle is under way is refused until it changes.
+    A pose that repeats itself to the last bit while the vehicle is under way is refused until it changes, or
+    until somebody vouches for it with a `reset`.
 
     Args:
         config: bounds.
@@ -138,8 +143,8 @@ class NavigationGate:
         if self._last is None or navigation[:3] != self._last[:3]:
             self._believe(navigation)
             return _BELIEVED
-        # What has begun under way goes on until the pose changes: somebody else may have stopped the vehicle.
-        if under_way or self._still > 0.0:
+        # What went on under way goes on until the pose changes: somebody else may have stopped the vehicle.
+        if under_way or self._still > _LAG:
             self._still += dt
         else:
             self._since = self._still = 0.0

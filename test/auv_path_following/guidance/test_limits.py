@@ -19,12 +19,12 @@ def at(x, y):
     return Navigation(x, y, 0.0, 0.0)
 
 
-def first_broken(limits, track, off_path=lambda _: 0.0):
+def first_broken(limits, track, off_path=lambda _: 0.0, to_go=lambda _: 0.0):
     """Time and reason of the first broken limit along track(t)."""
     for k in range(10_000):
         t = k * DT
         x, y = track(t)
-        reason = limits.broken(at(x, y), 0.0, off_path(t), DT if k else 0.0)
+        reason = limits.broken(at(x, y), 0.0, off_path(t), to_go(t), DT if k else 0.0)
         if reason:
             return t, reason
     return None
@@ -42,17 +42,17 @@ def test_duration():
 
 def test_distance_counts_once_the_vehicle_has_been_near():
     limits = Limits(LimitsConfig(path_distance=10.0))
-    assert limits.broken(at(0.0, 0.0), 0.0, 40.0, DT) == ""  # the way to the path
-    assert limits.broken(at(0.0, 0.0), 0.0, 9.0, DT) == ""
-    assert limits.broken(at(0.0, 0.0), 8.0, 6.1, DT).startswith("limit path_distance: 10.1 m")
+    assert limits.broken(at(0.0, 0.0), 0.0, 40.0, 0.0, DT) == ""  # the way to the path
+    assert limits.broken(at(0.0, 0.0), 0.0, 9.0, 0.0, DT) == ""
+    assert limits.broken(at(0.0, 0.0), 8.0, 6.1, 0.0, DT).startswith("limit path_distance: 10.1 m")
     limits.reset()
-    assert limits.broken(at(0.0, 0.0), 0.0, 40.0, DT) == ""
+    assert limits.broken(at(0.0, 0.0), 0.0, 40.0, 0.0, DT) == ""
 
 
 def test_geofence():
     limits = Limits(geofence=SQUARE)
-    assert limits.broken(at(50.0, 25.0), 0.0, 0.0, DT) == ""
-    assert "geofence" in limits.broken(at(50.0, 51.0), 0.0, 0.0, DT)
+    assert limits.broken(at(50.0, 25.0), 0.0, 0.0, 0.0, DT) == ""
+    assert "geofence" in limits.broken(at(50.0, 51.0), 0.0, 0.0, 0.0, DT)
 
 
 @given(st.floats(-20.0, 120.0), st.floats(-20.0, 70.0))
@@ -91,14 +91,89 @@ def test_a_vehicle_that_makes_way_may_also_turn(track):
 def test_a_hold_does_not_count_as_slow():
     limits = Limits(SLOW)
     for k in range(250):
-        assert limits.broken(at(0.19 * k, 0.0), 0.0, 0.0, DT) == ""
-    assert limits.broken(at(50.0, 0.0), 0.0, 0.0, 60.0) == ""  # nothing was heard for a minute
+        assert limits.broken(at(0.19 * k, 0.0), 0.0, 0.0, 0.0, DT) == ""
+    assert limits.broken(at(50.0, 0.0), 0.0, 0.0, 0.0, 60.0) == ""  # nothing was heard for a minute
     for _ in range(290):
-        assert limits.broken(at(50.0, 0.0), 0.0, 0.0, DT) == ""
+        assert limits.broken(at(50.0, 0.0), 0.0, 0.0, 0.0, DT) == ""
+
+
+BEHIND = LimitsConfig(path_speed=0.3, path_speed_window=30.0)
+
+
+def still(_):
+    return 0.0, 0.0
+
+
+def test_a_vehicle_that_moves_but_does_not_follow_is_found_within_its_window():
+    """It follows for 100 s and then goes round and round: P waits, going to and fro."""
+
+    def to_go(t):
+        return 500.0 - 1.9 * min(t, 100.0) + (2.0 * math.sin(t - 100.0) if t > 100.0 else 0.0)
+
+    def track(t):
+        return 5.0 * math.cos(0.4 * t), 5.0 * math.sin(0.4 * t)
+
+    t, reason = first_broken(Limits(BEHIND), track, to_go=to_go)
+    assert 120.0 < t < 140.0
+    assert reason.startswith("limit path_speed: ")
+    assert reason.endswith(" m/s over 30 s, at least 0.3 m/s")
+
+
+def test_the_way_to_the_path_is_not_too_slow_along_it():
+    """P waits at the beginning for 200 s, then goes: nothing is wrong with that."""
+    assert first_broken(Limits(BEHIND), still, to_go=lambda t: 2000.0 - 1.9 * max(0.0, t - 200.0)) is None
+
+
+@given(st.floats(0.31, 5.0), st.floats(0.0, 20.0))
+def test_whoever_keeps_the_speed_along_the_path_goes_on(speed, wait):
+    """Also one that waits at a corner for less than the window allows."""
+
+    def to_go(t):
+        waited = min(max(t - 60.0, 0.0), wait * (1.0 - 0.3 / speed))
+        return 6000.0 - speed * (t - waited)
+
+    assert first_broken(Limits(BEHIND), still, to_go=to_go) is None
+
+
+def test_a_new_start_is_a_new_way_to_the_path():
+    limits = Limits(BEHIND)
+    assert first_broken(limits, still, to_go=lambda t: 100.0 - min(t, 50.0)) is not None
+    limits.reset()
+    assert first_broken(limits, still, to_go=lambda t: 100.0) is None
+
+
+def test_a_hold_does_not_count_as_slow_along_the_path():
+    limits = Limits(BEHIND)
+    for k in range(300):
+        assert limits.broken(at(0.0, 0.0), 0.0, 0.0, 500.0 - 0.19 * k, DT) == ""
+    limits.rest()
+    t, _ = first_broken(limits, still, to_go=lambda _: 443.0)
+    assert t == pytest.approx(30.0, abs=1.0)
 
 
 def test_the_stricter_of_parameters_and_mission_counts():
-    one = LimitsConfig(path_distance=10.0, duration=0.0, ground_speed=0.1, ground_speed_window=20.0)
-    other = LimitsConfig(path_distance=0.0, duration=60.0, ground_speed=0.3, ground_speed_window=40.0)
-    expected = LimitsConfig(path_distance=10.0, duration=60.0, ground_speed=0.3, ground_speed_window=40.0)
+    one = LimitsConfig(
+        path_distance=10.0,
+        duration=0.0,
+        ground_speed=0.1,
+        ground_speed_window=20.0,
+        path_speed=0.5,
+        path_speed_window=50.0,
+    )
+    other = LimitsConfig(
+        path_distance=0.0,
+        duration=60.0,
+        ground_speed=0.3,
+        ground_speed_window=40.0,
+        path_speed=0.2,
+        path_speed_window=90.0,
+    )
+    expected = LimitsConfig(
+        path_distance=10.0,
+        duration=60.0,
+        ground_speed=0.3,
+        ground_speed_window=40.0,
+        path_speed=0.5,
+        path_speed_window=50.0,
+    )
     assert one.stricter(other) == other.stricter(one) == expected

@@ -48,8 +48,8 @@ def test_anywhere_it_only_goes_ahead_and_not_too_far(s, north, east, reach):
     at_i, at_t = closest_ahead(PAPER, i, t, here.x + north, here.y + east, reach)
     assert (at_i, at_t) >= (i, t)
     gone = PAPER.distance_to_go(i, t) - PAPER.distance_to_go(at_i, at_t)
-    # A step counts with the speed (m per unit of t) at its start; on a spiral that changes along it.
-    assert gone <= 1.01 * (reach + 0.5)
+    # A step may be longer than it was meant to be, where the path's speed grows along it: by a hundredth.
+    assert gone <= reach + 0.005
     there = PAPER.evaluate(at_i, at_t)
     assert math.hypot(there.x - here.x - north, there.y - here.y - east) <= math.hypot(north, east) + 1e-9
 

@@ -134,6 +134,19 @@ def test_a_jump_is_refused_and_the_mission_aborts_where_the_vehicle_turns_out_to
     bench.until(lambda: bench.values(topics.DESIRED_THRUST)[-1] == 0.0)
 
 
+def test_a_pose_that_froze_is_believed_again_when_somebody_starts_anew(bench: Bench, tmp_path: Any) -> None:
+    node = fly_north(bench, tmp_path, gate__frozen_after=1.0, holding__hold_after=0.4)
+    for k in range(12):
+        bench.measurement(3.6 + 0.1 * k, Navigation(5.0, 0.0, 0.0, 0.0), 1.9, ("map", "base_link"))
+    bench.until(lambda: node.health.refused["odom"] >= 2)
+    bench.until(lambda: states(bench)[-1] == "holding")
+    bench.call("abort")
+    bench.call("start")
+    bench.measurement(5.0, Navigation(5.0, 0.0, 0.0, 0.0), 0.0, ("map", "base_link"))
+    bench.until(lambda: states(bench)[-1] == "running")
+    bench.until(lambda: bench.values(topics.DESIRED_THRUST)[-1] == 6.0)
+
+
 @pytest.mark.parametrize("state", ["idle", "holding"])
 def test_abort_works_without_any_navigation(bench: Bench, state: str) -> None:
     bench.start(GuidanceNode, holding__hold_after=0.2)

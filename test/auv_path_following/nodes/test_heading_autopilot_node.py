@@ -105,3 +105,26 @@ def test_thrust_that_contradicts_the_state_of_the_mission_is_not_obeyed_for_long
         bench.spin(0.05)
         assert time.monotonic() - t < 20.0
     assert bench.values(topics.THRUST_CMD)[-1] == 0.0
+
+
+def test_a_pose_that_froze_is_believed_again_when_a_mission_is_started(bench: Bench) -> None:
+    """It is not when a mission goes on that held."""
+    node = bench.start(HeadingAutopilotNode, gate__frozen_after=1.0)
+
+    def answered(seconds: float) -> bool:
+        before, refused = len(bench.values(topics.RUDDER_CMD)), node.health.refused["odom"]
+        bench.odometry(seconds, NORTHWARD)
+        bench.reference(math.pi / 2, 0.0, 6.0)
+        bench.until(
+            lambda: len(bench.values(topics.RUDDER_CMD)) > before or node.health.refused["odom"] > refused
+        )
+        return node.health.refused["odom"] == refused
+
+    bench.send(topics.MISSION_STATE, String(data="running"))
+    assert not [answered(1.0 + 0.1 * k) for k in range(15)][-1]
+    for words, believed in ((["holding", "running"], False), (["aborted", "running"], True)):
+        for word in words:
+            bench.send(topics.MISSION_STATE, String(data=word))
+        bench.until(lambda: node._mission == "running")
+        bench.spin(0.2)
+        assert answered(2.5 + 0.1 * believed) is believed

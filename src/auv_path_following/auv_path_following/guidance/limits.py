@@ -7,13 +7,15 @@ import itertools
 import math
 from collections import deque
 from collections.abc import Sequence
+from typing import Generic, TypeVar
 
 from auv_msgs_py.settings import setting, settings
 from auv_msgs_py.types import Navigation
 
 Point = tuple[float, float]
+T = TypeVar("T")
 
-#: Into so many chords the window of the lowest speed is divided: a circle is no standstill, noise no way.
+#: Into so many chords a window is divided: a circle is no standstill, noise no way.
 _CHORDS = 6
 
 
@@ -33,21 +35,58 @@ class LimitsConfig:
     ground_speed_window: float = setting(
         30.0, "over so much time the speed over ground is taken", unit="s", gt=0.0, le=3600.0, live=True
     )
+    path_speed: float = setting(
+        0.0,
+        "lowest speed of the virtual point along the path, once it has come as far as that in one window;"
+        " 0: any. Below it the vehicle moves, but does not follow",
+        unit="m/s",
+        ge=0.0,
+        live=True,
+    )
+    path_speed_window: float = setting(
+        60.0, "over so much time the speed along the path is taken", unit="s", gt=0.0, le=3600.0, live=True
+    )
 
     def stricter(self, other: LimitsConfig) -> LimitsConfig:
-        """Both hold; the window comes with the higher speed."""
-        faster = other if other.ground_speed > self.ground_speed else self
+        """Both hold; a window comes with the higher speed."""
+        ground = other if other.ground_speed > self.ground_speed else self
+        along = other if other.path_speed > self.path_speed else self
         return dataclasses.replace(
             self,
             path_distance=_stricter(self.path_distance, other.path_distance),
             duration=_stricter(self.duration, other.duration),
-            ground_speed=faster.ground_speed,
-            ground_speed_window=faster.ground_speed_window,
+            ground_speed=ground.ground_speed,
+            ground_speed_window=ground.ground_speed_window,
+            path_speed=along.path_speed,
+            path_speed_window=along.path_speed_window,
         )
 
 
 def _stricter(one: float, other: float) -> float:
     return min(one, other) if one and other else one or other
+
+
+class _Marks(Generic[T]):
+    """A quantity at the corners of the chords into which the last so many seconds are divided."""
+
+    def __init__(self) -> None:
+        self.rest()
+
+    def rest(self) -> None:
+        """Nothing is known of the time before."""
+        self._marks: deque[T] = deque(maxlen=_CHORDS + 1)
+        self._age = 0.0
+
+    def take(self, value: T, dt: float, window: float) -> list[T]:
+        """All corners, the oldest first, whenever a chord has ended and the window is full; else none."""
+        self._age += dt
+        if self._marks and self._age < window / _CHORDS:
+            return []
+        if self._marks and self._age > window:  # nothing was heard for so long
+            self.rest()
+        self._marks.append(value)
+        self._age = 0.0
+        return list(self._marks) if len(self._marks) > _CHORDS else []
 
 
 class Limits:
@@ -61,25 +100,30 @@ class Limits:
     def __init__(self, config: LimitsConfig | None = None, geofence: Sequence[Point] = ()) -> None:
         self.config = config or LimitsConfig()
         self.geofence = tuple(geofence)
+        self._places: _Marks[Point] = _Marks()
+        self._to_go: _Marks[float] = _Marks()
         self.reset()
 
     def reset(self) -> None:
         """A mission begins."""
         self.elapsed = 0.0
         self._been_near = False
+        self._most_to_go = -math.inf
+        self._has_followed = False
         self.rest()
 
     def rest(self) -> None:
-        """The vehicle was stopped: the speed over ground is measured anew."""
-        self._marks: deque[Point] = deque(maxlen=_CHORDS + 1)
-        self._mark_age = 0.0
+        """The vehicle was stopped: its speeds are measured anew."""
+        self._places.rest()
+        self._to_go.rest()
 
-    def broken(self, navigation: Navigation, xe: float, ye: float, dt: float) -> str:
+    def broken(self, navigation: Navigation, xe: float, ye: float, to_go: float, dt: float) -> str:
         """The reason why the mission must end, or an empty text.
 
         Args:
             navigation: where the vehicle is, NED.
             xe, ye: its place as seen from the virtual point, m.
+            to_go: path from the virtual point to the end, m.
             dt: seconds since the last call.
         """
         c, x, y = self.config, navigation.x, navigation.y
@@ -94,28 +138,29 @@ class Limits:
                 return f"limit path_distance: {off_path:.1f} m from the path, at most {c.path_distance:g} m"
         if self.geofence and not inside(self.geofence, x, y):
             return f"limit geofence: left at north {x:.1f} m, east {y:.1f} m"
-        return self._too_slow(x, y, dt) if c.ground_speed else ""
+        return self._too_slow_over_ground(x, y, dt) or self._too_slow_along(to_go, dt)
 
-    def _too_slow(self, x: float, y: float, dt: float) -> str:
-        c = self.config
-        self._mark_age += dt
-        if self._marks and self._mark_age < c.ground_speed_window / _CHORDS:
-            return ""
-        if self._marks and self._mark_age > c.ground_speed_window:  # nothing is known about this time
-            self.rest()
-        self._marks.append((x, y))
-        self._mark_age = 0.0
-        if len(self._marks) <= _CHORDS:
-            return ""
-        marks = list(self._marks)
+    def _too_slow_over_ground(self, x: float, y: float, dt: float) -> str:
+        least, window = self.config.ground_speed, self.config.ground_speed_window
+        marks = self._places.take((x, y), dt, window) if least else []
         way = sum(math.dist(a, b) for a, b in itertools.pairwise(marks))
-        speed = way / c.ground_speed_window
-        if speed >= c.ground_speed:
+        return _too_slow("ground_speed", way, window, least) if marks else ""
+
+    def _too_slow_along(self, to_go: float, dt: float) -> str:
+        least, window = self.config.path_speed, self.config.path_speed_window
+        if not least:
             return ""
-        return (
-            f"limit ground_speed: {speed:.2f} m/s over {c.ground_speed_window:g} s,"
-            f" at least {c.ground_speed:g} m/s"
-        )
+        self._most_to_go = max(self._most_to_go, to_go)
+        if not self._has_followed:
+            self._has_followed = self._most_to_go - to_go >= least * window
+            return ""
+        marks = self._to_go.take(to_go, dt, window)
+        return _too_slow("path_speed", marks[0] - marks[-1], window, least) if marks else ""
+
+
+def _too_slow(limit: str, way: float, window: float, least: float) -> str:
+    speed = way / window
+    return f"limit {limit}: {speed:.2f} m/s over {window:g} s, at least {least:g} m/s" * (speed < least)
 
 
 def inside(polygon: Sequence[Point], x: float, y: float) -> bool:

@@ -97,6 +97,7 @@ class GuidanceNode(SuiteNode):
         response.success = self.state.start()
         if response.success:
             self._begin()
+            self._input.odometry.believe_anew()
         response.message = self.state.reason if response.success else f"already {self.state.state.value}"
         self._tell()
         return response
@@ -149,7 +150,7 @@ class GuidanceNode(SuiteNode):
                 self.limits.rest()
             dt, self._rejoining = 0.0 if self._rejoining else inputs.dt, False
             output = self.follower.update(navigation, water, inputs.current, dt)
-            broken = self.limits.broken(navigation, output.xe, output.ye, inputs.dt)
+            broken = self.limits.broken(navigation, output.xe, output.ye, output.distance_to_go, inputs.dt)
             if output.finished:
                 self.state.complete()
             elif broken:

@@ -92,6 +92,9 @@ class HeadingAutopilotNode(SuiteNode):
     def _on_mission_state(self, message: String) -> None:
         if message.data not in _STATES:
             raise MessageRefused(topics.MISSION_STATE.name, f"'{message.data}'", ", ".join(_STATES))
+        if message.data == State.RUNNING and self._mission != State.HOLDING and not self.parameters.lockstep:
+            self._intake.believe_anew()
+            self.autopilot.reset()
         self._mission = message.data
 
     def _put(self, topic: str, value: Any, stamp: int | None) -> None:

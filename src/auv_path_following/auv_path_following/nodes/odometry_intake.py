@@ -66,6 +66,10 @@ class OdometryIntake:
         """The node's parameters were changed in flight."""
         self._gate.config = self._node.parameters.gate
 
+    def believe_anew(self) -> None:
+        """Somebody has started a mission, and so vouches for where the vehicle lies, even still."""
+        self._gate.reset()
+
     @property
     def silent(self) -> bool:
         """Free running: no odometry was accepted for longer than `odometry_timeout`."""

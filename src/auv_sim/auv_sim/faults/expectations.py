@@ -104,7 +104,9 @@ def _command(place: str) -> list[Expectation]:
     ]
 
 
-_OFF_PATH: dict[str, Any] = {"outcome": "aborts", "set_by": "limits.path_distance", "lasts": 60.0}
+_OFF_PATH: dict[str, Any] = {
+    "outcome": "aborts", "safe": 90.0, "set_by": "limits.path_distance, limits.path_speed", "lasts": 90.0,
+}  # fmt: skip
 
 TABLE: tuple[Expectation, ...] = (
     _odom("stop", "no usable odom", within=0.6),
@@ -150,7 +152,7 @@ TABLE: tuple[Expectation, ...] = (
     _current("frameless", "current_estimate: found frame_id ''"),
     _E("current_estimate", "flood", _GUIDANCE, "current_estimate comes at", **_FLOOD),
     *_reference("desired_yaw"),
-    _E("desired_yaw", "freeze", _GUIDANCE, "limit path_distance", 60.0, safe=60.0, **_OFF_PATH),
+    _E("desired_yaw", "freeze", _GUIDANCE, "limit path_", 90.0, **_OFF_PATH),
     *_reference("desired_yaw_rate"),
     _E("desired_yaw_rate", "freeze", "", "", 0.0, "goes on"),
     *_reference("desired_thrust"),
@@ -167,7 +169,7 @@ TABLE: tuple[Expectation, ...] = (
         then_abort=True,
     ),
     *_command("rudder_cmd"),
-    _E("rudder_cmd", "freeze", _GUIDANCE, "limit path_distance", 60.0, safe=60.0, **_OFF_PATH),
+    _E("rudder_cmd", "freeze", _GUIDANCE, "limit path_", 90.0, **_OFF_PATH),
     *_command("thrust_cmd"),
     _E("thrust_cmd", "freeze", "", "", 0.0, "goes on"),
     _E("thrust_cmd", "freeze", _GUIDANCE, "aborted: abort was called", 0.1, "aborts", 0.1, then_abort=True),
