@@ -80,6 +80,50 @@ def test_places_that_do_not_agree_are_never_believed(gate):
     assert set(fly(gate, wild)) == {REFUSED}
 
 
+@pytest.mark.parametrize(
+    ("step", "named"),
+    [
+        (Navigation(5.2, 0.0, 0.0, 0.0), "a position that moved"),
+        (Navigation(0.0, 0.1, 0.4, 0.0), "a heading that turned"),
+    ],
+)
+def test_a_place_that_runs_away_in_small_steps_is_never_believed(gate, step, named):
+    """Every step is within the margin of one; together they are not, nor do they agree among themselves."""
+    judged = [
+        gate.judge(
+            Navigation(step.x * k, step.y * k, math.remainder(step.psi * k, math.tau), 0.0), 0.05, True
+        )
+        for k in range(400)
+    ]
+    assert named in next(j.found for j in judged if j.passed is REFUSED)
+    # A heading that spins is now and then where it may be.
+    assert [j.passed for j in judged].count(BELIEVED) < 200
+    assert MOVED not in [j.passed for j in judged]
+
+
+@given(
+    st.lists(
+        st.tuples(st.floats(-1.7, 1.7), st.floats(-1.7, 1.7), st.floats(-0.17, 0.17)),
+        min_size=100,
+        max_size=200,
+    )
+)
+@settings(deadline=None, max_examples=20)
+def test_noise_within_the_margins_is_believed_for_ever(noise):
+    gate = NavigationGate(NavigationGateConfig(), TOP_SPEED)
+    for k, (x, y, psi) in enumerate(noise):
+        assert gate.judge(Navigation(x, 2.0 * k * DT + y, psi, 0.0), DT, True).passed is BELIEVED
+
+
+def test_after_refused_positions_a_heading_that_turned_meanwhile_is_believed(gate):
+    def turning(k, north=0.0):
+        return at(k * DT, north=north, psi=0.7 * k * DT, r=0.7)
+
+    fly(gate, [turning(k) for k in range(11)])
+    assert set(fly(gate, [turning(k, north=100.0 * (1 + k % 2)) for k in range(11, 41)])) == {REFUSED}
+    assert set(fly(gate, [turning(k) for k in range(41, 60)])) == {BELIEVED}
+
+
 def test_an_impossible_yaw_rate_never_becomes_possible(gate):
     fly(gate, [at(0.0)])
     assert set(fly(gate, [at(k * DT, r=100.0) for k in range(1, 200)])) == {REFUSED}

@@ -49,6 +49,7 @@ class SuiteNode(Node):  # type: ignore[misc]
     def __init__(self, name: str, parameters: type[Any], **arguments: Any) -> None:
         self._stamp: int | None = None
         super().__init__(name, **arguments)
+        self._steady_to_ros = float(self.get_clock().now().nanoseconds) * 1e-9 - time.monotonic()
         self.parameters: Any = params.declare(self, parameters, self._changed)
         self.publishers_by_topic: dict[Topic, Publisher] = {}
         self.fault = ""
@@ -125,10 +126,23 @@ class SuiteNode(Node):  # type: ignore[misc]
         self.health.warn("flood", self._rates.told(now))
 
     def now(self) -> float:
-        """ROS time, s."""
+        """Time to measure by, s: simulated time where there is one; else a clock that nobody sets.
+
+        The computer's own time steps when it is set by GPS or a network; nothing came late because of that.
+        """
         if self._stamp is not None:
             return self._stamp * 1e-9
-        return float(self.get_clock().now().nanoseconds) * 1e-9
+        clock = self.get_clock()
+        if clock.ros_time_is_active:
+            return float(clock.now().nanoseconds) * 1e-9
+        return self._steady_to_ros + time.monotonic()
+
+    def every(self, period: float, callback: Callable[[], None]) -> None:
+        """Call back every `period` s of the time that `now` measures: setting a clock delays no watchdog."""
+        simulated = self.get_clock().ros_time_is_active
+        self.create_timer(
+            period, callback, clock=None if simulated else Clock(clock_type=ClockType.STEADY_TIME)
+        )
 
     def time_is(self, stamp: int) -> None:
         """In lockstep: what /clock says now, ns."""

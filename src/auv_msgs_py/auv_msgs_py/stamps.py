@@ -41,6 +41,10 @@ class StampGuard:
         self._last: int | None = None
         self._refused: int | None = None
 
+    def is_old(self, stamp: int) -> bool:
+        """Whether a stamp is not newer than the last accepted one."""
+        return self._last is not None and stamp <= self._last
+
     def judge(self, stamp: int) -> Tick:
         """Take in a stamp, nanoseconds."""
         if self._last is None:

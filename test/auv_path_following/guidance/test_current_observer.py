@@ -141,3 +141,40 @@ def test_it_begins_with_no_current_and_reset_begins_anew():
     assert observer.current == NO_CURRENT
     # A jump of the position while nobody looked is no current.
     assert observer.update(at(1e4), water, 1.0) == (NO_CURRENT, 0.0, 0.0)
+
+
+def settled(psi=0.0):
+    """An observer that knows a current of (0.1, 0.2) m/s, and where its vehicle is at time t."""
+    at, water = drifting(0.1, 0.2, 1.9, 0.0, psi), WaterVelocity(1.9, 0.0)
+    observer = CurrentObserver()
+    for k in range(601):
+        observer.update(at(0.05 * k), water, 0.05)
+    return observer, at, water
+
+
+def test_a_short_gap_without_velocity_through_water_is_bridged():
+    observer, at, water = settled()
+    for k in range(1, 21):
+        assert observer.update(at(30.0 + 0.05 * k), None, 0.05).current == observer.current
+    assert observer.update(at(31.05), water, 0.05).current == pytest.approx((0.1, 0.2), abs=1e-6)
+
+
+@pytest.mark.parametrize("heard", [True, False])
+def test_what_the_vehicle_did_in_a_long_gap_is_not_taken_for_a_current(heard):
+    """It turned and stopped meanwhile; with or without odometry in the gap."""
+    observer, at, _ = settled()
+    x, y, psi, _ = at(30.0)
+    somewhere = Navigation(x + 9.0, y - 3.0, psi + 1.6, 0.0)
+    if heard:
+        for _ in range(400):
+            observer.update(somewhere, None, 0.05)
+    output = observer.update(somewhere, WaterVelocity(0.5, 0.0), 0.05 if heard else 20.0)
+    assert output.current == pytest.approx((0.1, 0.2), abs=1e-6)
+
+
+def test_a_new_place_counts_also_when_it_is_found_without_velocity_through_water():
+    observer, _, water = settled()
+    observer.relocate()
+    observer.update(Navigation(500.0, 0.0, 0.0, 0.0), None, 0.05)
+    after = observer.update(Navigation(500.1, 0.0, 0.0, 0.0), water, 0.05)
+    assert after.current == pytest.approx((0.1, 0.2), abs=1e-6)

@@ -40,3 +40,24 @@ def test_unknown_frames_are_refused_with_both_names(bench: Bench) -> None:
     node.health.publish()
     bench.until(lambda: bench.diagnosed("frame_id 'map' with child_frame_id 'base_link_frd'"))
     assert bench.received["current_estimate"] == []
+
+
+def test_a_new_place_found_without_velocity_through_water_is_no_current(bench: Bench) -> None:
+    """Believed while the log was silent, 60 m away; two seconds later the log is back."""
+    node = bench.start(CurrentObserverNode, gate__accept_after=0.3, water_velocity_timeout=0.2)
+    for k in range(40):
+        t = 1.0 + 0.1 * k
+        bench.measurement(t, Navigation(t, 0.0, 0.0, 0.0), 1.0, ("map", "base_link"))
+        bench.until(lambda k=k: len(bench.received["current_estimate"]) > k)
+    for k in range(40, 60):
+        t = 1.0 + 0.1 * k
+        bench.odometry(t, Navigation(t + 60.0, 0.0, 0.0, 0.0))
+        bench.spin(0.02)
+    bench.until(lambda: node.health.refused["odom"] > 2)
+    heard = len(bench.received["current_estimate"])
+    for k in range(60, 70):
+        t = 1.0 + 0.1 * k
+        bench.measurement(t, Navigation(t + 60.0, 0.0, 0.0, 0.0), 1.0, ("map", "base_link"))
+        bench.until(lambda k=k: len(bench.received["current_estimate"]) > heard + k - 60)
+    for message in bench.received["current_estimate"][heard:]:
+        assert (message.vector.x, message.vector.y) == pytest.approx((0.0, 0.0), abs=0.01)

@@ -147,6 +147,35 @@ def test_a_pose_that_froze_is_believed_again_when_somebody_starts_anew(bench: Be
     bench.until(lambda: bench.values(topics.DESIRED_THRUST)[-1] == 6.0)
 
 
+def test_time_before_the_start_does_not_count_and_time_that_is_held_does(bench: Bench, tmp_path: Any) -> None:
+    """Odometry was out for 50 s before; then the mission holds for want of velocity through water."""
+    mission = tmp_path / "north.yaml"
+    mission.write_text(NORTH)
+    bench.start(GuidanceNode, mission=str(mission), limits__duration=40.0)
+    step(bench, 1.0, 0.0)
+    bench.call("start")
+    step(bench, 51.0, 0.2)
+    step(bench, 51.1, 0.4)
+    assert states(bench)[-1] == "running"
+    for k in range(1, 8):
+        bench.odometry(51.1 + 10.0 * k, Navigation(0.4, 0.1 * k, 0.0, 0.0))
+        bench.spin(0.05)
+    bench.until(lambda: states(bench)[-1] == "aborted")
+    bench.until(lambda: bench.diagnosed("aborted: limit duration"))
+
+
+def test_a_new_place_found_without_velocity_through_water_is_rejoined_later(
+    bench: Bench, tmp_path: Any
+) -> None:
+    node = fly_north(bench, tmp_path, holding__hold_after=20.0, gate__accept_after=0.2)
+    for k in range(8):
+        bench.odometry(6.0 + 0.1 * k, Navigation(60.0, 5.0, 0.0, 0.0))
+        bench.spin(0.02)
+    bench.until(lambda: node._rejoining)
+    s = step(bench, 7.0, 60.0, 5.0)
+    assert s == pytest.approx(0.55, abs=0.06)
+
+
 @pytest.mark.parametrize("state", ["idle", "holding"])
 def test_abort_works_without_any_navigation(bench: Bench, state: str) -> None:
     bench.start(GuidanceNode, holding__hold_after=0.2)

@@ -6,6 +6,7 @@ import math
 import time
 
 import pytest
+from rclpy.duration import Duration
 from std_msgs.msg import String
 
 from auv_msgs_py import topics
@@ -128,3 +129,59 @@ def test_a_pose_that_froze_is_believed_again_when_a_mission_is_started(bench: Be
         bench.until(lambda: node._mission == "running")
         bench.spin(0.2)
         assert answered(2.5 + 0.1 * believed) is believed
+
+
+def test_a_mission_state_that_is_repeated_is_no_start(bench: Bench) -> None:
+    """A latched message comes again when a link does: the rudder goes on, and a jump is still a jump."""
+    node = bench.start(HeadingAutopilotNode)
+    bench.send(topics.MISSION_STATE, String(data="running"))
+    for k in range(8):
+        bench.odometry(1.0 + 0.05 * k, Navigation(0.1 * k, 0.0, 0.0, 0.0))
+        bench.reference(math.pi / 2 + 0.3, 0.0, 6.0)
+        bench.until(lambda k=k: len(bench.values(topics.RUDDER_CMD)) > k)
+        if k == 6:
+            bench.until(lambda: node._mission == "running")
+            bench.send(topics.MISSION_STATE, String(data="running"))
+            bench.spin(0.2)
+    before, after = bench.values(topics.RUDDER_CMD)[-2:]
+    assert 0.5 * before < after
+    bench.odometry(1.5, Navigation(0.9, 0.0, 1.5, 0.0))
+    bench.until(lambda: node.health.refused["odom"] == 1)
+
+
+def test_a_vehicle_clock_that_is_set_back_far_is_followed(bench: Bench) -> None:
+    """By more than would be too late: two messages that continue each other show what it is."""
+    node = bench.start(HeadingAutopilotNode, lateness=1.0)
+    for k in range(5):
+        bench.odometry(1000.0 + 0.05 * k, Navigation(0.1 * k, 0.0, 0.0, 0.0))
+        bench.spin(0.05)
+    for k in range(20):
+        bench.odometry(500.0 + 0.05 * k, Navigation(0.5 + 0.1 * k, 0.0, 0.0, 0.0))
+        bench.spin(0.05)
+    bench.until(lambda: node.health.refused["odom"] == 1)
+    bench.reference(math.pi / 2, 0.0, 6.0)
+    bench.until(lambda: bench.values(topics.THRUST_CMD)[-1:] == [6.0])
+
+
+def test_a_clock_of_the_computer_that_is_set_forward_makes_nothing_late(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    node = bench.start(HeadingAutopilotNode, lateness=1.0)
+    true_time = node.get_clock().now
+    for k in range(20):
+        if k == 10:
+            monkeypatch.setattr(node.get_clock(), "now", lambda: true_time() + Duration(seconds=7))
+        bench.odometry(1000.0 + 0.05 * k, Navigation(0.1 * k, 0.0, 0.0, 0.0))
+        bench.spin(0.05)
+    assert node.get_clock().now() - true_time() > Duration(seconds=6)
+    assert not node.health.refused
+
+
+def test_whoever_stops_the_autopilot_stops_the_vehicle(bench: Bench) -> None:
+    node = bench.start(HeadingAutopilotNode)
+    bench.odometry(1.0, NORTHWARD)
+    bench.reference(math.pi / 2, 0.0, 6.0)
+    bench.until(lambda: bench.values(topics.THRUST_CMD) == [6.0])
+    node.close()
+    bench.until(lambda: bench.values(topics.THRUST_CMD) == [6.0, 0.0])
+    assert bench.values(topics.RUDDER_CMD)[-1] == 0.0

@@ -19,6 +19,15 @@ class CurrentObserverConfig:
     k_ob2: float = setting(
         1.0, "gain from position error to the position", unit="1/s", gt=0.0, le=100.0, live=True
     )
+    longest_gap: float = setting(
+        3.0,
+        "what happened in a gap without measurements that is longer than this is not guessed: the estimate"
+        " goes on from the new position",
+        unit="s",
+        gt=0.0,
+        le=60.0,
+        live=True,
+    )
 
 
 class ObserverOutput(NamedTuple):
@@ -48,28 +57,35 @@ class CurrentObserver:
 
     def reset(self) -> None:
         """Forget everything; the next update starts with an estimate of zero."""
-        self._last: tuple[float, float, float, float] | None = None
-        self._ex = self._ey = 0.0
+        self.relocate()
         self._current = NO_CURRENT
 
     def relocate(self) -> None:
         """The next position is not the end of a way from the last one; the current is still the same."""
-        self._last = None
+        self._last: tuple[float, float, float, float] | None = None
         self._ex = self._ey = 0.0
+        self._blind = 0.0
 
     @property
     def current(self) -> Current:
         """The latest estimate, m/s, NED."""
         return self._current
 
-    def update(self, navigation: Navigation, water: WaterVelocity, dt: float) -> ObserverOutput:
+    def update(self, navigation: Navigation, water: WaterVelocity | None, dt: float) -> ObserverOutput:
         """Take in one measurement.
 
         Args:
             navigation: measured pose, NED.
-            water: measured velocity through the water, FRD.
+            water: measured velocity through the water, FRD; None: not known now, the estimate rests.
             dt: seconds since the last update, > 0; ignored on the first one.
         """
+        dt += self._blind
+        if dt > self.config.longest_gap:
+            self.relocate()
+        if water is None:
+            self._blind = dt
+            return ObserverOutput(self._current, self._ex, self._ey)
+        self._blind = 0.0
         x, y, psi, _ = navigation
         cos_psi, sin_psi = math.cos(psi), math.sin(psi)
         wx = cos_psi * water.ur - sin_psi * water.vr

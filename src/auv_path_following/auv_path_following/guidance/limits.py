@@ -33,7 +33,7 @@ class LimitsConfig:
         ge=0.0, live=True,
     )  # fmt: skip
     ground_speed_window: float = setting(
-        30.0, "over so much time the speed over ground is taken", unit="s", gt=0.0, le=3600.0, live=True
+        30.0, "over so much time the speed over ground is taken", unit="s", ge=2.0, le=3600.0, live=True
     )
     path_speed: float = setting(
         0.0,
@@ -44,7 +44,7 @@ class LimitsConfig:
         live=True,
     )
     path_speed_window: float = setting(
-        60.0, "over so much time the speed along the path is taken", unit="s", gt=0.0, le=3600.0, live=True
+        60.0, "over so much time the speed along the path is taken", unit="s", ge=2.0, le=3600.0, live=True
     )
 
     def stricter(self, other: LimitsConfig) -> LimitsConfig:
@@ -67,26 +67,30 @@ def _stricter(one: float, other: float) -> float:
 
 
 class _Marks(Generic[T]):
-    """A quantity at the corners of the chords into which the last so many seconds are divided."""
+    """A quantity, and the time, at the corners of the chords into which the last seconds are divided."""
 
     def __init__(self) -> None:
         self.rest()
 
     def rest(self) -> None:
         """Nothing is known of the time before."""
-        self._marks: deque[T] = deque(maxlen=_CHORDS + 1)
-        self._age = 0.0
+        self._marks: deque[tuple[float, T]] = deque(maxlen=_CHORDS + 1)
+        self._time = 0.0
 
-    def take(self, value: T, dt: float, window: float) -> list[T]:
-        """All corners, the oldest first, whenever a chord has ended and the window is full; else none."""
-        self._age += dt
-        if self._marks and self._age < window / _CHORDS:
-            return []
-        if self._marks and self._age > window:  # nothing was heard for so long
+    def take(self, value: T, dt: float, window: float) -> tuple[float, list[T]]:
+        """The time between the first and the last corner, and all of them, the oldest first.
+
+        Whenever a chord has ended and the window is full; else (0, none).
+        """
+        self._time += dt
+        if self._marks and self._time - self._marks[-1][0] < window / _CHORDS:
+            return 0.0, []
+        if dt > window:  # nothing was heard for so long
             self.rest()
-        self._marks.append(value)
-        self._age = 0.0
-        return list(self._marks) if len(self._marks) > _CHORDS else []
+        self._marks.append((self._time, value))
+        if len(self._marks) <= _CHORDS:
+            return 0.0, []
+        return self._time - self._marks[0][0], [value for _, value in self._marks]
 
 
 class Limits:
@@ -117,6 +121,14 @@ class Limits:
         self._places.rest()
         self._to_go.rest()
 
+    def wait(self, dt: float) -> str:
+        """Time passes in a mission that holds; the reason why it must end, or an empty text."""
+        self.elapsed += dt
+        longest = self.config.duration
+        if not longest or self.elapsed <= longest:
+            return ""
+        return f"limit duration: {self.elapsed:.1f} s, at most {longest:g} s"
+
     def broken(self, navigation: Navigation, xe: float, ye: float, to_go: float, dt: float) -> str:
         """The reason why the mission must end, or an empty text.
 
@@ -127,9 +139,8 @@ class Limits:
             dt: seconds since the last call.
         """
         c, x, y = self.config, navigation.x, navigation.y
-        self.elapsed += dt
-        if c.duration and self.elapsed > c.duration:
-            return f"limit duration: {self.elapsed:.1f} s, at most {c.duration:g} s"
+        if too_long := self.wait(dt):
+            return too_long
         if c.path_distance:
             off_path = math.hypot(xe, ye)
             if off_path <= c.path_distance:
@@ -142,9 +153,11 @@ class Limits:
 
     def _too_slow_over_ground(self, x: float, y: float, dt: float) -> str:
         least, window = self.config.ground_speed, self.config.ground_speed_window
-        marks = self._places.take((x, y), dt, window) if least else []
+        if not least:
+            return ""
+        time, marks = self._places.take((x, y), dt, window)
         way = sum(math.dist(a, b) for a, b in itertools.pairwise(marks))
-        return _too_slow("ground_speed", way, window, least) if marks else ""
+        return _too_slow("ground_speed", way, time, least) if marks else ""
 
     def _too_slow_along(self, to_go: float, dt: float) -> str:
         least, window = self.config.path_speed, self.config.path_speed_window
@@ -154,13 +167,13 @@ class Limits:
         if not self._has_followed:
             self._has_followed = self._most_to_go - to_go >= least * window
             return ""
-        marks = self._to_go.take(to_go, dt, window)
-        return _too_slow("path_speed", marks[0] - marks[-1], window, least) if marks else ""
+        time, marks = self._to_go.take(to_go, dt, window)
+        return _too_slow("path_speed", marks[0] - marks[-1], time, least) if marks else ""
 
 
-def _too_slow(limit: str, way: float, window: float, least: float) -> str:
-    speed = way / window
-    return f"limit {limit}: {speed:.2f} m/s over {window:g} s, at least {least:g} m/s" * (speed < least)
+def _too_slow(limit: str, way: float, time: float, least: float) -> str:
+    speed = way / time
+    return f"limit {limit}: {speed:.2f} m/s over {time:.1f} s, at least {least:g} m/s" * (speed < least)
 
 
 def inside(polygon: Sequence[Point], x: float, y: float) -> bool:

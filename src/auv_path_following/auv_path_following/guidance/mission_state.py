@@ -48,9 +48,14 @@ class MissionState:
         """Whether the vehicle may be driven."""
         return self.state is State.RUNNING
 
+    @property
+    def under_way(self) -> bool:
+        """Whether a mission was started and has not ended."""
+        return self.state in (State.RUNNING, State.HOLDING)
+
     def start(self) -> bool:
         """Begin (anew) from idle, complete or aborted; False when a mission is under way already."""
-        if self.state in (State.RUNNING, State.HOLDING):
+        if self.under_way:
             return False
         self._to(State.RUNNING, "started")
         return True

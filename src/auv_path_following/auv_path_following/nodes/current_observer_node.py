@@ -23,7 +23,6 @@ class CurrentObserverNode(SuiteNode):
         self._message = Vector3Stamped()
         self._publisher = self.advertise(topics.CURRENT_ESTIMATE)
         self.close_gate()
-        self._skipped = 0.0
         self._input = NavigationInput(self, self._step, self.observer.reset)
 
     def configure(self) -> None:
@@ -38,16 +37,14 @@ class CurrentObserverNode(SuiteNode):
         return {"north [m/s]": f"{current.Vx:.3f}", "east [m/s]": f"{current.Vy:.3f}"}
 
     def _step(self, inputs: Inputs) -> None:
-        if inputs.water is None:
-            self._skipped += inputs.dt
-            self.health.warn("water", f"no fresh {topics.WATER_VELOCITY.name}: the estimate rests")
-            return
-        self.health.warn("water", "")
         if inputs.moved:
             self.observer.relocate()
-            self._skipped = 0.0
-        output = self.observer.update(inputs.navigation, inputs.water, inputs.dt + self._skipped)
-        self._skipped = 0.0
+        output = self.observer.update(inputs.navigation, inputs.water, inputs.dt)
+        blind = inputs.water is None
+        text = f"no fresh {topics.WATER_VELOCITY.name}: the estimate rests" if blind else ""
+        self.health.warn("water", text)
+        if blind:
+            return
         fill_current(self._message, output.current, inputs.stamp)
         self.answer(self._publish)
 

@@ -10,14 +10,13 @@ from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 from auv_msgs_py import topics
-from auv_msgs_py.conversions import PATH_FRAME, fill_pose, path_message, set_stamp
-from auv_msgs_py.frames import flip_yaw
+from auv_msgs_py.conversions import path_message
 from auv_msgs_py.runtime import SuiteNode, run_nodes
-from auv_msgs_py.wire import Float64, PoseStamped, Vector3Stamped
 from auv_path_following import vehicle
 from auv_path_following.guidance.limits import Limits
 from auv_path_following.guidance.mission_state import MissionState, State
 from auv_path_following.guidance.path_follower import GuidanceOutput, PathFollower
+from auv_path_following.nodes.guidance_output import GuidanceMessages
 from auv_path_following.nodes.navigation_input import Inputs, NavigationInput
 from auv_path_following.parameters import GuidanceParameters
 from auv_path_following.paths import mission_file
@@ -40,18 +39,8 @@ class GuidanceNode(SuiteNode):
         self._told: State | None = None
         self._output: GuidanceOutput | None = None
         self._last_usable: float | None = None
-        self._rejoining = False
-        self._clock_went_back = False
-        self._floats = {
-            topic: (self.advertise(topic), Float64())
-            for topic in (
-                topics.DESIRED_YAW, topics.DESIRED_YAW_RATE, topics.DESIRED_THRUST,
-                topics.PATH_PARAMETER, topics.DISTANCE_TO_GO,
-            )
-        }  # fmt: skip
-        self._virtual_point, self._pose = self.advertise(topics.VIRTUAL_POINT), PoseStamped()
-        self._path_error, self._error = self.advertise(topics.PATH_ERROR), Vector3Stamped()
-        self._error.header.frame_id = PATH_FRAME
+        self._rejoining = self._clock_went_back = self._begins = False
+        self._messages = GuidanceMessages(self)
         self._mission_state = self.advertise(topics.MISSION_STATE)
         self._path = self.advertise(topics.PATH)
         self.close_gate()
@@ -59,7 +48,7 @@ class GuidanceNode(SuiteNode):
         self.create_service(Trigger, topics.START_SERVICE, self._on_start)
         self.create_service(Trigger, topics.ABORT_SERVICE, self._on_abort)
         if not self.parameters.lockstep:
-            self.create_timer(0.1, self._watch)
+            self.every(0.1, self._watch)
         path = self.mission.path
         points = (path.at(float(s)) for s in path.polyline(max(_PATH_SPACING, path.length / _PATH_POSES))[2])
         rows = [(point.x, point.y, point.chi) for point in points]
@@ -113,7 +102,8 @@ class GuidanceNode(SuiteNode):
         """At the beginning of the path, and only when asked to start or when time itself began again."""
         self.follower.reset()
         self.limits.reset()
-        self._last_usable, self._rejoining = None, False
+        self._last_usable, self._rejoining, self._clock_went_back = None, False, False
+        self._begins = True
 
     def _restart(self) -> None:
         """The odometry's stamps went back. If the clock did not, only the vehicle's clock was set: go on."""
@@ -135,12 +125,15 @@ class GuidanceNode(SuiteNode):
 
     def _step(self, inputs: Inputs) -> None:
         navigation, water = inputs.navigation, inputs.water
+        begins, self._begins = self._begins, False
+        dt = 0.0 if begins else inputs.dt
+        self._rejoining = (self._rejoining or inputs.moved) and not begins
         if water is None:
             self.health.warn("water", f"no fresh {topics.WATER_VELOCITY.name}")
         else:
             self.health.warn("water", "")
             self._last_usable = self.now()
-            self._rejoining = self._rejoining or inputs.moved or self.state.state is State.HOLDING
+            self._rejoining = self._rejoining or self.state.state is State.HOLDING
             self.state.navigation_back()
         late = self.state.running and inputs.current_age > self.parameters.current_timeout
         self.health.warn("current", f"no fresh {topics.CURRENT_ESTIMATE.name}" if late else "")
@@ -148,36 +141,22 @@ class GuidanceNode(SuiteNode):
             if self._rejoining:
                 self.follower.rejoin(navigation)
                 self.limits.rest()
-            dt, self._rejoining = 0.0 if self._rejoining else inputs.dt, False
-            output = self.follower.update(navigation, water, inputs.current, dt)
-            broken = self.limits.broken(navigation, output.xe, output.ye, output.distance_to_go, inputs.dt)
+            output = self.follower.update(navigation, water, inputs.current, 0.0 if self._rejoining else dt)
+            self._rejoining = False
+            broken = self.limits.broken(navigation, output.xe, output.ye, output.distance_to_go, dt)
             if output.finished:
                 self.state.complete()
-            elif broken:
-                self.state.abort(broken)
         else:
             output = self.follower.look(navigation)
-        self._fill(output, inputs.stamp)
+            broken = self.limits.wait(dt) if self.state.under_way else ""
+        if broken and self.state.under_way:
+            self.state.abort(broken)
+        self._output = output
+        self._messages.fill(output, self.mission.thrust if self.state.running else 0.0, inputs.stamp)
         self.answer(self._publish)
 
-    def _fill(self, output: GuidanceOutput, stamp: int) -> None:
-        self._output = output
-        floats = self._floats
-        floats[topics.DESIRED_YAW][1].data = flip_yaw(output.psi_d)
-        floats[topics.DESIRED_YAW_RATE][1].data = -output.r_d
-        floats[topics.DESIRED_THRUST][1].data = self.mission.thrust if self.state.running else 0.0
-        floats[topics.PATH_PARAMETER][1].data = output.s
-        floats[topics.DISTANCE_TO_GO][1].data = output.distance_to_go
-        fill_pose(self._pose, output.x_p, output.y_p, output.chi_p, stamp)
-        set_stamp(self._error.header.stamp, stamp)
-        vector = self._error.vector
-        vector.x, vector.y, vector.z = output.xe, output.ye, output.psi_e
-
     def _publish(self) -> None:
-        for publisher, message in self._floats.values():
-            publisher.publish(message)
-        self._virtual_point.publish(self._pose)
-        self._path_error.publish(self._error)
+        self._messages.publish()
         self._tell()
 
     def _tell(self) -> None:

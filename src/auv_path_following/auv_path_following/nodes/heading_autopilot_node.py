@@ -18,6 +18,7 @@ from auv_msgs_py.types import STOP, Command, Navigation, Reference
 from auv_msgs_py.wire import Float64, Odometry
 from auv_path_following import vehicle
 from auv_path_following.control.autopilot import HeadingAutopilot
+from auv_path_following.control.reference_watch import ReferenceWatch
 from auv_path_following.guidance.mission_state import State
 from auv_path_following.nodes.odometry_intake import OdometryIntake
 from auv_path_following.parameters import AutopilotParameters
@@ -43,11 +44,10 @@ class HeadingAutopilotNode(SuiteNode):
         self._pairing = Pairing(
             (topics.ODOM.name, *(topic.name for topic in _REFERENCES)), strict=self.parameters.lockstep
         )
-        self._reference: tuple[Reference, float] | None = None
+        self._references = ReferenceWatch()
         self._command = STOP
         self._missing = ""
         self._mission = ""
-        self._contradicted: float | None = None
         self._rudder, self._rudder_message = self.advertise(topics.RUDDER_CMD), Float64()
         self._thrust, self._thrust_message = self.advertise(topics.THRUST_CMD), Float64()
         self.close_gate()
@@ -56,7 +56,7 @@ class HeadingAutopilotNode(SuiteNode):
             self.listen(topic, self._on_reference(topic))
         self.listen(topics.MISSION_STATE, self._on_mission_state)
         if not self.parameters.lockstep:
-            self.create_timer(0.1, self._watch)
+            self.every(0.1, self._watch)
 
     def configure(self) -> None:
         self.autopilot.configure(self.parameters.autopilot)
@@ -92,7 +92,8 @@ class HeadingAutopilotNode(SuiteNode):
     def _on_mission_state(self, message: String) -> None:
         if message.data not in _STATES:
             raise MessageRefused(topics.MISSION_STATE.name, f"'{message.data}'", ", ".join(_STATES))
-        if message.data == State.RUNNING and self._mission != State.HOLDING and not self.parameters.lockstep:
+        starts = message.data == State.RUNNING and self._mission not in (State.RUNNING, State.HOLDING)
+        if starts and not self.parameters.lockstep:
             self._intake.believe_anew()
             self.autopilot.reset()
         self._mission = message.data
@@ -105,11 +106,11 @@ class HeadingAutopilotNode(SuiteNode):
         self, odometry: tuple[Navigation, float], yaw: float | None, rate: float | None, thrust: float | None
     ) -> None:
         if yaw is not None and rate is not None and thrust is not None:
-            self._reference = Reference(flip_yaw(yaw), -rate, thrust), self.now()
+            self._references.put(Reference(flip_yaw(yaw), -rate, thrust), self.now())
         else:
             parts = zip(_REFERENCES, (yaw, rate, thrust), strict=True)
             self._missing = ", ".join(topic.name for topic, value in parts if value is None)
-        reference = self._fresh_reference()
+        reference = self._obeyed()
         navigation, dt = odometry
         if reference is None:
             self.autopilot.reset()
@@ -118,39 +119,30 @@ class HeadingAutopilotNode(SuiteNode):
             self._command = self.autopilot.update(navigation, reference, dt).command
         self.answer(self._publish)
 
-    def _fresh_reference(self) -> Reference | None:
-        if self._reference is None:
-            return None
-        reference, at = self._reference
+    def _obeyed(self) -> Reference | None:
+        """The reference to follow; None: stop."""
+        references = self._references
         if self.parameters.lockstep:
-            return reference
-        silent = self.now() - at > self.parameters.reference_timeout
-        text = f"guidance is silent (no {self._missing}): rudder and thrust are 0" if silent else ""
-        self.health.error("guidance", text)
-        return reference if not silent and self._allowed(reference.thrust) else None
-
-    def _allowed(self, thrust: float) -> bool:
-        """False when thrust is desired though the mission has not been running for a while.
-
-        The two come on different topics, so a short contradiction is nothing.
-        """
-        if not thrust > 0.0 or self._mission in ("", State.RUNNING):
-            self._contradicted = None
-            self.health.error("interlock", "")
-            return True
-        if self._contradicted is None:
-            self._contradicted = self.now()
-        if self.now() - self._contradicted <= self.parameters.reference_timeout:
-            return True
-        found = f"{topics.DESIRED_THRUST.name} is {thrust:g} though the mission is {self._mission}"
-        self.health.error("interlock", f"{found}: rudder and thrust are 0")
-        return False
+            return references.newest
+        reference = references.allowed(self.now(), self._mission, self.parameters.reference_timeout)
+        stop = "rudder and thrust are 0"
+        silent = f"guidance is silent (no {self._missing}): {stop}" if references.silent else ""
+        self.health.error("guidance", silent)
+        odd = references.contradiction
+        self.health.error("interlock", f"{topics.DESIRED_THRUST.name} {odd}: {stop}" if odd else "")
+        return reference
 
     def _watch(self) -> None:
         """Odometry drives everything; without it nobody else would stop the vehicle."""
         if self._intake.silent:
             self.autopilot.reset()
             self._pairing.clear()
+            self._command = STOP
+            self._publish()
+
+    def close(self) -> None:
+        """Whoever stops the autopilot stops the vehicle."""
+        if not self.parameters.lockstep:
             self._command = STOP
             self._publish()
 

@@ -60,7 +60,7 @@ class OdometryIntake:
         #: Set by the node: whether the vehicle is known to move, so that a pose that stands still is wrong.
         self.under_way = False
         if self._free:
-            node.create_timer(0.1, self._watch)
+            node.every(0.1, self._watch)
 
     def configure(self) -> None:
         """The node's parameters were changed in flight."""
@@ -69,6 +69,7 @@ class OdometryIntake:
     def believe_anew(self) -> None:
         """Somebody has started a mission, and so vouches for where the vehicle lies, even still."""
         self._gate.reset()
+        self._refused_for = 0.0
 
     @property
     def silent(self) -> bool:
@@ -94,7 +95,8 @@ class OdometryIntake:
         """
         stamp = nanoseconds(message.header.stamp)
         navigation = navigation_from(message, self._frames, topics.ODOM.name)
-        stepped = self._free and self._stepped(stamp)
+        # Whether a stamp that goes back is an old message or a clock that was set, its order tells.
+        stepped = self._free and not self._guard.is_old(stamp) and self._stepped(stamp)
         verdict, dt = self._guard.judge(stamp)
         if verdict is Verdict.REFUSE:
             raise MessageRefused(topics.ODOM.name, "a stamp that is not newer than the last", "rising stamps")

@@ -109,7 +109,6 @@ class _Chain:
         self._observer = CurrentObserver(parameters[topics.OBSERVER].observer)
         self._follower = PathFollower(mission.path, guidance.guidance)
         self._autopilot = HeadingAutopilot(vehicle, parameters[topics.AUTOPILOT].autopilot)
-        self._skipped = 0.0
         self._complete = False
 
     def step(self, step: _Step, running: bool, begins: bool) -> Answer | None:
@@ -129,14 +128,10 @@ class _Chain:
             self._observer.reset()
             self._follower.reset()
             self._autopilot.reset()
-        if water is None:
-            self._skipped += dt
-        else:
-            self._observer.update(navigation, water, dt + self._skipped)
-            self._skipped = 0.0
+        self._observer.update(navigation, water, dt)
         running = running and not self._complete
         if running and water is not None:
-            output = self._follower.update(navigation, water, self._observer.current, dt)
+            output = self._follower.update(navigation, water, self._observer.current, 0.0 if begins else dt)
             self._complete = output.finished
             running = not output.finished
         else:

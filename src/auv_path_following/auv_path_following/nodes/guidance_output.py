@@ -1,0 +1,56 @@
+"""What guidance answers to an odometry: its result as the contract's messages."""
+
+from __future__ import annotations
+
+from auv_msgs_py import topics
+from auv_msgs_py.conversions import PATH_FRAME, fill_pose, set_stamp
+from auv_msgs_py.frames import flip_yaw
+from auv_msgs_py.runtime import SuiteNode
+from auv_msgs_py.wire import Float64, PoseStamped, Vector3Stamped
+from auv_path_following.guidance.path_follower import GuidanceOutput
+
+
+class GuidanceMessages:
+    """Filled and published again and again; what the autopilot waits for goes first.
+
+    Args:
+        node: whose publishers they are.
+    """
+
+    def __init__(self, node: SuiteNode) -> None:
+        self._floats = {
+            topic: (node.advertise(topic), Float64())
+            for topic in (
+                topics.DESIRED_YAW, topics.DESIRED_YAW_RATE, topics.DESIRED_THRUST,
+                topics.PATH_PARAMETER, topics.DISTANCE_TO_GO,
+            )
+        }  # fmt: skip
+        self._virtual_point, self._pose = node.advertise(topics.VIRTUAL_POINT), PoseStamped()
+        self._path_error, self._error = node.advertise(topics.PATH_ERROR), Vector3Stamped()
+        self._error.header.frame_id = PATH_FRAME
+
+    def fill(self, output: GuidanceOutput, thrust: float, stamp: int) -> None:
+        """Take a result in NED.
+
+        Args:
+            output: the result.
+            thrust: desired thrust, N.
+            stamp: of the odometry that it answers, ns.
+        """
+        floats = self._floats
+        floats[topics.DESIRED_YAW][1].data = flip_yaw(output.psi_d)
+        floats[topics.DESIRED_YAW_RATE][1].data = -output.r_d
+        floats[topics.DESIRED_THRUST][1].data = thrust
+        floats[topics.PATH_PARAMETER][1].data = output.s
+        floats[topics.DISTANCE_TO_GO][1].data = output.distance_to_go
+        fill_pose(self._pose, output.x_p, output.y_p, output.chi_p, stamp)
+        set_stamp(self._error.header.stamp, stamp)
+        vector = self._error.vector
+        vector.x, vector.y, vector.z = output.xe, output.ye, output.psi_e
+
+    def publish(self) -> None:
+        """Send them all."""
+        for publisher, message in self._floats.values():
+            publisher.publish(message)
+        self._virtual_point.publish(self._pose)
+        self._path_error.publish(self._error)
