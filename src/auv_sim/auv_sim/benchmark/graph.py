@@ -40,6 +40,9 @@ def _setups(steps: int) -> Iterator[tuple[str, Setup]]:
                 Setup(floor=True, recorded=recorded, composed=composed, steps=steps),
             )
             yield f"{place}/suite{suffix}", Setup(recorded=recorded, composed=composed, steps=steps)
+            if recorded and not composed:
+                scattered = Setup(recorded=True, placed=False, steps=steps)
+                yield f"{place}/suite{suffix}, on any processor", scattered
 
 
 def lockstep_figures(scale: Scale, tick: Tick) -> dict[str, Any]:

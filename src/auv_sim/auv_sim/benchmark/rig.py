@@ -18,6 +18,7 @@ from auv_sim.benchmark.stopwatch import BLOCK, MARK
 from auv_sim.benchmark.usage import Memory, Usage, memory
 from auv_sim.mission import plan
 from auv_sim.mission.composed import NODES
+from auv_sim.mission.placement import Processor
 from auv_sim.mission.plan import Options, Plan
 
 NAMESPACE = "/auv"
@@ -39,6 +40,7 @@ class Setup:
         plain: the floor as rclpy nodes usually are.
         recorded: with a recorder.
         composed: all nodes in one process.
+        placed: processes where the launcher puts them (`mission.placement`).
         steps: how many to time.
     """
 
@@ -46,6 +48,7 @@ class Setup:
     plain: bool = False
     recorded: bool = False
     composed: bool = False
+    placed: bool = True
     steps: int = 2000
 
 
@@ -105,7 +108,7 @@ def lockstep(setup: Setup) -> Timing:
         _start_suite(resolved, directory, children, "lockstep", setup.steps, setup.composed)
         return set(names)
 
-    seen = observe(start, 1.0)
+    seen = observe(start, 1.0, setup.placed and not setup.composed)
     steps = seen.told["steps"]
     share = {name: Usage(used.cpu / steps, used.switches / steps) for name, used in seen.usage.items()}
     blocks = tuple((b - a) / BLOCK for a, b in itertools.pairwise(seen.told["readings"]))
@@ -155,24 +158,27 @@ def _start_suite(
             children.start(name, NODES[name].split(":")[0], ["--ros-args", *ros])
 
 
-def observe(start: Callable[[Path, Measured], set[str]], seconds: float) -> Observed:
+def observe(start: Callable[[Path, Measured], set[str]], seconds: float, placed: bool = False) -> Observed:
     """Start processes, start their mission, wait for the watch, stop everything.
 
     Args:
         start: starts the processes and returns the names of the nodes in them.
         seconds: how long the measurement should take, roughly.
+        placed: put the processes where the launcher puts those of a lockstep mission.
     """
     with tempfile.TemporaryDirectory(prefix="auv-benchmark-") as name, processes(Path(name)) as children:
         names = start(Path(name), children)
         from auv_sim.mission.monitor import Monitor  # only now: a process with DDS threads must not fork
 
         monitor = Monitor(NAMESPACE)
+        processor = Processor(None if placed else ())
 
         def until(condition: Callable[[], bool]) -> None:
             children.until(condition, lambda: monitor.look(0.05), _PATIENCE + 2.0 * seconds)
 
         try:
             until(lambda: not monitor.missing_nodes(names, topics.RECORDER in names))
+            processor.place(children.ids)
             before, begin = children.usage(), time.perf_counter()
             refused = monitor.start()
             if refused:
@@ -183,6 +189,7 @@ def observe(start: Callable[[Path, Measured], set[str]], seconds: float) -> Obse
             occupied = {child.name: memory(child.process.pid) for child in children}
         finally:
             monitor.close()
+            processor.release()
         line = next(line for line in reversed(led.last_lines(20)) if line.startswith(MARK))
     used = {
         name: Usage(after[name].cpu - before[name].cpu, after[name].switches - before[name].switches)

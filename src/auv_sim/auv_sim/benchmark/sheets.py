@@ -16,6 +16,7 @@ _LOCKSTEP_ROWS = (
     ("suite", "the mission", "floor"),
     ("floor, recorded", "floor with a recorder that only counts", "floor, recorded"),
     ("suite, recorded", "the mission with its recorder", "floor, recorded"),
+    ("suite, recorded, on any processor", "the same where the system puts it", "floor, recorded"),
 )
 
 
@@ -47,6 +48,8 @@ def _lockstep(figures: dict[str, Any]) -> list[Sheet]:
         runs = figures[place]
         rows = []
         for kind, text, yardstick in _LOCKSTEP_ROWS:
+            if kind not in runs:
+                continue
             run, floor = runs[kind], runs[yardstick]
             rows.append(
                 (

@@ -103,6 +103,9 @@ def parser() -> argparse.ArgumentParser:
     )
     p.add_argument("--out", type=Path, metavar="DIR", help="run directory (default: runs/MISSION-DATE)")
     p.add_argument("--composed", action="store_true", help="all nodes in one process")
+    p.add_argument(
+        "--any-processor", action="store_true", help="lockstep: let the system choose where each process runs"
+    )
     p.add_argument("--namespace", type=ros_namespace, default="/auv", help="of all nodes (default /auv)")
     p.add_argument(
         "--domain", type=ros_domain, help="ROS domain (default: one of its own; with --no-sim ROS_DOMAIN_ID)"

@@ -13,6 +13,7 @@ from auv_msgs_py.errors import SuiteError
 from auv_msgs_py.runtime import StopRequest
 from auv_sim.mission.composed import NODES
 from auv_sim.mission.domains import free_domain
+from auv_sim.mission.placement import Processor
 from auv_sim.mission.plan import Plan
 from auv_sim.mission.processes import Child, Children
 from auv_sim.mission.progress import Progress
@@ -70,6 +71,7 @@ def fly(plan: Plan, directory: Path, domain: int, progress: Progress) -> Outcome
     os.environ.update(environment)
     interrupt = StopRequest()
     children = Children(directory / "log", environment)
+    processor = Processor(None if plan.lockstep and not plan.options.any_processor else ())
     try:
         _start_nodes(plan, children, plan.write(directory / "config"))
         # Only now: a process with DDS threads must not fork.
@@ -77,7 +79,7 @@ def fly(plan: Plan, directory: Path, domain: int, progress: Progress) -> Outcome
 
         monitor = Monitor(plan.options.namespace)
         try:
-            return _Flight(plan, children, monitor, progress, interrupt).run()
+            return _Flight(plan, children, monitor, progress, interrupt, processor).run()
         finally:
             # The recorder first, while the others still hold what it has not yet taken in.
             children.stop([topics.RECORDER])
@@ -85,6 +87,7 @@ def fly(plan: Plan, directory: Path, domain: int, progress: Progress) -> Outcome
             monitor.close()
     finally:
         children.stop()
+        processor.release()
         interrupt.withdraw()
 
 
@@ -111,17 +114,22 @@ def _start_nodes(plan: Plan, children: Children, parameters: Path) -> None:
 class _Flight:
     """The stages of one mission, each with its own way to end."""
 
-    def __init__(self, plan, children, monitor, progress, interrupt) -> None:  # type: ignore[no-untyped-def]
+    def __init__(  # type: ignore[no-untyped-def]
+        self, plan, children, monitor, progress, interrupt, processor: Processor
+    ) -> None:
         self._plan: Plan = plan
         self._children: Children = children
         self._monitor = monitor
         self._progress: Progress = progress
         self._interrupt: StopRequest = interrupt
+        self._processor = processor
 
     def run(self) -> Outcome:
         begin = time.monotonic()
         if not self._all_listening() or not self._vehicle_there():
             return Outcome("interrupted", "stopped before the mission began", time.monotonic() - begin, 0.0)
+        if not self._plan.options.composed:
+            self._processor.place(self._children.ids)
         refused = self._monitor.start()
         if refused:
             raise MissionFailed(f"the mission could not be started: {refused}")

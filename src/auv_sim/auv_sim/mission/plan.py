@@ -48,6 +48,7 @@ class Options:
     use_sim_time: bool = False
     out: Path | None = None
     composed: bool = False
+    any_processor: bool = False
     namespace: str = "/auv"
     domain: int | None = None
     quiet: bool = False

@@ -72,6 +72,11 @@ class Children:
     def __iter__(self):  # type: ignore[no-untyped-def]
         return iter(self._children.values())
 
+    @property
+    def ids(self) -> dict[str, int]:
+        """Name -> process id."""
+        return {name: child.process.pid for name, child in self._children.items()}
+
     def dead(self) -> Child | None:
         """The first child that has ended, if any has."""
         return next((child for child in self._children.values() if child.exit_code is not None), None)
