@@ -16,6 +16,7 @@ from auv_path_following.guidance.virtual_point import VirtualPointConfig
 from auv_path_following.paths.arc import Arc
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.line import Line
+from auv_path_following.paths.spline import Spline
 
 SPEED, DT = 1.9, 0.05
 STILL = WaterVelocity(0.0, 0.0)
@@ -202,3 +203,17 @@ def test_the_end_of_the_path_is_final():
     for x in (100.0, 200.0):
         output = follower.update(Navigation(x, 0.0, 0.0, 0.0), AHEAD, NO_CURRENT, DT)
         assert (output.finished, output.switched, output.s, output.r_d) == (True, False, 1.0, 0.0)
+
+
+@pytest.mark.parametrize("mode", ["g0", "all"])
+def test_every_lap_is_flown(mode):
+    """A closed subpath has its joint where it starts."""
+    corners = [(0.0, 0.0), (60.0, 0.0), (60.0, 60.0), (0.0, 60.0), (0.0, 0.0)]
+    lap = Spline(corners) if mode == "g0" else Arc(0.0, 0.0, 20.0, 0.0, 2.0 * math.pi)
+    path = CompositePath([lap] * 3)
+    start = path.at(0.0)
+    steps = list(glide(PathFollower(path, config(mode)), start.x, start.y, seconds=600.0))
+    assert steps[-1][1].finished
+    assert [output.i for _, output in steps if output.switched] == [1, 2, 2]
+    # The circle saves a few metres at each joint.
+    assert len(steps) * DT * SPEED == pytest.approx(path.length, rel=0.1)

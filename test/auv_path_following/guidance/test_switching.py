@@ -12,6 +12,8 @@ from auv_path_following.guidance.switching import CircleOfAcceptance, SwitchingC
 from auv_path_following.paths.arc import Arc
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.line import Line
+from auv_path_following.paths.reverse import Reversed
+from auv_path_following.paths.spline import Spline
 
 #: A corner (G0) at (40, 0), a smooth joint (G1) at (40, 20), and the end.
 PATH = CompositePath(
@@ -36,30 +38,50 @@ def test_the_path_has_the_joints_that_the_tests_need():
     ("mode", "at_corner", "at_smooth"), [("off", False, False), ("g0", True, False), ("all", True, True)]
 )
 def test_modes(mode, at_corner, at_smooth):
-    assert circle(mode).reached(40.0, 0.0, CORNER) is at_corner
-    assert circle(mode).reached(40.0, 20.0, SMOOTH) is at_smooth
+    assert circle(mode).reached(40.0, 0.0, CORNER, 0.9) is at_corner
+    assert circle(mode).reached(40.0, 20.0, SMOOTH, 0.9) is at_smooth
 
 
 @pytest.mark.parametrize("mode", ["off", "g0", "all"])
 def test_the_last_subpath_has_no_joint_to_switch_at(mode):
     end = PATH.at(3.0)
-    assert not circle(mode, 1000.0).reached(end.x, end.y, END)
+    assert not circle(mode, 1000.0).reached(end.x, end.y, END, 1.0)
 
 
 @settings(deadline=None)
-@given(st.floats(0.0, 12.0), st.floats(-math.pi, math.pi), st.floats(0.5, 12.0))
-def test_it_is_a_circle_with_the_radius_that_was_asked_for(distance, bearing, radius):
+@given(st.floats(0.0, 12.0), st.floats(-math.pi, math.pi), st.floats(0.5, 12.0), st.floats(0.0, 1.0))
+def test_it_is_a_circle_with_the_radius_that_was_asked_for(distance, bearing, radius, t):
     x, y = 40.0 + distance * math.cos(bearing), distance * math.sin(bearing)
-    reached = circle("g0", radius).reached(x, y, CORNER)
+    reached = circle("g0", radius).reached(x, y, CORNER, t)
     if abs(distance - radius) > 1e-9:
         assert reached is (distance < radius)
 
 
 def test_the_edge_belongs_to_the_circle():
-    assert circle("g0", 6.0).reached(34.0, 0.0, CORNER)
-    assert circle("g0", 0.0).reached(40.0, 0.0, CORNER)
+    assert circle("g0", 6.0).reached(34.0, 0.0, CORNER, 0.85)
+    assert circle("g0", 0.0).reached(40.0, 0.0, CORNER, 1.0)
 
 
 def test_only_the_joint_at_the_end_of_the_followed_subpath_counts():
-    assert not circle("all").reached(40.0, 0.0, SMOOTH)
-    assert not circle("all").reached(40.0, 20.0, CORNER)
+    assert not circle("all").reached(40.0, 0.0, SMOOTH, 0.5)
+    assert not circle("all").reached(40.0, 20.0, CORNER, 0.5)
+
+
+LOOP = Spline([(0.0, 0.0), (60.0, 0.0), (60.0, 60.0), (0.0, 60.0), (0.0, 0.0)])
+ROUND = Arc(0.0, 0.0, 10.0, 0.0, 2.0 * math.pi)
+
+
+@pytest.mark.parametrize(("lap", "mode"), [(LOOP, "g0"), (ROUND, "all"), (Reversed(ROUND), "all")])
+def test_a_lap_that_ends_where_it_starts_is_not_over_before_it_was_flown(lap, mode):
+    laps = CircleOfAcceptance(CompositePath([lap, lap]), SwitchingConfig(mode=mode, radius=6.0))
+    for t in (0.0, 0.01, 0.1, 0.3):
+        start = lap.evaluate(t)
+        assert not laps.reached(start.x, start.y, 0, t)
+    end = lap.evaluate(0.985)
+    assert laps.reached(end.x, end.y, 0, 0.985)
+
+
+def test_a_small_lap_inside_its_own_circle_is_flown_half_at_least():
+    small = Arc(0.0, 0.0, 2.0, 0.0, 2.0 * math.pi)
+    laps = CircleOfAcceptance(CompositePath([small, small]), SwitchingConfig(mode="all", radius=6.0))
+    assert [laps.reached(2.0, 0.0, 0, t) for t in (0.0, 0.4, 0.6)] == [False, False, True]

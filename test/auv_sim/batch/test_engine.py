@@ -49,6 +49,7 @@ FLIGHTS = {
        for kind in ("linear", "circular", "dubins", "spline")},
     "search_spiral": {"mission": "search_spiral"},
     "figure_of_eight": {"mission": "figure_of_eight"},
+    "laps, circles everywhere": {"mission": "loiter", "mode": "all"},
 }  # fmt: skip
 
 
@@ -89,6 +90,13 @@ def test_a_flight_is_that_of_the_closed_loop(name: str) -> None:
     for figure, value in wanted.items():
         found = getattr(flights, figure)[0]
         assert found == pytest.approx(value, rel=1e-9, abs=1e-9, nan_ok=True), figure
+
+
+def test_no_lap_is_skipped() -> None:
+    told = scenario(mission="loiter", mode="all", time_limit=600.0)
+    flights = engine.fly([told])
+    assert flights.completed[0]
+    assert flights.duration[0] == pytest.approx(told.path.length / 2.0, rel=0.1)
 
 
 def different(count: int) -> list[Scenario]:

@@ -131,6 +131,15 @@ def test_overlapping_circles_are_warned_of(mode, radius, overlaps):
     assert any("3 corners" in line for line in said(verdicts))
 
 
+@pytest.mark.parametrize(("radius", "overlaps"), [(8.0, True), (9.0, False), (25.0, False)])
+def test_laps_shorter_than_two_circles_are_warned_of(radius, overlaps):
+    """Every lap ends where it starts; what counts is how far it goes in between."""
+    lap = Arc(0.0, 0.0, radius, 0.0, 2.0 * math.pi)
+    laps = dataclasses.replace(mission(lap, lap, lap), once=1)
+    verdicts = check(laps, REMUS, switching=SwitchingConfig(mode="all", radius=26.0))
+    assert any("joints 1 and 2" in line and "overlap" in line for line in said(verdicts)) is overlaps
+
+
 def test_a_repeated_path_is_judged_once_and_lasts_longer(tmp_path):
     file = tmp_path / "eight.yaml"
     body = "version: 1\nname: e\nframe: ned\nthrust: 6.48\nrepeat: {}\n"

@@ -149,7 +149,7 @@ class PathFollower:
             current = NO_CURRENT
 
         switched = P.move(dt)
-        if not P.finished and self.circle.reached(x, y, P.i):
+        if not P.finished and self.circle.reached(x, y, P.i, P.t):
             switched = P.go_on()
         point = P.point()
         chi_p = point.chi

@@ -7,6 +7,7 @@ from typing import Literal
 
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.paths.composite import CompositePath
+from auv_path_following.paths.outline import last_stretch
 
 SwitchingMode = Literal["off", "g0", "all"]
 
@@ -31,18 +32,29 @@ def as_wished(config: SwitchingConfig, mode: SwitchingMode | None, radius: float
 
 
 class CircleOfAcceptance:
-    """Eq. (44) for a path whose joints are classified."""
+    """Eq. (44) for a path whose joints are classified.
+
+    A subpath that comes back to its start has its joint there, and a vehicle that sets out is inside the
+    circle at once. So the circle counts from the last stretch of a subpath on; of a line, that is all of it.
+    """
 
     def __init__(self, path: CompositePath, config: SwitchingConfig | None = None) -> None:
         self.path = path
         self.config = config or SwitchingConfig()
+        self._stretches: dict[int, float] = {}
 
-    def reached(self, x: float, y: float, i: int) -> bool:
-        """Whether a vehicle at (x, y) that follows subpath `i` (from 0) may go on to the next one."""
+    def reached(self, x: float, y: float, i: int, t: float) -> bool:
+        """Whether a vehicle at (x, y), with P at t of subpath `i` (from 0), may go on to the next one."""
         mode = self.config.mode
         if mode == "off" or i >= len(self.path.joints):
             return False
         joint = self.path.joints[i]
         if mode == "g0" and joint.geometric != "G0":
             return False
-        return math.hypot(joint.x - x, joint.y - y) <= self.config.radius
+        return math.hypot(joint.x - x, joint.y - y) <= self.config.radius and t >= self._stretch(i)
+
+    def _stretch(self, i: int) -> float:
+        """Where the last stretch of subpath `i` begins; found when its circle is first entered."""
+        if i not in self._stretches:
+            self._stretches[i] = last_stretch(self.path.segments[i])
+        return self._stretches[i]

@@ -63,6 +63,19 @@ def tightest(segment: Segment) -> tuple[float, float]:
     return best
 
 
+def last_stretch(segment: Segment) -> float:
+    """The t from which on a segment leads to its end: by half a circle at most, pi/2 times the straight way.
+
+    All of a line, of an arc the last half turn: where a curve passes its own end on the way, that is not it.
+    """
+    t, p = look(segment)
+    x, y = np.asarray(p.x), np.asarray(p.y)
+    pieces = np.hypot(np.diff(x), np.diff(y))
+    to_go = np.append(np.cumsum(pieces[::-1])[::-1], 0.0)
+    astray = np.flatnonzero(to_go > 0.5 * math.pi * np.hypot(x[-1] - x, y[-1] - y))
+    return float(t[astray[-1] + 1]) if len(astray) else 0.0
+
+
 def polygon(segment: Segment, error: float) -> tuple[Array, Array]:
     """A segment as straight pieces.
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from auv_msgs_py.types import Current, Navigation, WaterVelocity
 from auv_path_following.guidance.law import LawInputs
 from auv_sim.batch.compiled import compiled
-from auv_sim.batch.curve import CORNER, JOINT_X, JOINT_Y, Curve
+from auv_sim.batch.curve import CORNER, JOINT_X, JOINT_Y, STRETCH, Curve
 from auv_sim.batch.numbers import Guidance
 from auv_sim.batch.path_point import evaluate
 from auv_sim.batch.shared import ailos_update, los_update, path_errors, tangential_speed, wrap
@@ -55,7 +55,7 @@ def follow(
     go_on = t >= 1.0 and not finished
     if go_on:
         i, t, finished = _next(n, i)
-    if not finished and _reached(c, curve, navigation, i):
+    if not finished and _reached(c, curve, navigation, i, t):
         i, t, finished = _next(n, i)
     point = evaluate(curve, i, t)
     chi_p = math.atan2(point.dy, point.dx)
@@ -95,14 +95,14 @@ def _next(n: int, i: int) -> tuple[int, float, bool]:
 
 
 @compiled
-def _reached(c: Guidance, curve: Curve, navigation: Navigation, i: int) -> bool:
+def _reached(c: Guidance, curve: Curve, navigation: Navigation, i: int, t: float) -> bool:
     """`CircleOfAcceptance.reached`."""
     if c.switching == 0 or i + 1 >= len(curve.subpath):
         return False
     if c.switching == 1 and curve.subpath[i, CORNER] == 0.0:
         return False
     dx, dy = curve.subpath[i, JOINT_X] - navigation.x, curve.subpath[i, JOINT_Y] - navigation.y
-    return math.hypot(dx, dy) <= c.radius
+    return math.hypot(dx, dy) <= c.radius and t >= curve.subpath[i, STRETCH]
 
 
 @compiled

@@ -94,7 +94,7 @@ def check(
         *survey.way(current),
         *survey.turns(turn, vehicle.name),
         *_corners(mission),
-        *_circles(mission, switching or SwitchingConfig(mode="g0", radius=6.0)),
+        *_circles(mission, switching or SwitchingConfig()),
         *_crossings(mission),
     ]
     return Verdicts(
@@ -242,12 +242,14 @@ def _corners(mission: Mission) -> Iterator[Verdict]:
 
 
 def _circles(mission: Mission, switching: SwitchingConfig) -> Iterator[Verdict]:
+    # One joint more than the path has once: where it repeats itself, the next lap's first.
     joints = [
-        j for j in mission.path.joints[: mission.once] if switching.mode == "all" or j.geometric == "G0"
+        j for j in mission.path.joints[: mission.once + 1] if switching.mode == "all" or j.geometric == "G0"
     ]
     if switching.mode == "off" or len(joints) < 2:
         return
-    gaps = np.hypot(np.diff([j.x for j in joints]), np.diff([j.y for j in joints]))
+    # Along the path: a circle counts on the last stretch of its subpath only, see `CircleOfAcceptance`.
+    gaps = -np.diff([mission.path.distance_to_go(j.index, 0.0) for j in joints])
     overlapping = np.flatnonzero(gaps < 2.0 * switching.radius)
     if overlapping.size:
         k = int(overlapping[np.argmin(gaps[overlapping])])
