@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 from collections import Counter
 from collections.abc import Callable
@@ -17,6 +18,8 @@ from auv_msgs_py.errors import MessageRefused
 _OK, _WARN, _ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 #: How long a refused message keeps the status at WARN, s of wall time.
 _MEMORY = 5.0
+#: What may differ from one refusal to the next of its kind.
+_NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?")
 #: News are told at once, but for those that come sooner after a report than this, s of wall time.
 _NEWS = 0.1
 
@@ -46,6 +49,7 @@ class Health:
         self._waiting_for = waiting_for
         self._look = look
         self.refused: Counter[str] = Counter()
+        self._kinds: set[tuple[str, str]] = set()
         self._last_refusal = ""
         self._last_refusal_at = float("-inf")
         self._reported_at = float("-inf")
@@ -61,10 +65,15 @@ class Health:
         return self._last_refusal if time.monotonic() - self._last_refusal_at < _MEMORY else ""
 
     def refuse(self, error: MessageRefused) -> None:
-        """Count a refused message; its kind is logged once, its number is in every report."""
+        """Count a refused message; its kind is logged once, its number is in every report.
+
+        Of one kind are refusals on one topic that expected the same, whatever the numbers.
+        """
         self.refused[error.topic] += 1
         text = str(error)
-        if self.refused[error.topic] == 1 or text.split(":")[0] not in self._last_refusal:
+        kind = error.topic, _NUMBER.sub("#", error.expected)
+        if kind not in self._kinds:
+            self._kinds.add(kind)
             self._node.get_logger().error(f"refused: {text}")
         self._last_refusal, self._last_refusal_at = text, time.monotonic()
         self._news()
