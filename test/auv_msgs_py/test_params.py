@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -38,6 +39,30 @@ def test_gains_may_change_in_flight_and_wiring_may_not(bench: Bench) -> None:
     assert node.describe_parameter("vehicle").read_only
 
 
+def test_what_the_vehicle_cannot_bear_is_refused_in_flight_and_changes_nothing(
+    bench: Bench, tmp_path: Path
+) -> None:
+    measured = tmp_path / "measured.yaml"
+    measured.write_text(
+        "name: measured\nlength: 2.0\nthrust_max: 10\nrudder: {max_angle_deg: 25, max_rate_deg_s: 10}\n"
+        "cruise: {thrust: 8, speed: 2}\nturning: {radius: 9.5}\n"
+    )
+    own = {"enabled": True, "max_rate": 0.3, "max_acceleration": 0.2, "max_jerk": 0.5}
+    told = {f"autopilot__reference__{name}": value for name, value in own.items()}
+    node = bench.start(HeadingAutopilotNode, vehicle=str(measured), **told)
+    before, limits = node.parameters, node.autopilot.reference.limits
+
+    name = "autopilot.reference.max_jerk"
+    (result,) = node.set_parameters([Parameter(name, value=0.0)])
+    assert not result.successful
+    assert "reference.max_jerk: found 0" in result.reason and "\n" not in result.reason
+    assert node.get_parameter(name).value == 0.5
+    assert node.parameters is before and node.autopilot.reference.limits is limits
+
+    (result,) = node.set_parameters([Parameter(name, value=0.6)])
+    assert result.successful and node.autopilot.reference.limits.jerk == 0.6
+
+
 def test_the_parameter_service_refuses_with_a_reason(bench: Bench) -> None:
     bench.start(GuidanceNode)
     client = bench.node.create_client(SetParametersAtomically, "ailos_guidance/set_parameters_atomically")
@@ -67,6 +92,13 @@ def test_the_parameter_service_refuses_with_a_reason(bench: Bench) -> None:
             {"autopilot.nism.k1": -1.0},
             "autopilot.nism.k1: found -1.0, expected a number",
         ),
+        (
+            HeadingAutopilotNode,
+            {"autopilot.nism.k1": True},
+            "autopilot.nism.k1: found True, expected a number",
+        ),
+        (RemusPlantNode, {"seed": True}, "seed: found True, expected a whole number"),
+        (HeadingAutopilotNode, {"lockstep": 1}, "lockstep: found 1, expected true or false"),
         (HeadingAutopilotNode, {"autopilot.nism.kk": 1.0}, "autopilot.nism.kk: found an unknown name"),
         (
             RemusPlantNode,

@@ -17,13 +17,19 @@ T = TypeVar("T")
 _BUILT_IN = ("use_sim_time", "start_type_description_service", "qos_overrides")
 
 
-def declare(node: Node, cls: type[T], on_change: Callable[[T], None] | None = None) -> T:
+def declare(
+    node: Node,
+    cls: type[T],
+    on_change: Callable[[T], None] | None = None,
+    try_out: Callable[[T], object] | None = None,
+) -> T:
     """Declare every leaf of a settings class as a parameter of the node.
 
     Args:
         node: the node.
         cls: its settings class; every leaf has a default.
         on_change: called with the new settings after parameters marked `live` were changed.
+        try_out: called with new settings before they are accepted; a `ConfigurationError` refuses them.
 
     Returns:
         The settings with the node's overrides applied.
@@ -40,7 +46,7 @@ def declare(node: Node, cls: type[T], on_change: Callable[[T], None] | None = No
     flat: dict[str, Any] = {}
     for leaf in leaves(cls):
         override = node._parameter_overrides.get(leaf.name)
-        if isinstance(leaf.default, float) and override is not None and isinstance(override.value, int):
+        if isinstance(leaf.default, float) and override is not None and type(override.value) is int:
             # `-p radius:=6` is meant as 6.0
             node._parameter_overrides[leaf.name] = Parameter(leaf.name, value=float(override.value))
         try:
@@ -51,11 +57,17 @@ def declare(node: Node, cls: type[T], on_change: Callable[[T], None] | None = No
                 f"{node.get_name()}: parameter {leaf.name}", repr(found), _expectation(leaf)
             ) from None
     current = validated(cls, nested(flat), f"{node.get_name()}: parameter")
-    _accept_changes(node, cls, current, on_change)
+    _accept_changes(node, cls, current, on_change, try_out)
     return current
 
 
-def _accept_changes(node: Node, cls: type[T], current: T, on_change: Callable[[T], None] | None) -> None:
+def _accept_changes(
+    node: Node,
+    cls: type[T],
+    current: T,
+    on_change: Callable[[T], None] | None,
+    try_out: Callable[[T], object] | None,
+) -> None:
     names = {leaf.name for leaf in leaves(cls)}
     pending: list[T] = [current]
 
@@ -64,9 +76,12 @@ def _accept_changes(node: Node, cls: type[T], current: T, on_change: Callable[[T
         flat = {name: node.get_parameter(name).value for name in names}
         flat |= {parameter.name: parameter.value for parameter in parameters if parameter.name in names}
         try:
-            pending[0] = validated(cls, nested(flat), f"{node.get_name()}: parameter")
+            wanted = validated(cls, nested(flat), f"{node.get_name()}: parameter")
+            if try_out is not None:
+                try_out(wanted)
         except ConfigurationError as error:
             return SetParametersResult(successful=False, reason=str(error))
+        pending[0] = wanted
         return SetParametersResult(successful=True)
 
     def apply(parameters: list[Parameter]) -> None:

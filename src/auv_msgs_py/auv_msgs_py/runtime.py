@@ -50,7 +50,11 @@ class SuiteNode(Node):  # type: ignore[misc]
         self._stamp: int | None = None
         super().__init__(name, **arguments)
         self._steady_to_ros = float(self.get_clock().now().nanoseconds) * 1e-9 - time.monotonic()
-        self.parameters: Any = params.declare(self, parameters, self._changed)
+        #: Called before changed parameters are accepted; a `ConfigurationError` refuses them.
+        self.try_out: Callable[[Any], object] = lambda parameters: None
+        self.parameters: Any = params.declare(
+            self, parameters, self._changed, lambda wanted: self.try_out(wanted)
+        )
         self.publishers_by_topic: dict[Topic, Publisher] = {}
         self.fault = ""
         self.finished = False

@@ -11,11 +11,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from auv_msgs_py import params_file, topics
+from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.types import STOP, Navigation, Reference
 from auv_path_following import config_files, vehicle
 from auv_path_following.control.autopilot import HeadingAutopilot
 from auv_path_following.control.controller import ControllerOutput
 from auv_path_following.control.derivative import DerivativeConfig
+from auv_path_following.control.reference_model import ReferenceConfig
 from auv_path_following.parameters import AutopilotParameters, GuidanceParameters, ObserverParameters
 
 _NODES = {
@@ -186,3 +188,40 @@ def test_the_filter_forgets_with_the_mission_and_takes_a_new_bandwidth():
     autopilot.update(Navigation(0.0, 0.0, 0.0, 1.0), Reference(0.0, 0.0, 0.0), DT)
     autopilot.update(Navigation(0.0, 0.0, 0.0, 5.0), Reference(0.0, 0.0, 6.0), DT)
     assert spy.seen[-1][0].r_dot == 0.0
+
+
+def test_gains_that_the_vehicle_cannot_bear_change_nothing():
+    """Without a hull no limit of the reference can be derived."""
+    measured = dataclasses.replace(
+        REMUS,
+        hull=None,
+        cruise=vehicle.Cruise(thrust=6.0, speed=2.0),
+        turning=vehicle.Turning(radius=6.0),
+    )
+    own = ReferenceConfig(enabled=True, max_rate=0.3, max_acceleration=0.2, max_jerk=0.5)
+    config = dataclasses.replace(CONFIG, reference=own)
+    autopilot = HeadingAutopilot(measured, config)
+    limits, gains = autopilot.reference.limits, autopilot.controller.config
+    wrong = dataclasses.replace(
+        config,
+        reference=dataclasses.replace(own, max_jerk=0.0),
+        nism=dataclasses.replace(config.nism, k1=0.1),
+        derivative=DerivativeConfig(bandwidth=3.0),
+    )
+    with pytest.raises(ConfigurationError, match=r"^reference\.max_jerk: found 0, and .* no hull"):
+        autopilot.configure(wrong)
+    with pytest.raises(ConfigurationError, match="hull"):
+        autopilot.configure(dataclasses.replace(config, controller="smc"))
+    assert autopilot.config is config
+    assert autopilot.reference.config is own and autopilot.reference.limits is limits
+    assert autopilot.controller.config is gains
+    assert autopilot.derivative.config is config.derivative
+
+
+@pytest.mark.parametrize("rate", [10.0, 573.0, 574.0, 1e6])
+def test_a_rudder_however_fast_gives_a_kp(rate):
+    """1e6 deg/s is how some write that their rudder has no rate limit worth a number."""
+    fast = dataclasses.replace(REMUS, rudder=dataclasses.replace(REMUS.rudder, max_rate_deg_s=rate))
+    config = dataclasses.replace(CONFIG, nism=dataclasses.replace(CONFIG.nism, kp_from_rudder=True))
+    kp = HeadingAutopilot(fast, config).controller.config.kp
+    assert kp == min(fast.rudder.max_rate, 10.0)

@@ -11,7 +11,7 @@ from auv_msgs_py.settings import setting, settings
 from auv_msgs_py.types import STOP, Command, Navigation, Reference
 from auv_path_following.control.controller import HeadingController, HeadingInputs
 from auv_path_following.control.derivative import Derivative, DerivativeConfig
-from auv_path_following.control.nism import Nism, NismConfig
+from auv_path_following.control.nism import LARGEST_RATE, Nism, NismConfig
 from auv_path_following.control.pid import Pid, PidConfig
 from auv_path_following.control.reference_model import ReferenceConfig, ReferenceModel
 from auv_path_following.control.smc import Smc, SmcConfig
@@ -51,53 +51,61 @@ class HeadingAutopilot:
     Args:
         vehicle: for the limits of rudder and thrust.
         config: controller and gains.
+
+    Raises:
+        ConfigurationError: gains that need what the vehicle's file does not have.
     """
 
     def __init__(self, vehicle: Vehicle, config: AutopilotConfig | None = None) -> None:
         self.vehicle = vehicle
         self.config = config or AutopilotConfig()
-        self.controller: HeadingController = self._controller()
+        self.controller: HeadingController = self._controller(self.config)
         self.derivative = Derivative(self.config.derivative)
-        self.reference = ReferenceModel(self.config.reference, vehicle, self._rudder_rate)
+        self.reference = ReferenceModel(self.config.reference, vehicle, self._rudder_rate(self.config))
         self.reset()
 
     def configure(self, config: AutopilotConfig) -> None:
-        """Take new gains; the rudder stays where it is."""
-        before, self.config = self.config, config
+        """Take new gains; the rudder stays where it is.
+
+        Raises:
+            ConfigurationError: as at the beginning; nothing has changed then.
+        """
+        controller = self.controller
+        if config.controller != self.config.controller:
+            controller = self._controller(config)
+        self.reference.configure(config.reference, self._rudder_rate(config))
+        # From here on nothing can fail.
         self.derivative.config = config.derivative
-        self.reference.configure(config.reference, self._rudder_rate)
-        if config.controller != before.controller:
-            self.controller = self._controller()
-        match self.controller:
+        match controller:
             case Nism():
-                self.controller.config = self._nism
+                controller.config = self._nism(config)
             case Pid():
-                self.controller.config = config.pid
+                controller.config = config.pid
             case Smc():
-                self.controller.config = config.smc
+                controller.config = config.smc
+        self.controller, self.config = controller, config
 
-    def _controller(self) -> HeadingController:
-        match self.config.controller:
+    def _controller(self, config: AutopilotConfig) -> HeadingController:
+        match config.controller:
             case "pid":
-                return Pid(self.config.pid, self.vehicle.rudder)
+                return Pid(config.pid, self.vehicle.rudder)
             case "smc":
-                return Smc(self.config.smc, self.vehicle)
+                return Smc(config.smc, self.vehicle)
             case _:
-                return Nism(self._nism, self.vehicle.rudder.max_angle)
+                return Nism(self._nism(config), self.vehicle.rudder.max_angle)
 
-    @property
-    def _nism(self) -> NismConfig:
+    def _nism(self, config: AutopilotConfig) -> NismConfig:
         """NISM's gains, with kp from the rudder where that is asked for."""
-        nism = self.config.nism
+        nism = config.nism
         if not nism.kp_from_rudder:
             return nism
-        return dataclasses.replace(nism, kp=max(self.vehicle.rudder.max_rate - nism.ks, 1e-6))
+        kp = self.vehicle.rudder.max_rate - nism.ks
+        return dataclasses.replace(nism, kp=min(max(kp, 1e-6), LARGEST_RATE))
 
-    @property
-    def _rudder_rate(self) -> float:
+    def _rudder_rate(self, config: AutopilotConfig) -> float:
         """The fastest that the controller moves the rudder, rad/s."""
-        limit = self.vehicle.rudder.max_rate
-        return min(self._nism.kp + self._nism.ks, limit) if self.config.controller == "nism" else limit
+        limit, nism = self.vehicle.rudder.max_rate, self._nism(config)
+        return min(nism.kp + nism.ks, limit) if config.controller == "nism" else limit
 
     def reset(self) -> None:
         """Forget all state."""

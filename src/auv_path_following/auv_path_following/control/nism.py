@@ -7,6 +7,9 @@ import math
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.control.controller import ControllerOutput, HeadingInputs
 
+#: Of the rudder rate's two parts, rad/s: beyond anything that moves a fin.
+LARGEST_RATE = 10.0
+
 
 @settings
 class NismConfig:
@@ -29,17 +32,24 @@ class NismConfig:
         live=True,
     )
     kp: float = setting(
-        0.1745, "bound of the smooth part of the rudder rate", unit="rad/s", gt=0.0, le=10.0, live=True
+        0.1745,
+        "bound of the smooth part of the rudder rate",
+        unit="rad/s",
+        gt=0.0,
+        le=LARGEST_RATE,
+        live=True,
     )
     kp_from_rudder: bool = setting(
-        False, "take kp from the rudder of the vehicle's file: its rate less ks", live=True
+        False,
+        "take kp from the rudder of the vehicle's file: its rate less ks, within the bounds of kp",
+        live=True,
     )
     ks: float = setting(
         0.0,
         "switching part of the rudder rate, against varying disturbance",
         unit="rad/s",
         ge=0.0,
-        le=10.0,
+        le=LARGEST_RATE,
         live=True,
     )
 

@@ -12,6 +12,7 @@ import math
 from typing import NamedTuple
 
 from auv_msgs_py.angles import wrap
+from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.control.hull_model import HullModel
 from auv_path_following.vehicle import Vehicle
@@ -86,6 +87,11 @@ def limits_of(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> 
     """
     if config.max_rate and config.max_acceleration and config.max_jerk:
         return Limits(config.max_rate, config.max_acceleration, config.max_jerk)
+    if vehicle.hull is None:
+        limits = ("max_rate", "max_acceleration", "max_jerk")
+        name = next(limit for limit in limits if not getattr(config, limit))
+        found = f"0, and {vehicle.name} has no hull to derive it from"
+        raise ConfigurationError(f"reference.{name}", found, "a number greater than 0")
     model = HullModel(vehicle)
     speed = model.cruise(vehicle.thrust_max)
     jerk = config.max_jerk or JERK_SHARE * abs(model.rudder_gain(speed)[1]) * rudder_rate
@@ -109,11 +115,15 @@ class ReferenceModel:
         self.reset()
 
     def configure(self, config: ReferenceConfig, rudder_rate: float) -> None:
-        """Take new limits; the reference stays where it is."""
-        self.config = config
+        """Take new limits; the reference stays where it is.
+
+        Raises:
+            ConfigurationError: as `limits_of`; nothing has changed then.
+        """
         self.limits = (
             limits_of(config, self._vehicle, rudder_rate) if config.enabled else Limits(0.0, 0.0, 0.0)
         )
+        self.config = config
 
     def reset(self) -> None:
         """The next update starts from the vehicle."""

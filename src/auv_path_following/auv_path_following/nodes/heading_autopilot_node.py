@@ -38,6 +38,7 @@ class HeadingAutopilotNode(SuiteNode):
         super().__init__(topics.AUTOPILOT, AutopilotParameters, **arguments)
         hull = vehicle.load(self.parameters.vehicle)
         self.autopilot = HeadingAutopilot(hull, self.parameters.autopilot)
+        self.try_out = lambda wanted: HeadingAutopilot(hull, wanted.autopilot)  # raises where that cannot be
         #: What no guidance asks for: more than a turn, a whirl, a multiple of the thrust there is.
         self._largest = dict(zip(_REFERENCES, (6.5, 10.0, 10.0 * hull.thrust_max), strict=True))
         self._intake = OdometryIntake(self, "rudder and thrust are 0")
