@@ -27,10 +27,10 @@ CLASSES = {"pilot": Pilot, "observer": Gains}
 
 @pytest.fixture
 def loaded(tmp_path):
-    def load(text):
+    def load(text, **where):
         path = tmp_path / "params.yaml"
         path.write_text(text, encoding="utf-8")
-        return params_file.load(path, CLASSES)
+        return params_file.load(path, CLASSES, **where)
 
     return load
 
@@ -48,12 +48,60 @@ def test_every_spelling_that_ros_takes(loaded, pattern, body):
     assert loaded(f"{pattern}:\n  ros__parameters:\n    {body}\n")["pilot"].gains == Gains(k1=3.0)
 
 
-def test_two_entries_for_one_node_add_up(loaded):
-    text = (
-        "/**/pilot:\n  ros__parameters:\n    gains: {k1: 3}\n"
-        "/auv/pilot:\n  ros__parameters:\n    gains: {k2: 4}\n"
-    )
-    assert loaded(text)["pilot"].gains == Gains(k1=3.0, k2=4.0)
+def _blocks(**blocks):
+    """Block by block, what k1 is."""
+    names = {"two": "/auv2/pilot", "one": "/auv1/pilot", "any": "/**/pilot", "bare": "pilot"}
+    return "".join(f"{names[name]}: {{ros__parameters: {{gains.k1: {k1}}}}}\n" for name, k1 in blocks.items())
+
+
+@pytest.mark.parametrize(
+    ("blocks", "first", "second"),
+    [
+        ({"one": 3, "any": 4}, "/auv1/pilot", "/**/pilot"),
+        ({"any": 3, "bare": 4}, "/**/pilot", "pilot"),
+        ({"one": 3, "two": 4}, "/auv1/pilot", "/auv2/pilot"),
+    ],
+)
+def test_two_blocks_for_one_node_are_refused(loaded, blocks, first, second):
+    with pytest.raises(ConfigurationError) as caught:
+        loaded(_blocks(**blocks))
+    assert f"{second}: found a second block for pilot, after {first}" in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_known_namespace_tells_vehicles_apart(loaded):
+    text = _blocks(two=4, one=3)
+    assert loaded(text, namespace="/auv1")["pilot"].gains == Gains(k1=3.0)
+    assert loaded(text, namespace="/auv2")["pilot"].gains == Gains(k1=4.0)
+    assert loaded(text, namespace="auv2/")["pilot"].gains == Gains(k1=4.0)
+
+
+@pytest.mark.parametrize("pattern", ["/*/pilot", "/**/pilot", "/fleet/**/pilot", "/fleet/*/pilot"])
+def test_wildcards_stand_for_a_namespace_as_they_do_in_ros(loaded, pattern):
+    text = f"{pattern}: {{ros__parameters: {{gains.k1: 3}}}}\n"
+    namespace = "/auv1" if pattern == "/*/pilot" else "/fleet/auv1"
+    assert loaded(text, namespace=namespace)["pilot"].gains == Gains(k1=3.0)
+
+
+@pytest.mark.parametrize("namespace", ["/", "", "/auv", "/fleet/auv1", None])
+@pytest.mark.parametrize("pattern", ["/**/pilot", "pilot", "/pilot", "/**/**/pilot"])
+def test_what_is_for_every_namespace_is_for_the_root_too(loaded, pattern, namespace):
+    text = f"{pattern}: {{ros__parameters: {{gains.k1: 3}}}}\n"
+    assert loaded(text, namespace=namespace)["pilot"].gains == Gains(k1=3.0)
+
+
+@pytest.mark.parametrize("pattern", ["/auv2/pilot", "/*/pilot", "/auv/1/pilot"])
+def test_gains_that_would_reach_nobody_are_refused(loaded, pattern):
+    with pytest.raises(ConfigurationError) as caught:
+        loaded(f"{pattern}: {{ros__parameters: {{gains.k1: 3}}}}\n", namespace="/fleet/auv1")
+    said = f"{pattern}: found another namespace than /fleet/auv1, expected /**/pilot or /fleet/auv1/pilot"
+    assert said in str(caught.value)
+
+
+def test_a_mistake_in_another_vehicles_block_is_a_mistake_all_the_same(loaded):
+    text = "/auv1/pilot: {ros__parameters: {}}\n/auv2/pilot: {ros__parameters: {gains.k9: 1}}\n"
+    with pytest.raises(ConfigurationError, match=r"gains\.k9: found an unknown key"):
+        loaded(text, namespace="/auv1")
 
 
 def test_dotted_and_nested_keys_of_one_group_add_up(loaded):
@@ -120,3 +168,17 @@ def test_a_block_for_all_nodes_and_use_sim_time_are_understood(tmp_path):
     path.write_text("/**: {ros__parameters: {k1: 0.5, use_sim_time: true}}\n")
     loaded = params_file.load(path, {"one": Gains, "two": Gains})
     assert [node.k1 for node in loaded.values()] == [0.5, 0.5]
+
+
+@pytest.mark.parametrize("namespace", ["/auv1", "/auv1/deep", None])
+def test_a_block_for_all_nodes_of_a_namespace(tmp_path, namespace):
+    path = tmp_path / "params.yaml"
+    path.write_text("/auv1/**: {ros__parameters: {k1: 0.5}}\n")
+    assert params_file.load(path, {"one": Gains}, namespace)["one"].k1 == 0.5
+
+
+def test_a_nodes_own_block_adds_to_that_for_all_nodes(tmp_path):
+    path = tmp_path / "params.yaml"
+    path.write_text("/**: {ros__parameters: {k1: 0.5}}\n/**/two: {ros__parameters: {k1: 3, k2: 4}}\n")
+    loaded = params_file.load(path, {"one": Gains, "two": Gains})
+    assert loaded == {"one": Gains(k1=0.5), "two": Gains(k1=3.0, k2=4.0)}

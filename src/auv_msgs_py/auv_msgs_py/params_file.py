@@ -9,6 +9,7 @@ The same file serves `ros2 run ... --params-file`, the launcher and `closed_loop
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -18,38 +19,82 @@ from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.settings import flattened, nested, validated
 
 
-def load(path: Path, classes: Mapping[str, type[Any]]) -> dict[str, Any]:
+def load(path: Path, classes: Mapping[str, type[Any]], namespace: str | None = None) -> dict[str, Any]:
     """Read a parameter file.
 
     Args:
         path: the YAML file.
         classes: node name -> settings class that holds all of its parameters.
+        namespace: that of the nodes, where it is known: blocks for another one are passed over, as a node
+            does. Where it is not, a block counts whatever its namespace.
 
     Returns:
         node name -> settings object; nodes the file does not mention have their defaults. A block for
         ``/**`` is for all of them.
 
     Raises:
-        ConfigurationError: naming file and key, what was found and what was expected.
+        ConfigurationError: naming file and key, what was found and what was expected; also for two blocks
+            for one node, and for blocks of which none is for this namespace.
     """
     data = yaml_file.parse(path)
     if not isinstance(data, dict):
         raise ConfigurationError(str(path), repr(data), "a mapping of node names to ros__parameters")
     values: dict[str, dict[str, Any]] = {name: {} for name in classes}
-    for pattern, body in data.items():
-        name = str(pattern).rsplit("/", 1)[-1]
-        if name not in classes and name != "**":
-            known = ", ".join(f"/**/{known}" for known in classes)
-            raise ConfigurationError(f"{path}: {pattern}", "an unknown node", f"one of {known}")
-        if not isinstance(body, dict) or set(body) != {"ros__parameters"}:
-            raise ConfigurationError(f"{path}: {pattern}", repr(body), "one key, ros__parameters")
-        parameters = body["ros__parameters"]
-        if not isinstance(parameters, dict):
-            raise ConfigurationError(f"{path}: {pattern}.ros__parameters", repr(parameters), "a mapping")
+    taken: dict[str, str] = {}
+    passed_over: dict[str, str] = {}
+    for key, body in data.items():
+        pattern = str(key)
+        name = pattern.rpartition("/")[2]
+        told = _told(path, pattern, body, classes)
+        if namespace is not None and not _covers(pattern, namespace):
+            if name in classes:
+                validated(classes[name], nested(told), f"{path}: {pattern}")
+            passed_over[name] = pattern
+            continue
+        if name in taken:
+            found = f"a second block for {name}, after {taken[name]}"
+            raise ConfigurationError(f"{path}: {pattern}", found, "one block for each node")
+        taken[name] = pattern
         for node in classes if name == "**" else (name,):
-            values[node] |= _undotted(parameters)
-            values[node].pop("use_sim_time", None)  # every ROS node's own; who starts a node decides on it
+            values[node] |= told
+    for name in passed_over.keys() - taken.keys():
+        here = "/".join(["", *_parts(namespace or "")])
+        found, expected = f"another namespace than {here or '/'}", f"/**/{name} or {here}/{name}"
+        raise ConfigurationError(f"{path}: {passed_over[name]}", found, expected)
     return {name: validated(cls, nested(values[name]), f"{path}: {name}") for name, cls in classes.items()}
+
+
+def _told(path: Path, pattern: str, body: Any, classes: Mapping[str, type[Any]]) -> dict[str, Any]:
+    """What one block says, with dotted names."""
+    name = pattern.rpartition("/")[2]
+    if name not in classes and name != "**":
+        known = ", ".join(f"/**/{known}" for known in classes)
+        raise ConfigurationError(f"{path}: {pattern}", "an unknown node", f"one of {known}")
+    if not isinstance(body, dict) or set(body) != {"ros__parameters"}:
+        raise ConfigurationError(f"{path}: {pattern}", repr(body), "one key, ros__parameters")
+    parameters = body["ros__parameters"]
+    if not isinstance(parameters, dict):
+        raise ConfigurationError(f"{path}: {pattern}.ros__parameters", repr(parameters), "a mapping")
+    told = _undotted(parameters)
+    told.pop("use_sim_time", None)  # every ROS node's own; who starts a node decides on it
+    return told
+
+
+def _parts(name: str) -> list[str]:
+    return [part for part in name.split("/") if part]
+
+
+def _covers(pattern: str, namespace: str) -> bool:
+    """Whether a block is for nodes of a namespace: ``*`` stands for one part of it, ``**`` for any number.
+
+    A name alone is a node's in any namespace.
+    """
+    *parts, name = _parts(pattern)
+    if not parts:
+        return True
+    wild = {"*": "/[^/]+", "**": "(/[^/]+)*"}
+    expected = [wild.get(part, f"/{re.escape(part)}") for part in (*parts, *["**"] * (name == "**"))]
+    return re.fullmatch("".join(expected), "".join(f"/{part}" for part in _parts(namespace))) is not None
 
 
 def _undotted(parameters: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:

@@ -78,6 +78,21 @@ def test_the_written_configuration_flies_the_same_again(tmp_path):
     assert third.parameters[topics.GUIDANCE].guidance.switching.mode == "off"
 
 
+def test_of_a_file_for_two_vehicles_the_one_in_this_namespace_counts(tmp_path):
+    file = tmp_path / "fleet.yaml"
+    file.write_text(
+        "".join(
+            f"/{name}/ailos_guidance: {{ros__parameters: {{guidance.virtual_point.k: {k}}}}}\n"
+            for name, k in (("auv1", 0.5), ("auv2", 2.0))
+        )
+    )
+    for namespace, k in (("/auv1", 0.5), ("/auv2", 2.0)):
+        made = plan.make(Options(params=str(file), namespace=namespace), tmp_path / "run")
+        assert made.parameters[topics.GUIDANCE].guidance.virtual_point.k == k
+    with pytest.raises(ConfigurationError, match="found another namespace than /auv, expected"):
+        plan.make(Options(params=str(file)), tmp_path / "run")
+
+
 def test_a_vehicle_without_a_hull_can_be_planned_for_but_not_simulated(tmp_path, capsys):
     path = tmp_path / "measured.yaml"
     path.write_text(

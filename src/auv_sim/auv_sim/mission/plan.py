@@ -177,7 +177,7 @@ def make(options: Options, directory: Path) -> Plan:
             "nothing",
             "the hull's coefficients, or --no-sim: the simulator needs them",
         )
-    parameters = params_file.load(sources["params"], SUITE)
+    parameters = params_file.load(sources["params"], SUITE, options.namespace)
     timing = {"lockstep": options.simulator and options.speed is None}
     timing["recorded"] = timing["lockstep"]
     for name in parameters:
