@@ -72,6 +72,15 @@ def test_dubins_turns_keep_every_leg_straight_to_its_end(spacing):
     assert {joint.geometric for joint in path.joints} <= {"G1", "G2"}
 
 
+@pytest.mark.parametrize("key", ["start_course_deg", "end_course_deg"])
+def test_with_dubins_a_survey_has_the_courses_of_its_legs(key):
+    legs = survey.legs(BAY, 20.0, 0.5)
+    with pytest.raises(
+        ConfigurationError, match="found start_course_deg or end_course_deg, expected neither"
+    ):
+        survey.path(legs, Smoothing(kind="dubins", radius=10.0, **{key: 45.0}))
+
+
 @pytest.mark.parametrize(
     ("polygon", "spacing", "said"),
     [

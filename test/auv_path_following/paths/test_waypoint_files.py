@@ -24,8 +24,8 @@ def _tuples(places) -> str:
     return "\n".join(f"{lon},{lat},0" for lon, lat in places)
 
 
-def _item(command: int, place=(0.0, 0.0)) -> dict:
-    return {"type": "SimpleItem", "command": command, "params": [0, 0, 0, None, *place, 0]}
+def _item(command: int, place=(0.0, 0.0), frame=3) -> dict:
+    return {"type": "SimpleItem", "command": command, "frame": frame, "params": [0, 0, 0, None, *place, 0]}
 
 
 SURVEY = {
@@ -60,6 +60,9 @@ GOOD = {
     + "".join(f"a,{a},{b}\n" for a, b in PLACES),
     "semicolons.csv": "lat;lon\n" + "".join(f"{a};{b}\n" for a, b in PLACES),
     "simple.plan": json.dumps({"mission": {"items": [_item(178), *(_item(16, place) for place in PLACES)]}}),
+    "frames.plan": json.dumps(
+        {"mission": {"items": [_item(16, p, f) for p, f in zip(PLACES, (0, 6, 11), strict=True)]}}
+    ),
     "survey.plan": json.dumps({"mission": {"items": [_item(82, PLACES[0]), SURVEY]}}),
 }
 
@@ -97,6 +100,20 @@ WRONG = {
     "text.csv": ("north,east\n1,2\n3\n", "'3' as point 2"),
     "nan.csv": ("north,east\n1,nan\n", "point 1 is"),
     "a.plan": ("{}", "no mission.items"),
+    **{
+        f"jump_{command}.plan": (
+            json.dumps({"mission": {"items": [_item(16, PLACES[0]), _item(command, frame=2)]}}),
+            f"item 2 with command {command}",
+        )
+        for command in (177, 601, 192, 115)
+    },
+    **{
+        f"frame_{frame}.plan": (
+            json.dumps({"mission": {"items": [_item(16, PLACES[0]), _item(82, (40.0, 25.0), frame)]}}),
+            f"item 2 in frame {frame}",
+        )
+        for frame in (1, 2, 4, 7, 8, True, "3")
+    },
     "land.plan": (json.dumps({"mission": {"items": [_item(21)]}}), "item 1 with command 21"),
     "place.plan": (
         json.dumps({"mission": {"items": [{"command": 16, "params": []}]}}),

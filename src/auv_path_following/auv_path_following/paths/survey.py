@@ -100,11 +100,14 @@ def path(way: Sequence[Leg], turns: Smoothing) -> list[Segment]:
         turns: how to come from one to the next.
 
     Raises:
-        ConfigurationError: a turn does not fit.
+        ConfigurationError: a turn does not fit, or keys that do not belong to a survey.
     """
     if turns.kind != "dubins":
         return smooth([point for leg in way for point in leg], turns)
     smooth(way[0], turns)  # for the check of its keys
+    if turns.start_course_deg is not None or turns.end_course_deg is not None:
+        found = "start_course_deg or end_course_deg"
+        raise ConfigurationError("smoothing", found, "neither: with dubins the legs' courses count")
     radius = turns.radius or math.nan
     segments: list[Segment] = []
     before: Pose | None = None

@@ -16,8 +16,13 @@ Point = tuple[float, float]
 
 #: MAVLink's commands for a point to pass: NAV_WAYPOINT and NAV_SPLINE_WAYPOINT.
 _WAYPOINTS = (16, 82)
-#: Commands up to this one move the vehicle; later ones do something on the way.
+#: Commands up to this one move the vehicle; later ones do something on the way,
 _LAST_NAVIGATION = 95
+#: but for these: CONDITION_YAW, DO_JUMP, DO_RALLY_LAND, DO_GO_AROUND, DO_REPOSITION, DO_SET_REVERSE,
+#: NAV_SET_YAW_SPEED, DO_SET_MISSION_CURRENT, OVERRIDE_GOTO, DO_JUMP_TAG.
+_MOVING = (115, 177, 190, 191, 192, 194, 213, 224, 252, 601)
+#: MAV_FRAMEs of positions in degrees; they differ in what a height is above.
+_GLOBAL_FRAMES = (0, 3, 5, 6, 10, 11)
 _COLUMNS = (
     (True, ("latitude", "lat"), ("longitude", "lon", "lng")),
     (False, ("north",), ("east",)),
@@ -145,11 +150,16 @@ def _plan(path: Path, text: str) -> Waypoints:
     for number, item in enumerate(_plan_items(mission["items"]), start=1):
         command = item.get("command")
         if command in _WAYPOINTS:
+            frame = item.get("frame", _GLOBAL_FRAMES[0])
+            if frame not in _GLOBAL_FRAMES:
+                raise _wrong(
+                    path, f"item {number} in frame {frame}", "latitude and longitude (MAV_FRAME_GLOBAL...)"
+                )
             try:
                 points.append((float(item["params"][4]), float(item["params"][5])))
             except (KeyError, IndexError, TypeError, ValueError):
                 raise _wrong(path, f"item {number} without a position", "latitude and longitude") from None
-        elif not isinstance(command, int) or command <= _LAST_NAVIGATION:
+        elif not isinstance(command, int) or command <= _LAST_NAVIGATION or command in _MOVING:
             raise _wrong(path, f"item {number} with command {command}", "waypoints only (commands 16 and 82)")
     return Waypoints(points, True)
 
