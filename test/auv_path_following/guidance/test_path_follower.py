@@ -9,7 +9,10 @@ import pytest
 
 from auv_msgs_py.angles import wrap
 from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
+from auv_path_following.guidance.adaptive_lookahead import AdaptiveLookaheadConfig
 from auv_path_following.guidance.ailos import AilosConfig
+from auv_path_following.guidance.ilos import IlosConfig
+from auv_path_following.guidance.los import LosConfig
 from auv_path_following.guidance.path_follower import PathFollower, PathFollowerConfig
 from auv_path_following.guidance.switching import SwitchingConfig
 from auv_path_following.guidance.virtual_point import VirtualPointConfig
@@ -203,6 +206,17 @@ def test_the_end_of_the_path_is_final():
     for x in (100.0, 200.0):
         output = follower.update(Navigation(x, 0.0, 0.0, 0.0), AHEAD, NO_CURRENT, DT)
         assert (output.finished, output.switched, output.s, output.r_d) == (True, False, 1.0, 0.0)
+
+
+def test_the_look_ahead_is_that_of_the_law_that_was_chosen():
+    adaptive = AdaptiveLookaheadConfig(enabled=True, hull_length=2.0, largest=4.0)
+    keys = {"ilos": IlosConfig(lookahead=7.0), "los": LosConfig(lookahead=8.0)}
+    found = [
+        PathFollowerConfig(law=law, ailos=AilosConfig(lookahead=5.0), **keys).lookahead
+        for law in ("ailos", "ilos", "los")
+    ]
+    assert found == [5.0, 7.0, 8.0]
+    assert PathFollowerConfig(ailos=AilosConfig(lookahead=5.0, adaptive=adaptive)).lookahead == 8.0
 
 
 @pytest.mark.parametrize("mode", ["g0", "all"])

@@ -78,6 +78,20 @@ def test_the_written_configuration_flies_the_same_again(tmp_path):
     assert third.parameters[topics.GUIDANCE].guidance.switching.mode == "off"
 
 
+def test_circles_far_beyond_the_look_ahead_of_these_gains_are_refused(tmp_path):
+    file = tmp_path / "wide.yaml"
+    file.write_text(
+        "version: 1\nname: wide\nframe: ned\nthrust: 6\nswitching: {radius: 11}\n"
+        "waypoints: {points: [[0, 0], [90, 0], [90, 90]], smoothing: {kind: linear}}\n"
+    )
+    with pytest.raises(
+        ConfigurationError, match=r"wide\.yaml: switching\.radius: found 11 m with a look-ahead of 5\.2"
+    ):
+        plan.make(Options(mission=str(file), params="robust"), tmp_path / "run")
+    (_, warning) = plan.make(Options(mission=str(file), params="paper"), tmp_path / "run").verdicts.warnings
+    assert "look-ahead of 6 m" in str(warning)
+
+
 def test_of_a_file_for_two_vehicles_the_one_in_this_namespace_counts(tmp_path):
     file = tmp_path / "fleet.yaml"
     file.write_text(

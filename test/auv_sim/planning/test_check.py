@@ -131,6 +131,34 @@ def test_overlapping_circles_are_warned_of(mode, radius, overlaps):
     assert any("3 corners" in line for line in said(verdicts))
 
 
+@pytest.mark.parametrize(
+    ("mode", "radius", "lookahead", "level"),
+    [
+        ("g0", 6.0, 6.0, None),
+        ("g0", 6.5, 6.0, "warning"),
+        ("all", 12.0, 6.0, "warning"),
+        ("g0", 12.5, 6.0, "refused"),
+        ("g0", 1000.0, None, "refused"),  # the default's
+        ("off", 1000.0, 6.0, None),
+        ("g0", 12.5, 15.0, None),
+    ],
+)
+def test_a_circle_goes_no_farther_than_the_look_ahead(mode, radius, lookahead, level):
+    corner = smooth([(0, 0), (5000, 0), (5000, 5000)], Smoothing(kind="linear"))
+    switching = SwitchingConfig(mode=mode, radius=radius)
+    verdicts = check(mission(*corner), REMUS, switching=switching, lookahead=lookahead)
+    lines = [line for line in said(verdicts) if "Rk <= Delta" in line]
+    assert [line.split()[0] for line in lines] == ([level] if level else [])
+    assert not lines or f"switching.radius: found {radius:g} m with a look-ahead of 6 m" in lines[0]
+
+
+def test_a_path_without_circles_does_not_mind_their_radius():
+    verdicts = check(
+        mission(Line(0.0, 0.0, 500.0, 0.0)), REMUS, switching=SwitchingConfig(mode="all", radius=999.0)
+    )
+    assert said(verdicts) == []
+
+
 @pytest.mark.parametrize(("radius", "overlaps"), [(8.0, True), (9.0, False), (25.0, False)])
 def test_laps_shorter_than_two_circles_are_warned_of(radius, overlaps):
     """Every lap ends where it starts; what counts is how far it goes in between."""

@@ -45,6 +45,18 @@ class PathFollowerConfig:
     virtual_point: VirtualPointConfig = setting(factory=VirtualPointConfig, doc="virtual point")
     switching: SwitchingConfig = setting(factory=SwitchingConfig, doc="subpath switching")
 
+    @property
+    def lookahead(self) -> float:
+        """Delta of the chosen law, m; where it adapts, the largest."""
+        match self.law:
+            case "ilos":
+                return self.ilos.lookahead
+            case "los":
+                return self.los.lookahead
+            case _:
+                adaptive = self.ailos.adaptive
+                return adaptive.largest * adaptive.hull_length if adaptive.enabled else self.ailos.lookahead
+
 
 class GuidanceOutput(NamedTuple):
     """One update's result with every signal a plot wants (NED, m, rad, s)."""

@@ -205,12 +205,12 @@ def make(options: Options, directory: Path) -> Plan:
         guidance = parameters[topics.GUIDANCE].guidance
         switching = dataclasses.replace(guidance.switching, mode=options.switching)
         _tell(parameters, topics.GUIDANCE, guidance=dataclasses.replace(guidance, switching=switching))
-    switching = parameters[topics.GUIDANCE].guidance.switching
+    guidance = parameters[topics.GUIDANCE].guidance
     current = NO_CURRENT
     if options.simulator or options.emulator:
         told = parameters[topics.PLANT].current.value
         current = Current(told.Vx + water[0], told.Vy + water[1])
-    verdicts = check(mission, hull, current, switching)
+    verdicts = check(mission, hull, current, guidance.switching, guidance.lookahead)
     if verdicts.refusals and not options.force:
         raise refusal(mission, verdicts, "--force flies it all the same")
     emulator, driver = None, DRIVERS.get(options.vehicle_driver or "")

@@ -14,6 +14,7 @@ from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.types import NO_CURRENT, Current
 from auv_path_following.guidance.ailos import AilosConfig
 from auv_path_following.guidance.limits import inside
+from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.guidance.switching import SwitchingConfig
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.paths.outline import look, tightest
@@ -28,6 +29,12 @@ _AMPLE = 0.8
 #: Less way over ground than this share of the speed through the water is warned of.
 _LITTLE_WAY = 0.2
 _MOST_CROSSINGS = 100
+#: Circles of more than so many look-aheads leave too much of the path out. One is the paper's bound; a little
+#: more is of use in a current.
+_FAR_TOO_WIDE = 2.0
+
+
+Level = Literal["refused", "warning"]
 
 
 @dataclass(frozen=True)
@@ -41,7 +48,7 @@ class Verdict:
         expected: what would be better.
     """
 
-    level: Literal["refused", "warning"]
+    level: Level
     where: str
     found: str
     expected: str
@@ -73,6 +80,7 @@ def check(
     vehicle: Vehicle,
     current: Current = NO_CURRENT,
     switching: SwitchingConfig | None = None,
+    lookahead: float | None = None,
 ) -> Verdicts:
     """Judge a mission.
 
@@ -81,6 +89,7 @@ def check(
         vehicle: who is to fly it.
         current: constant current, NED, m/s.
         switching: circles of acceptance as they will be; the parameters' defaults if None.
+        lookahead: Delta of guidance, m; the parameters' default if None.
 
     Raises:
         ConfigurationError: the vehicle's turning ability cannot be found.
@@ -94,7 +103,7 @@ def check(
         *survey.way(current),
         *survey.turns(turn, vehicle.name),
         *_corners(mission),
-        *_circles(mission, switching or SwitchingConfig()),
+        *_circles(mission, switching or SwitchingConfig(), lookahead or PathFollowerConfig().lookahead),
         *_crossings(mission),
     ]
     return Verdicts(
@@ -241,12 +250,18 @@ def _corners(mission: Mission) -> Iterator[Verdict]:
         yield Verdict("warning", place, found, "a smoothing, since no vehicle turns on the spot")
 
 
-def _circles(mission: Mission, switching: SwitchingConfig) -> Iterator[Verdict]:
+def _circles(mission: Mission, switching: SwitchingConfig, lookahead: float) -> Iterator[Verdict]:
     # One joint more than the path has once: where it repeats itself, the next lap's first.
     joints = [
         j for j in mission.path.joints[: mission.once + 1] if switching.mode == "all" or j.geometric == "G0"
     ]
-    if switching.mode == "off" or len(joints) < 2:
+    if switching.mode == "off" or not joints:
+        return
+    if switching.radius > lookahead:
+        found = f"{switching.radius:g} m with a look-ahead of {lookahead:g} m"
+        level: Level = "refused" if switching.radius > _FAR_TOO_WIDE * lookahead else "warning"
+        yield Verdict(level, "switching.radius", found, "at most the look-ahead, Rk <= Delta of Eq. (44)")
+    if len(joints) < 2:
         return
     # Along the path: a circle counts on the last stretch of its subpath only, see `CircleOfAcceptance`.
     gaps = -np.diff([mission.path.distance_to_go(j.index, 0.0) for j in joints])

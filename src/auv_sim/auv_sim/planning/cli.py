@@ -18,7 +18,8 @@ from auv_msgs_py import params_file, topics
 from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.types import Current
 from auv_path_following import config_files, vehicle
-from auv_path_following.guidance.switching import SwitchingConfig, as_wished
+from auv_path_following.guidance.path_follower import PathFollowerConfig
+from auv_path_following.guidance.switching import as_wished
 from auv_path_following.paths import mission_file
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
@@ -74,7 +75,9 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _plan(options: argparse.Namespace) -> int:
     hull = vehicle.load(options.vehicle)
     mission = mission_file.load(options.mission, hull)
-    verdicts = check(mission, hull, Current(*options.current), _switching(options, mission))
+    guidance = _guidance(options, mission)
+    switching = as_wished(guidance.switching, options.switching, None)
+    verdicts = check(mission, hull, Current(*options.current), switching, guidance.lookahead)
     console = Console(
         quiet=options.quiet, highlight=False, soft_wrap=True, width=None if sys.stdout.isatty() else 110
     )
@@ -95,15 +98,15 @@ def _plan(options: argparse.Namespace) -> int:
     return EXIT_FLYABLE
 
 
-def _switching(options: argparse.Namespace, mission: Mission) -> SwitchingConfig:
-    """As in flight: the parameters, then the mission, then the option."""
+def _guidance(options: argparse.Namespace, mission: Mission) -> PathFollowerConfig:
+    """As in flight: the parameters, then the mission."""
     source = config_files.find("params", options.params) if options.params else None
     if source is None:
         parameters = SUITE[topics.GUIDANCE]()
     else:
         parameters = params_file.load(source, SUITE)[topics.GUIDANCE]
-    switching = parameters.with_wishes_of(mission).guidance.switching
-    return as_wished(switching, options.switching, None)
+    guidance: PathFollowerConfig = parameters.with_wishes_of(mission).guidance
+    return guidance
 
 
 def _tell(console: Console, mission: Mission, hull: Vehicle, verdicts: Verdicts) -> None:
