@@ -261,8 +261,6 @@ def _circles(mission: Mission, switching: SwitchingConfig, lookahead: float) -> 
         found = f"{switching.radius:g} m with a look-ahead of {lookahead:g} m"
         level: Level = "refused" if switching.radius > _FAR_TOO_WIDE * lookahead else "warning"
         yield Verdict(level, "switching.radius", found, "at most the look-ahead, Rk <= Delta of Eq. (44)")
-    if len(joints) < 2:
-        return
     # Along the path: a circle counts on the last stretch of its subpath only, see `CircleOfAcceptance`.
     gaps = -np.diff([mission.path.distance_to_go(j.index, 0.0) for j in joints])
     overlapping = np.flatnonzero(gaps < 2.0 * switching.radius)
