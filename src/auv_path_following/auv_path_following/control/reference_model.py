@@ -90,8 +90,10 @@ def limits_of(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> 
     if vehicle.hull is None:
         limits = ("max_rate", "max_acceleration", "max_jerk")
         name = next(limit for limit in limits if not getattr(config, limit))
-        found = f"0, and {vehicle.name} has no hull to derive it from"
-        raise ConfigurationError(f"reference.{name}", found, "a number greater than 0")
+        found = f"nothing to derive reference.{name} from, which is 0"
+        raise ConfigurationError(
+            f"{vehicle.name}: hull", found, "its coefficients, or a limit greater than 0"
+        )
     model = HullModel(vehicle)
     speed = model.cruise(vehicle.thrust_max)
     jerk = config.max_jerk or JERK_SHARE * abs(model.rudder_gain(speed)[1]) * rudder_rate
