@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import yaml
+from mcap.records import Attachment, Channel, Metadata, Schema
 
 from auv_msgs_py.errors import ConfigurationError
 from auv_sim.recording.bag_writer import TEXTS
@@ -16,6 +17,10 @@ from auv_sim.recording.mcap_scan import scan
 from auv_sim.recording.metadata import METADATA_FILE
 
 _BAG = "a rosbag2 directory with storage files and metadata.yaml"
+#: The note of a recording that lacks this file and nothing else.
+NO_METADATA = f"no {METADATA_FILE} (the recording was not closed)"
+#: The metadata record in which rosbag2 repeats metadata.yaml.
+_REPEATED = "rosbag2"
 
 
 @dataclass
@@ -26,6 +31,7 @@ class RecordedTopic:
         name, type: full topic name, ROS type.
         definition, encoding: the type's definition as the bag has it, and its notation (``ros2msg``).
         qos: what the publishers offered, as YAML.
+        original: the records that describe it in an MCAP file.
         log_ns, publish_ns, sequence, sizes: for each message, ns and bytes.
         messages: serialised; None where only the size was asked for.
     """
@@ -35,6 +41,7 @@ class RecordedTopic:
     definition: str = ""
     encoding: str = ""
     qos: str = ""
+    original: tuple[Channel, Schema | None] | None = None
     log_ns: list[int] = field(default_factory=list)
     publish_ns: list[int] = field(default_factory=list)
     sequence: list[int] = field(default_factory=list)
@@ -66,6 +73,8 @@ class Bag:
         notes: one line for each damage; empty when all is well.
         size: bytes of the files.
         texts: what the recorder put into the bag by name (the configuration that was flown).
+        records: what else MCAP files hold, metadata and attachments of others than our recorder.
+        profile: what MCAP files say of themselves.
         order: (topic, number of the message in it) for every message, in the order of the files.
     """
 
@@ -75,6 +84,8 @@ class Bag:
     notes: list[str] = field(default_factory=list)
     size: int = 0
     texts: dict[str, str] = field(default_factory=dict)
+    records: list[Metadata | Attachment] = field(default_factory=list)
+    profile: str = "ros2"
     order: list[tuple[RecordedTopic, int]] = field(default_factory=list)
 
     @property
@@ -180,7 +191,7 @@ def _information(path: Path, bag: Bag) -> dict[str, Any]:
     file = path / METADATA_FILE
     if not file.exists():
         if any(path.glob("*.mcap")):
-            bag.notes.append(f"no {METADATA_FILE} (the recording was not closed)")
+            bag.notes.append(NO_METADATA)
         return {}
     try:
         content = yaml.safe_load(file.read_text(encoding="utf-8"))["rosbag2_bagfile_information"]
@@ -210,6 +221,13 @@ def _files(path: Path, information: dict[str, Any], bag: Bag) -> list[Path]:
     return found
 
 
+def _alike(a: Channel, a_schema: Schema | None, b: Channel, b_schema: Schema | None) -> bool:
+    """Whether two channels of one name hold the same kind of message."""
+    if a.message_encoding != b.message_encoding or (a_schema is None) != (b_schema is None):
+        return False
+    return a_schema is None or (a_schema.name, a_schema.encoding) == (b_schema.name, b_schema.encoding)  # type: ignore[union-attr]
+
+
 def _number(file: Path) -> tuple[int, str]:
     digits = re.search(r"(\d+)$", file.stem)
     return (int(digits[1]) if digits else -1, file.name)
@@ -230,7 +248,13 @@ def _read_file(bag: Bag, file: Path, wanted: Wanted) -> None:
     bag.files.append(file)
     bag.size += file.stat().st_size
     bag.notes += [f"{file.name}: {note}" for note in result.notes]
-    bag.texts |= result.metadata.get(TEXTS, {})
+    bag.profile = result.profile
+    for record in result.metadata:
+        if record.name == TEXTS:
+            bag.texts |= record.metadata
+        elif record.name != _REPEATED and record not in bag.records:
+            bag.records.append(record)  # once: a recorder repeats what it says in every file
+    bag.records += result.attachments
     renumbered: dict[int, tuple[RecordedTopic, int]] = {}
     for number, channel in result.channels.items():
         schema = result.schemas.get(channel.schema_id)
@@ -240,9 +264,15 @@ def _read_file(bag: Bag, file: Path, wanted: Wanted) -> None:
         if topic is None:
             topic = bag.topics[channel.topic] = RecordedTopic(channel.topic, type_name)
             topic.qos = channel.metadata.get("offered_qos_profiles", "")
+            topic.original = channel, schema
             if schema:
                 topic.definition = schema.data.decode("utf-8", "replace")
                 topic.encoding = schema.encoding
+        elif topic.original is not None and not _alike(*topic.original, channel, schema):
+            if here.count:
+                said = f"{here.count} messages of a second type '{type_name}' on {channel.topic} left out"
+                bag.notes.append(f"{file.name}: {said}")
+            continue
         renumbered[id(here)] = topic, topic.count
         keep = wanted(channel.topic, topic.type)
         topic.log_ns += here.log_ns

@@ -8,6 +8,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
+from mcap import records
 from rosbags.interfaces import Qos
 from rosbags.rosbag2.metadata import dump_qos_v9
 
@@ -18,6 +19,9 @@ from auv_sim.recording.mcap_file import Compression, McapFile
 from auv_sim.recording.metadata import METADATA_FILE, FileFacts, TopicFacts
 
 __all__ = ["METADATA_FILE", "BagWriter", "Channel", "typestore"]
+
+#: What describes a topic in another file.
+Original = tuple[records.Channel, records.Schema | None]
 
 #: Name of the MCAP metadata record that holds the texts kept in a file.
 TEXTS = "auv_sim.texts"
@@ -40,12 +44,13 @@ def texts_below(directory: Path) -> dict[str, str]:
 class Channel:
     """Handle of one recorded topic; `count` is the number of messages written to it."""
 
-    __slots__ = ("count", "name", "number", "qos", "type")
+    __slots__ = ("count", "name", "number", "original", "qos", "type")
 
-    def __init__(self, name: str, type_name: str, qos: list[Any]) -> None:
+    def __init__(self, name: str, type_name: str, qos: list[Any], original: Original | None = None) -> None:
         self.name = name
         self.type = type_name
         self.qos = qos
+        self.original = original  # as another file has it
         self.count = 0
         self.number = 0  # in the present file; 0 until something is written
 
@@ -65,6 +70,7 @@ class BagWriter:
         texts: kept in every file, by name (the configuration that was flown).
         name: what the storage files' names begin with; the directory's name by default.
         definitions: types that need not be looked up.
+        profile: what every file says of itself.
 
     Raises:
         ConfigurationError: the directory exists or cannot be made, or the compression is unknown.
@@ -80,6 +86,7 @@ class BagWriter:
         texts: Mapping[str, str] | None = None,
         name: str | None = None,
         definitions: Mapping[str, Definition] | None = None,
+        profile: str = "ros2",
     ) -> None:
         if compression not in ("none", "zstd"):
             raise ConfigurationError("compression", repr(compression), "none or zstd")
@@ -88,6 +95,7 @@ class BagWriter:
         self._chunk_size = chunk_size
         self._max_size, self._max_duration_ns = max_size, max_duration_ns
         self._texts = dict(texts or {})
+        self._profile = profile
         self._name = name or directory.resolve().name
         self._definitions = definitions if definitions is not None else {}
         self._channels: dict[str, Channel] = {}
@@ -105,10 +113,10 @@ class BagWriter:
 
     def _open(self) -> McapFile:
         path = self.directory / f"{self._name}_{len(self._files)}.mcap"
-        self._schemas: dict[str, int] = {}
+        self._schemas: dict[tuple[str, str, bytes], int] = {}
         for channel in self._channels.values():
             channel.number = 0
-        file = McapFile(path, self._compression, self._chunk_size)
+        file = McapFile(path, self._compression, self._chunk_size, self._profile)
         if self._texts:
             file.metadata(TEXTS, self._texts)
             file.journal.commit()
@@ -160,6 +168,22 @@ class BagWriter:
         channel = self._channels[name] = Channel(name, type_name, list(dump_qos_v9(list(qos))))
         return channel
 
+    def copy_topic(
+        self, channel: records.Channel, schema: records.Schema | None, qos: Sequence[Qos]
+    ) -> Channel:
+        """Announce a topic of another file, in whatever notation, with all that is said of it there."""
+        type_name = schema.name if schema else ""
+        made = Channel(channel.topic, type_name, list(dump_qos_v9(list(qos))), (channel, schema))
+        self._channels[channel.topic] = made
+        return made
+
+    def copy(self, record: records.Metadata | records.Attachment) -> None:
+        """Take over what another file has besides messages."""
+        if isinstance(record, records.Metadata):
+            self._file.metadata(record.name, record.metadata)
+        else:
+            self._file.attachment(record)
+
     def _definition(self, type_name: str) -> Definition:
         """What is given counts for a type that is not ROS 2 Jazzy's, or is another one there."""
         given = self._definitions.get(type_name)
@@ -177,15 +201,30 @@ class BagWriter:
             channel.qos = list(dump_qos_v9(list(qos)))
 
     def _announce(self, channel: Channel) -> int:
-        text, type_hash = self._definition(channel.type)
-        if channel.type not in self._schemas:
-            self._schemas[channel.type] = self._file.schema(channel.type, "ros2msg", text)
-        described = {
-            "offered_qos_profiles": metadata.dump(channel.qos).rstrip("\n"),
-            "topic_type_hash": type_hash,
-        }
-        channel.number = self._file.channel(channel.name, self._schemas[channel.type], described)
+        if channel.original is not None:
+            known, schema = channel.original
+            number = self._schema(schema.name, schema.encoding, schema.data) if schema else 0
+            described, encoding = known.metadata, known.message_encoding
+        else:
+            text, type_hash = self._definition(channel.type)
+            number = self._schema(channel.type, "ros2msg", text.encode())
+            qos = metadata.dump(channel.qos).rstrip("\n")
+            described, encoding = {"offered_qos_profiles": qos, "topic_type_hash": type_hash}, "cdr"
+        channel.number = self._file.channel(channel.name, number, described, encoding)
         return channel.number
+
+    def _schema(self, *described: Any) -> int:
+        if described not in self._schemas:
+            self._schemas[described] = self._file.schema(*described)
+        return self._schemas[described]
+
+    def _facts(self, channel: Channel) -> TopicFacts:
+        if channel.original is None:
+            type_hash, encoding = self._definition(channel.type).type_hash, "cdr"
+        else:
+            known, _ = channel.original
+            type_hash, encoding = known.metadata.get("topic_type_hash", ""), known.message_encoding
+        return TopicFacts(channel.name, channel.type, channel.count, channel.qos, type_hash, encoding)
 
     def write(
         self, channel: Channel, log_time_ns: int, publish_time_ns: int, cdr: bytes, sequence: int = 0
@@ -248,13 +287,7 @@ class BagWriter:
         return whole
 
     def _information(self) -> dict[str, Any]:
-        return metadata.information(
-            [
-                TopicFacts(c.name, c.type, c.count, c.qos, self._definition(c.type).type_hash)
-                for c in self._channels.values()
-            ],
-            self._files,
-        )
+        return metadata.information([self._facts(c) for c in self._channels.values()], self._files)
 
     def __enter__(self) -> BagWriter:
         return self

@@ -16,6 +16,8 @@ import zstandard
 from mcap.data_stream import RecordBuilder
 from mcap.opcode import Opcode
 from mcap.records import (
+    Attachment,
+    AttachmentIndex,
     Channel,
     Chunk,
     ChunkIndex,
@@ -70,12 +72,13 @@ class McapFile:
         path: the file to make; it must not exist.
         compression: of the chunks.
         chunk_size: bytes of messages that end a chunk.
+        profile: what the file says of itself.
 
     Raises:
         OSError: it cannot be made.
     """
 
-    def __init__(self, path: Path, compression: Compression, chunk_size: int) -> None:
+    def __init__(self, path: Path, compression: Compression, chunk_size: int, profile: str = "ros2") -> None:
         self.path = path
         self.journal = Journal(path)
         self._zstd = zstandard.ZstdCompressor(level=1) if compression == "zstd" else None
@@ -84,11 +87,12 @@ class McapFile:
         self._channels: list[Channel] = []
         self._chunks = _ChunkIndexes()
         self._metadata: list[MetadataIndex] = []
+        self._attachments: list[AttachmentIndex] = []
         self._counts: dict[int, int] = {}
         self.first_ns = self.last_ns = self.messages = 0
         self._new_chunk()
         self.journal.write(MAGIC)
-        self._put(Header(profile="ros2", library=_LIBRARY))
+        self._put(Header(profile=profile, library=_LIBRARY))
         self.journal.commit()
 
     @property
@@ -101,19 +105,17 @@ class McapFile:
         """Bytes in the chunk that is being filled."""
         return self._offset
 
-    def schema(self, name: str, encoding: str, text: str) -> int:
+    def schema(self, name: str, encoding: str, data: bytes) -> int:
         """Announce a message definition; returns its number."""
-        self._schemas.append(
-            Schema(id=len(self._schemas) + 1, data=text.encode(), encoding=encoding, name=name)
-        )
+        self._schemas.append(Schema(id=len(self._schemas) + 1, data=data, encoding=encoding, name=name))
         self._put(self._schemas[-1])
         return len(self._schemas)
 
-    def channel(self, topic: str, schema: int, metadata: dict[str, str]) -> int:
-        """Announce a topic; returns its number."""
+    def channel(self, topic: str, schema: int, metadata: dict[str, str], encoding: str = "cdr") -> int:
+        """Announce a topic; returns its number. Schema 0 is none."""
         number = len(self._channels) + 1
         self._channels.append(
-            Channel(id=number, topic=topic, message_encoding="cdr", metadata=metadata, schema_id=schema)
+            Channel(id=number, topic=topic, message_encoding=encoding, metadata=metadata, schema_id=schema)
         )
         self._put(self._channels[-1])
         return number
@@ -144,6 +146,16 @@ class McapFile:
         self._put(Metadata(name=name, metadata=content))
         self._metadata.append(MetadataIndex(offset=start, length=self.journal.position - start, name=name))
 
+    def attachment(self, record: Attachment) -> None:
+        """Write a file of somebody's into this one."""
+        start = self.journal.position
+        self._put(record)
+        length = self.journal.position - start
+        facts = {name: getattr(record, name) for name in ("log_time", "create_time", "name", "media_type")}
+        self._attachments.append(
+            AttachmentIndex(offset=start, length=length, data_size=len(record.data), **facts)
+        )
+
     def finish(self) -> bool:
         """Write the index and close; False when the file had to be left without it."""
         self._end_chunk()
@@ -155,7 +167,7 @@ class McapFile:
 
     def _summary(self) -> None:
         statistics = Statistics(
-            attachment_count=0,
+            attachment_count=len(self._attachments),
             channel_count=len(self._channels),
             channel_message_counts=self._counts,
             chunk_count=self._chunks.count,
@@ -170,6 +182,7 @@ class McapFile:
             (Opcode.CHANNEL, [*self._channels]),
             (Opcode.STATISTICS, [statistics]),
             (Opcode.CHUNK_INDEX, [self._chunks] if self._chunks.count else []),
+            (Opcode.ATTACHMENT_INDEX, [*self._attachments]),
             (Opcode.METADATA_INDEX, [*self._metadata]),
         ]
         start = self.journal.position

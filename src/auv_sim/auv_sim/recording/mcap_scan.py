@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import mmap
 import struct
+import zlib
 from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
@@ -17,7 +18,7 @@ from typing import Any, NamedTuple
 import zstandard
 from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
-from mcap.records import Channel, Chunk, Footer, Metadata, Schema, Statistics
+from mcap.records import Attachment, Channel, Chunk, Footer, Header, Metadata, Schema, Statistics
 from mcap.stream_reader import CRCValidationError, get_chunk_data_stream
 
 from auv_msgs_py.errors import ConfigurationError
@@ -28,12 +29,16 @@ _PROLOGUE = struct.Struct("<QQQII")  # of a chunk: first, last, uncompressed siz
 _FOOTER_SIZE = _RECORD.size + 20 + len(MAGIC)
 _COMPRESSIONS = (b"", b"lz4", b"zstd")
 _MCAP = "an MCAP file"
+#: The note of a file that lacks its index and nothing else.
+NOT_CLOSED = "the end is missing (not closed)"
 _READERS: dict[int, Any] = {
+    Opcode.HEADER: Header,
     Opcode.SCHEMA: Schema,
     Opcode.CHANNEL: Channel,
     Opcode.STATISTICS: Statistics,
     Opcode.FOOTER: Footer,
     Opcode.METADATA: Metadata,
+    Opcode.ATTACHMENT: Attachment,
 }
 
 #: Called for each message: channel number, sequence, log time, publish time (ns), the serialised message.
@@ -45,14 +50,17 @@ class ScanResult(NamedTuple):
 
     Attributes:
         channels, schemas: by number.
-        metadata: the texts of the metadata records, by name.
+        metadata, attachments: in the order of the file.
+        profile: what the file says of itself (``ros2``).
         notes: one line for each damage; empty for a whole file.
         closed: whether the file has its index and its end.
     """
 
     channels: dict[int, Channel]
     schemas: dict[int, Schema]
-    metadata: dict[str, dict[str, str]]
+    metadata: list[Metadata]
+    attachments: list[Attachment]
+    profile: str
     notes: list[str]
     closed: bool
 
@@ -84,7 +92,9 @@ class _Scanner:
         self._sink = sink
         self._channels: dict[int, Channel] = {}
         self._schemas: dict[int, Schema] = {}
-        self._metadata: dict[str, dict[str, str]] = {}
+        self._metadata: list[Metadata] = []
+        self._attachments: list[Attachment] = []
+        self._profile = "ros2"
         self._notes: list[str] = []
         self._statistics: Statistics | None = None
         self._messages = 0
@@ -116,13 +126,16 @@ class _Scanner:
         if not closed:
             lost = size - reached
             left = f", and its last {lost} bytes belong to nothing whole" if lost else ""
-            self._notes.append(f"the end is missing (not closed){left}")
+            self._notes.append(NOT_CLOSED + left)
             if lost:
                 self._salvage(reached)
         elif self._statistics is not None and self._statistics.message_count != self._messages:
             there = self._statistics.message_count
             self._notes.append(f"{self._messages} of {there} messages are readable")
-        return ScanResult(self._channels, self._schemas, self._metadata, self._notes, closed)
+        return ScanResult(
+            self._channels, self._schemas, self._metadata, self._attachments, self._profile,
+            self._notes, closed,
+        )  # fmt: skip
 
     def _take(self, opcode: int, start: int, end: int) -> bool:
         """Take in one record; False when it makes no sense, so that its length cannot be trusted either."""
@@ -135,8 +148,16 @@ class _Scanner:
             record = _read(_READERS[opcode], self._data[body:end])
             if record is None:
                 return False
-            self._keep(record)
+            if opcode == Opcode.ATTACHMENT and not self._intact(body, end):
+                self._notes.append(f"attachment {record.name!r}: its checksum is wrong; left out")
+            else:
+                self._keep(record)
         return True
+
+    def _intact(self, body: int, end: int) -> bool:
+        """Whether an attachment has its checksum; 0 is none."""
+        (told,) = struct.unpack_from("<I", self._data, end - 4)
+        return told in (0, zlib.crc32(self._data[body : end - 4]))
 
     def _keep(self, record: Any) -> None:
         # The index repeats them at the end of the file; the later one is the one under a checksum.
@@ -147,7 +168,11 @@ class _Scanner:
         elif isinstance(record, Statistics):
             self._statistics = record
         elif isinstance(record, Metadata):
-            self._metadata[record.name] = record.metadata
+            self._metadata.append(record)
+        elif isinstance(record, Attachment):
+            self._attachments.append(record)
+        elif isinstance(record, Header):
+            self._profile = record.profile
 
     def _chunk(self, start: int, body: int, end: int) -> bool:
         if not self._is_chunk(start):

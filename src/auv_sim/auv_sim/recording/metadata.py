@@ -15,13 +15,14 @@ ROS_DISTRO = "jazzy"
 
 
 class TopicFacts(NamedTuple):
-    """One topic: its QoS profiles are spelled as `rosbags` dumps them."""
+    """One topic: its QoS profiles are spelled as `rosbags` dumps them, its messages are `encoding`."""
 
     name: str
     type: str
     messages: int
     qos: list[Any]
     type_hash: str
+    encoding: str = "cdr"
 
 
 class FileFacts(NamedTuple):
@@ -50,7 +51,7 @@ def information(topics: Sequence[TopicFacts], files: Sequence[FileFacts]) -> dic
                 "topic_metadata": {
                     "name": topic.name,
                     "type": topic.type,
-                    "serialization_format": "cdr",
+                    "serialization_format": topic.encoding,
                     "offered_qos_profiles": topic.qos,
                     "type_description_hash": topic.type_hash,
                 },

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,12 +12,16 @@ from rosbags.interfaces import Qos
 from rosbags.rosbag2.metadata import parse_qos
 
 from auv_msgs_py.errors import ConfigurationError
-from auv_sim.recording.bag import Bag, RecordedTopic, read_bag
-from auv_sim.recording.bag_writer import BagWriter
+from auv_sim.recording.bag import NO_METADATA, Bag, RecordedTopic, read_bag
+from auv_sim.recording.bag_writer import TEXTS, BagWriter, Channel
 from auv_sim.recording.definitions import Definition
+from auv_sim.recording.mcap_scan import NOT_CLOSED, scan
+from auv_sim.recording.metadata import METADATA_FILE
 
-#: What is added to the name of a storage file that was replaced.
+#: What is added to the name of a file that was replaced.
 KEPT = ".damaged"
+#: So much is gathered before it is handed to the disk, bytes.
+HELD = 4_000_000
 
 
 @dataclass(frozen=True)
@@ -26,7 +31,7 @@ class Repaired:
     Attributes:
         directory: the recording that is whole now.
         messages: how many it has.
-        notes: what was wrong, a line each; empty when nothing was.
+        notes: what was wrong, and what could not be kept, a line each; empty when nothing was.
         kept: the damaged files, renamed; none when all of their content was saved.
     """
 
@@ -45,66 +50,125 @@ def repair(path: Path, out: Path | None = None, compression: str = "zstd") -> Re
         compression: of the new chunks.
 
     Raises:
-        ConfigurationError: nothing is readable, or the place cannot be written.
+        ConfigurationError: nothing is readable, or the place cannot be written; the damaged one is as it was.
     """
     bag = read_bag(path)
     directory = bag.path if bag.path.is_dir() else bag.path.parent
     if out is None and not bag.notes and bag.path.is_dir():
         return Repaired(bag.path, bag.count, [], [])
     if out is not None:
-        _write(bag, out, compression)
-        return Repaired(out, bag.count, bag.notes, [])
+        return _written(bag, out, compression)
     if bag.path.is_file():
         # A bare file becomes a recording of its own beside it.
         target = bag.path.with_suffix("")
         if target.exists():
             raise ConfigurationError(str(target), "something with this name", "--out DIRECTORY")
-        _write(bag, target, compression)
-        return Repaired(target, bag.count, bag.notes, [])
+        return _written(bag, target, compression)
     draft = directory.with_name(f"{directory.name}.repairing")
     shutil.rmtree(draft, ignore_errors=True)
-    _write(bag, draft, compression, directory.name)
-    return Repaired(directory, bag.count, bag.notes, _replace(bag, directory, draft))
+    done = _written(bag, draft, compression, directory.name)
+    return Repaired(directory, done.messages, done.notes, _replace(bag, directory, draft, done.notes))
 
 
-def _replace(bag: Bag, directory: Path, draft: Path) -> list[Path]:
+def _replace(bag: Bag, directory: Path, draft: Path, notes: list[str]) -> list[Path]:
     """Put the new files in the place of the old ones; a crash in between leaves both."""
-    unfinished_only = all("the end is missing" in note or "was not closed" in note for note in bag.notes)
     kept = []
-    for old in bag.files:
-        aside = old.with_name(old.name + KEPT)
-        old.replace(aside)
-        kept.append(aside)
+    told = [directory / METADATA_FILE] if (directory / METADATA_FILE).exists() else []
+    for old in (*bag.files, *told):
+        kept.append(old.replace(_aside(old)))
     for new in sorted(draft.iterdir()):
         new.replace(directory / new.name)
     draft.rmdir()
-    if unfinished_only:
-        for aside in kept:
-            aside.unlink()
-        kept = []
+    # Only what lacks nothing but its end is in the new one to the last byte.
+    if all(note.endswith((NOT_CLOSED, NO_METADATA)) for note in notes):
+        for old in kept:
+            old.unlink()
+        return []
     return kept
 
 
-def _write(bag: Bag, directory: Path, compression: str, name: str | None = None) -> None:
+def _aside(old: Path) -> Path:
+    """A name for the old file that nothing else has."""
+    name, number = old.with_name(old.name + KEPT), 1
+    while name.exists():
+        number += 1
+        name = old.with_name(f"{old.name}{KEPT}-{number}")
+    return name
+
+
+def _written(bag: Bag, directory: Path, compression: str, name: str | None = None) -> Repaired:
+    """The recording in a new directory; without room for it there is none."""
     if compression not in ("none", "zstd"):
         raise ConfigurationError("compression", repr(compression), "none or zstd")
     known: dict[str, Definition] = {}
-    with BagWriter(directory, compression, texts=bag.texts, name=name, definitions=known) as writer:  # type: ignore[arg-type]
-        channels = {}
-        for topic in bag.topics.values():
-            if topic.type and topic.encoding in ("ros2msg", ""):
-                known.setdefault(topic.type, Definition(topic.definition, ""))
-                channels[topic.name] = writer.add_topic(topic.name, topic.type, _offered(topic))
-        for topic, k in bag.order:
-            data = topic.messages[k]
-            if topic.name in channels and data is not None:
-                writer.write(
-                    channels[topic.name], topic.log_ns[k], topic.publish_ns[k], data, topic.sequence[k]
-                )
-                if writer.pending > 4_000_000:
-                    writer.flush()
-        if not writer.close():
-            raise ConfigurationError(str(directory), writer.trouble, "room for the whole recording")
+    writer = BagWriter(
+        directory,
+        compression,  # type: ignore[arg-type]
+        texts=bag.texts,
+        name=name,
+        definitions=known,
+        profile=bag.profile,
+    )
+    try:
+        with writer:
+            _copy(bag, writer, known)
+            if not writer.close():
+                raise _no_room(writer)
+        lost = _lost(bag, directory)
+    except BaseException:
+        shutil.rmtree(directory, ignore_errors=True)
+        raise
+    return Repaired(directory, sum(writer.counts.values()), [*bag.notes, *lost], [])
+
+
+def _copy(bag: Bag, writer: BagWriter, known: dict[str, Definition]) -> None:
+    for record in bag.records:
+        writer.copy(record)
+    if not writer.flush():
+        raise _no_room(writer)
+    channels = {topic.name: _announced(topic, writer, known) for topic in bag.topics.values()}
+    for topic, k in bag.order:
+        data = topic.messages[k]
+        assert data is not None  # everything was read
+        writer.write(channels[topic.name], topic.log_ns[k], topic.publish_ns[k], data, topic.sequence[k])
+        if writer.pending > HELD and not writer.flush():
+            raise _no_room(writer)
+
+
+def _announced(topic: RecordedTopic, writer: BagWriter, known: dict[str, Definition]) -> Channel:
+    """The topic as it was; one without a definition gets the one that its type has by name."""
+    if topic.original is not None and (topic.definition or topic.encoding != "ros2msg"):
+        return writer.copy_topic(*topic.original, _offered(topic))
+    known.setdefault(topic.type, Definition(topic.definition, ""))
+    return writer.add_topic(topic.name, topic.type, _offered(topic))
+
+
+def _no_room(writer: BagWriter) -> ConfigurationError:
+    return ConfigurationError(str(writer.directory), writer.trouble, "room for the whole recording")
+
+
+def _lost(bag: Bag, directory: Path) -> list[str]:
+    """What was readable and is not in the files that were written: they are read again."""
+    found: Counter[str] = Counter()
+    others = texts = 0
+    for file in directory.glob("*.mcap"):
+        numbers: Counter[int] = Counter()
+
+        def count(channel: int, *_: object, numbers: Counter[int] = numbers) -> None:
+            numbers[channel] += 1
+
+        result = scan(file, count)
+        for number, channel in result.channels.items():
+            found[channel.topic] += numbers[number]
+        others += len(result.attachments) + len(result.metadata) - 1  # one is metadata.yaml again
+        texts += any(record.name == TEXTS for record in result.metadata)
+    lost = [
+        f"{topic.count - found[topic.name]} of {topic.count} messages on {topic.name} could not be kept"
+        for topic in bag.topics.values()
+        if topic.count > found[topic.name]
+    ]
+    missing = len(bag.records) - (others - texts)
+    return [*lost, f"{missing} metadata records or attachments could not be kept"] if missing else lost
 
 
 def _offered(topic: RecordedTopic) -> list[Qos]:
