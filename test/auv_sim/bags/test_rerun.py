@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -119,6 +120,26 @@ def test_the_chain_flies_as_the_closed_loop_did(
     assert found["rudder_cmd"]["compared"] > 500
     assert found["rudder_cmd"]["largest"] < 1e-6
     assert found["thrust_cmd"]["identical"] == found["thrust_cmd"]["compared"]
+
+
+def test_what_the_nodes_believed_counts_and_not_the_vehicle_that_flew(
+    run_directory: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A vehicle with half of the rudder and half of the thrust, which nobody told the nodes."""
+    run = tmp_path / "run"
+    shutil.copytree(run_directory, run)
+    config = run / "config"
+    (config / "vehicle.yaml").rename(config / "believed.yaml")
+    content = yaml_file.parse(config / "believed.yaml")
+    content["rudder"]["max_angle_deg"] /= 2
+    content["thrust_max"] /= 2
+    yaml_file.dump(content, config / "vehicle.yaml")
+    cli.main(["rerun", str(run), "--json"])
+    found = json.loads(capsys.readouterr().out)["topics"]
+    assert found["rudder_cmd"]["largest"] < 1e-6
+    assert found["thrust_cmd"]["identical"] == found["thrust_cmd"]["compared"]
+    assert cli.main(["inspect", str(run), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["mission"]["completed"] is True
 
 
 def test_other_gains_command_otherwise(

@@ -23,6 +23,8 @@ from auv_sim.recording.load import run_of
 
 #: The files that the launcher writes and the recorder keeps.
 MISSION, VEHICLE, PARAMS = "mission.yaml", "vehicle.yaml", "params.yaml"
+#: The hull as the nodes knew it; only there where it was not the vehicle's.
+BELIEVED = "believed.yaml"
 
 
 @dataclass
@@ -69,19 +71,26 @@ def flight_of(bag: Bag, mission: str | None = None, namespace: str | None = None
         if "several topics" in error.found:
             raise
         notes.append(f"no mission figures: {_without_place(error, bag)}")
-    flown = hull = None
+    flown = hull = believed = None
     with configuration(bag) as directory:
         if (directory / VEHICLE).exists():
             with _noted(notes):
                 hull = vehicle.load(str(directory / VEHICLE))
+                believed = vehicle.load(str(known_hull(directory)))
         if mission is not None:
-            flown = mission_file.load(str(config_files.find("missions", mission)), hull)
+            flown = mission_file.load(str(config_files.find("missions", mission)), believed)
         elif (directory / MISSION).exists():
             with _noted(notes):
-                flown = mission_file.load(str(directory / MISSION), hull)
+                flown = mission_file.load(str(directory / MISSION), believed)
     if flown is None and run is not None:
         notes.append("no mission file in or beside the recording: name one with --mission for the figures")
     return Flight(bag, run, flown, hull, notes)
+
+
+def known_hull(directory: Path) -> Path:
+    """The file of the hull that observer, guidance and autopilot were given; it need not exist."""
+    believed = directory / BELIEVED
+    return believed if believed.exists() else directory / VEHICLE
 
 
 def texts_of(bag: Bag) -> dict[str, str]:

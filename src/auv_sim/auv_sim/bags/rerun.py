@@ -22,7 +22,7 @@ from auv_msgs_py.errors import ConfigurationError
 from auv_path_following import config_files, vehicle
 from auv_path_following.paths import mission_file
 from auv_sim.bags.chain import Answers, answers
-from auv_sim.bags.flight import MISSION, PARAMS, VEHICLE, configuration
+from auv_sim.bags.flight import MISSION, PARAMS, configuration, known_hull
 from auv_sim.command_line import console as terminal
 from auv_sim.parameters import SUITE
 from auv_sim.recording.bag import read_bag
@@ -43,7 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--params", metavar="FILE", help="parameters to try; what the file leaves out stays as flown"
     )
     parser.add_argument("--mission", metavar="FILE", help="another mission than the recorded one")
-    parser.add_argument("--vehicle", metavar="FILE", help="another vehicle than the recorded one")
+    parser.add_argument("--vehicle", metavar="FILE", help="another hull than the nodes were told")
     parser.add_argument("--namespace", metavar="NAME", help="which vehicle, where there are several")
     parser.add_argument("--png", type=Path, metavar="FILE", help="draw recorded and new commands")
     parser.add_argument("--csv", type=Path, metavar="FILE", help="write recorded and new commands")
@@ -94,19 +94,20 @@ def rerun(
     with configuration(bag) as directory:
         parameters = _parameters(directory / PARAMS, params)
         chosen = {}
-        for kind, file, given in (("missions", MISSION, mission), ("vehicles", VEHICLE, hull)):
+        recorded = {"missions": (directory / MISSION, mission), "vehicles": (known_hull(directory), hull)}
+        for kind, (file, given) in recorded.items():
             if given is not None:
                 chosen[kind] = config_files.find(kind, given)  # type: ignore[arg-type]
-            elif (directory / file).exists():
-                chosen[kind] = directory / file
+            elif file.exists():
+                chosen[kind] = file
             else:
                 option = f"--{kind[:-1]}"
                 raise ConfigurationError(
-                    str(bag.path), f"no {file} in or beside the recording", f"{option} FILE"
+                    str(bag.path), f"no {file.name} in or beside the recording", f"{option} FILE"
                 )
-        known_hull = vehicle.load(str(chosen["vehicles"]))
-        flown = mission_file.load(str(chosen["missions"]), known_hull)
-        return answers(bag, parameters, flown, known_hull, namespace)
+        known = vehicle.load(str(chosen["vehicles"]))
+        flown = mission_file.load(str(chosen["missions"]), known)
+        return answers(bag, parameters, flown, known, namespace)
 
 
 def _parameters(recorded: Path, new: str | None) -> dict[str, Any]:
