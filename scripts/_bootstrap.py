@@ -47,6 +47,7 @@ def ensure_environment(extra=()):
             _make_once(environment, sourced, extra, wanted)
         entered = os.environ.pop(_MARKER, None)
         if os.path.realpath(sys.prefix) == os.path.realpath(environment):
+            sys.excepthook = _unless_interrupted
             return
         if entered:
             raise SetUpError("%s does not start: remove it and start again" % environment)
@@ -63,6 +64,11 @@ def ensure_environment(extra=()):
     sys.stdout.flush()
     sys.stderr.flush()
     os.execve(python, [python, *sys.orig_argv[1:]], dict(clean(os.environ, sourced), **{_MARKER: "1"}))
+
+
+def _unless_interrupted(kind, error, trace):
+    """Ctrl-C while the script still loads: a line; later the command itself has words for it."""
+    _say("interrupted") if kind is KeyboardInterrupt else sys.__excepthook__(kind, error, trace)
 
 
 # --- what this machine is

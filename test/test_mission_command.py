@@ -12,7 +12,10 @@ from pathlib import Path
 
 import pytest
 
+from auv_sim.mission import plan
 from auv_sim.mission.cli import main
+from auv_sim.mission.launcher import domain_of
+from auv_sim.mission.plan import Options
 from bag_watch import recorded
 
 CommandLine = Callable[..., list[str]]
@@ -181,6 +184,40 @@ def test_bad_input_is_one_line_and_exit_code_2_with_nothing_written(
     assert captured.err.count("\n") == 1
     assert captured.out == ""
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("named", ["home", "-1", "233", "1.5"])
+def test_a_ros_domain_that_is_none_is_found_before_anything_is_made(
+    named: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("ROS_DOMAIN_ID", named)
+    assert main(["--no-sim"]) == 2
+    err = capsys.readouterr().err
+    assert err == f"ROS_DOMAIN_ID: found '{named}', expected a ROS domain from 0 to 232\n"
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(("named", "number"), [(None, 0), ("", 0), ("7", 7)])
+def test_a_vehicles_ros_domain_is_the_shells(
+    named: str | None, number: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)
+    if named is not None:
+        monkeypatch.setenv("ROS_DOMAIN_ID", named)
+    assert domain_of(plan.make(Options(no_sim=True), tmp_path)) == number
+
+
+def test_a_name_is_no_markup(
+    short_mission: Path, tmp_path: Path, domain: int, capsys: pytest.CaptureFixture[str]
+) -> None:
+    named = tmp_path / "named.yaml"
+    named.write_text(short_mission.read_text().replace("name: short", "name: leg [/m] at 2 [m/s]"))
+    out = tmp_path / "run [m]"
+    assert main(["--mission", str(named), "--out", str(out), "--domain", str(domain), "--composed"]) == 0
+    said = capsys.readouterr().out
+    assert said.count("leg [/m] at 2 [m/s]: ") == 2
+    assert str(out / "overview.png") in said
 
 
 def test_a_directory_that_exists_is_never_written_to(

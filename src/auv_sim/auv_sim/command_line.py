@@ -3,15 +3,57 @@
 from __future__ import annotations
 
 import argparse
+import functools
 import math
 import os
 import re
 import sys
-from typing import NoReturn
+from collections.abc import Callable
+from pathlib import Path
+from typing import NoReturn, ParamSpec
 
 from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from auv_msgs_py.errors import ConfigurationError, MessageRefused, SuiteError
+
+P = ParamSpec("P")
 
 EXIT_DONE, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
+
+
+def command(name: str, interrupted: str = "interrupted") -> Callable[[Callable[P, int]], Callable[P, int]]:
+    """How a command ends: for its `main`, which returns the exit code.
+
+    Input that cannot be used is one line and 2, whatever else fails in a foreseen way one line and 1,
+    Ctrl-C 130. When nobody reads on (head, say), nothing is left to say, and that is 0.
+
+    Args:
+        name: of what failed.
+        interrupted: what Ctrl-C says, unless the KeyboardInterrupt was raised with words of its own.
+    """
+
+    def ending(main: Callable[P, int]) -> Callable[P, int]:
+        @functools.wraps(main)
+        def ends(*arguments: P.args, **options: P.kwargs) -> int:
+            try:
+                return main(*arguments, **options)
+            except (ConfigurationError, MessageRefused) as error:
+                print(error, file=sys.stderr)
+                return EXIT_BAD_INPUT
+            except SuiteError as error:
+                print(f"{name} failed: {error}", file=sys.stderr)
+                return EXIT_FAILED
+            except KeyboardInterrupt as stop:
+                print(str(stop) or interrupted, file=sys.stderr)
+                return EXIT_INTERRUPTED
+            except BrokenPipeError:
+                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+                return EXIT_DONE
+
+        return ends
+
+    return ending
 
 
 class Parser(argparse.ArgumentParser):
@@ -53,6 +95,27 @@ def whole(text: str) -> int:
     return int(text)
 
 
+def at_least_one(text: str) -> int:
+    """A whole number of at least 1."""
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"found '{text}', expected a whole number of at least 1")
+    return int(text)
+
+
+def target(text: str) -> Path:
+    """A file to write: whether it can be is found out before its content is computed."""
+    file = Path(text)
+    if file.is_dir():
+        why = ", a directory"
+    elif not file.parent.is_dir():
+        why = " in a directory that is not there"
+    elif not os.access(file if file.exists() else file.parent, os.W_OK):
+        why = ", which is not to be written"
+    else:
+        return file
+    raise argparse.ArgumentTypeError(f"found '{text}'{why}, expected a file that can be written")
+
+
 # argparse names the type in its message when float() itself fails.
 finite.__name__ = positive.__name__ = not_negative.__name__ = "number"
 
@@ -76,3 +139,28 @@ def console(quiet: bool = False) -> Console:
     """Where tables go: as wide as the terminal; in a pipe or a file wide enough for the widest table."""
     free = not sys.stdout.isatty() and "COLUMNS" not in os.environ
     return Console(width=140 if free else None, quiet=quiet, highlight=False)
+
+
+def progress_bar(console: Console, disable: bool = False) -> Progress:
+    """What is done, how many of how many, and for how long."""
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    return Progress(*columns, console=console, disable=disable)
+
+
+def make_directory(path: Path, option: str = "--out", new: bool = False) -> None:
+    """Make a directory, with those above it.
+
+    Args:
+        path: the directory.
+        option: that named it.
+        new: whether it must not be there yet.
+
+    Raises:
+        ConfigurationError: it cannot be made.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=not new)
+    except OSError as error:
+        raise ConfigurationError(
+            option, f"{path} ({error.strerror})", "a directory that can be made"
+        ) from None

@@ -9,6 +9,8 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from typing import Any, TypeVar
 
+from rich.progress import Progress
+
 T = TypeVar("T")
 
 
@@ -43,6 +45,15 @@ def each(
                 done()
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
+
+
+def tracked(
+    bar: Progress, workers: int, what: str, work: Callable[[Any], T], items: Sequence[Any]
+) -> list[T]:
+    """`work` on each item, with a bar; results in the order of the items."""
+    task = bar.add_task(what, total=len(items))
+    found = dict(each(work, items, workers, lambda: bar.advance(task)))
+    return [found[index] for index in range(len(items))]
 
 
 def _end_with_parent() -> None:

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from auv_msgs_py import topics
+from auv_sim import pages
 from auv_sim.benchmark import graph, laws, page, sheets
 from auv_sim.benchmark.cli import main
 from auv_sim.benchmark.rig import Setup, Timing, free_running, lockstep
@@ -109,7 +110,8 @@ def figures() -> dict[str, object]:
 
 def test_the_page_is_renewed_between_its_marks(tmp_path: Path) -> None:
     file = tmp_path / "performance.md"
-    file.write_text(f"before\n{page.BEGIN}\nold\n{page.END}\nafter\n")
+    begin, end = pages.marks(page.PART)
+    file.write_text(f"before\n{begin}\nold\n{end}\nafter\n")
     found = sheets.sheets(figures())
     page.renew(file, tmp_path / "images", figures(), found)
     text = file.read_text()
@@ -127,7 +129,7 @@ def test_a_page_without_a_place_is_refused_before_anything_is_measured(
 ) -> None:
     (tmp_path / "page.md").write_text("nothing here\n")
     assert main(["--write-docs", "--page", str(tmp_path / "page.md")]) == 2
-    assert "no place for figures" in capsys.readouterr().err
+    assert "a page with <!-- figures: begin -->" in capsys.readouterr().err
 
 
 def test_ctrl_c_leaves_nothing_behind(

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from auv_msgs_py.errors import ConfigurationError
+from auv_sim import pages
 from auv_sim.mission import noise_study, plan, sea_trials
 from auv_sim.mission.plan import Options
 from auv_sim.mission.sea_trials import Job
@@ -28,7 +29,8 @@ def test_the_default_mission_in_the_rough_sea_keeps_within_its_bound() -> None:
 
 def test_the_command_flies_and_tells(short_mission: Path, tmp_path: Path, command_line: CommandLine) -> None:
     page = tmp_path / "page.md"
-    page.write_text(f"before\n{sea_trials.BEGIN}\nold\n{sea_trials.END}\nbehind\n", encoding="utf-8")
+    begin, end = pages.marks(sea_trials.PART)
+    page.write_text(f"before\n{begin}\nold\n{end}\nbehind\n", encoding="utf-8")
     out = tmp_path / "out"
     asked = [
         "--mission",

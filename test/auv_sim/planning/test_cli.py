@@ -65,6 +65,17 @@ def test_it_tells_draws_and_exports(tmp_path, monkeypatch, capsys):
     assert "<kml" in Path("path.kml").read_text(encoding="utf-8")
 
 
+def test_a_name_is_no_markup(tmp_path, capsys):
+    mission = tmp_path / "a [b] c.yaml"
+    text = (ROOT / "test" / "data" / "short.yaml").read_text(encoding="utf-8")
+    text = text.replace("name: short", "name: leg [/m]").replace("15 m north", "at 2 [m/s]")
+    mission.write_text(text, encoding="utf-8")
+    assert cli.main([str(mission), "--out", str(tmp_path / "[bold].png")]) == 0
+    out = capsys.readouterr().out
+    assert "leg [/m]: at 2 [m/s]" in out
+    assert "[bold].png" in out and "a [b] c.yaml" in out
+
+
 def test_the_papers_path_is_flyable_with_its_corner_and_its_crossing(tmp_path, capsys):
     assert cli.main(["paper_composite", "--out", str(tmp_path / "plan.png")]) == 0
     out = capsys.readouterr().out

@@ -67,7 +67,8 @@ def test_a_mission_that_is_cut_off_is_not_said_to_be_followed(made):
 
 
 @pytest.mark.parametrize(
-    "wrong", [["--runs", "0"], ["--time-limit", "1"], ["--study", "tea"], ["--workers", "x"]]
+    "wrong",
+    [["--runs", "0"], ["--time-limit", "1"], ["--study", "tea"], ["--workers", "x"], ["--seed", "-1"]],
 )
 def test_wrong_options_are_refused_in_one_line(wrong, capsys):
     with pytest.raises(SystemExit) as caught:

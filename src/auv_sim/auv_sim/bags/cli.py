@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import argparse
 import importlib
-import os
-import sys
 from collections.abc import Sequence
 
-from auv_msgs_py.errors import SuiteError
-from auv_sim.command_line import EXIT_BAD_INPUT, EXIT_DONE, EXIT_INTERRUPTED, Parser
+from auv_sim.command_line import Parser, command
 
 #: In the order in which a person needs them.
 VERBS = {
@@ -40,17 +37,8 @@ def parser() -> argparse.ArgumentParser:
     return top
 
 
+@command("bag.py")
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one verb; returns 0 done, 1 a difference was found, 2 bad input, 130 interrupted."""
     arguments = parser().parse_args(argv)
-    try:
-        return int(arguments.run(arguments))
-    except SuiteError as error:
-        print(error, file=sys.stderr)
-        return EXIT_BAD_INPUT
-    except KeyboardInterrupt:
-        return EXIT_INTERRUPTED
-    except BrokenPipeError:
-        # Somebody read only the beginning (head, say); nothing is left to say to him.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return EXIT_DONE
+    return int(arguments.run(arguments))

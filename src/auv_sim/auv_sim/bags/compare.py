@@ -17,6 +17,7 @@ from auv_sim.analysis.metrics import MissionSummary
 from auv_sim.bags.compare_picture import draw
 from auv_sim.bags.flight import PARAMS, Flight, configuration, flight_of
 from auv_sim.command_line import console as terminal
+from auv_sim.command_line import target
 from auv_sim.recording.bag import read_bag
 
 #: Field of the summary, heading, digits.
@@ -40,7 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--mission", metavar="FILE", help="the mission that was flown, where a recording does not tell"
     )
     parser.add_argument(
-        "--png", type=Path, metavar="FILE", default=Path("compare.png"), help="default: compare.png"
+        "--png", type=target, metavar="FILE", default=Path("compare.png"), help="default: compare.png"
     )
     parser.add_argument("--json", action="store_true", help="for programs")
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from auv_msgs_py.errors import ConfigurationError
 from auv_sim.analysis.run import Run
+from auv_sim.command_line import target
 from auv_sim.recording.bag import read_bag
 from auv_sim.recording.load import run_of
 
@@ -26,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The verb's options."""
     parser.add_argument("bag", type=Path, metavar="BAG", help="recording or run directory")
     parser.add_argument(
-        "--out", type=Path, metavar="FILE", help="*.csv or *.parquet (default: beside the recording, CSV)"
+        "--out", type=target, metavar="FILE", help="*.csv or *.parquet (default: beside the recording, CSV)"
     )
     parser.add_argument("--rate", type=float, metavar="HZ", help="resample to so many rows a second instead")
     parser.add_argument("--namespace", metavar="NAME", help="which vehicle, where there are several")

@@ -24,6 +24,7 @@ from auv_path_following.paths import mission_file
 from auv_sim.bags.chain import Answers, answers
 from auv_sim.bags.flight import MISSION, PARAMS, configuration, known_hull
 from auv_sim.command_line import console as terminal
+from auv_sim.command_line import target
 from auv_sim.parameters import SUITE
 from auv_sim.recording.bag import read_bag
 from auv_sim.recording.load import USED
@@ -45,8 +46,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--mission", metavar="FILE", help="another mission than the recorded one")
     parser.add_argument("--vehicle", metavar="FILE", help="another hull than the nodes were told")
     parser.add_argument("--namespace", metavar="NAME", help="which vehicle, where there are several")
-    parser.add_argument("--png", type=Path, metavar="FILE", help="draw recorded and new commands")
-    parser.add_argument("--csv", type=Path, metavar="FILE", help="write recorded and new commands")
+    parser.add_argument("--png", type=target, metavar="FILE", help="draw recorded and new commands")
+    parser.add_argument("--csv", type=target, metavar="FILE", help="write recorded and new commands")
     parser.add_argument("--json", action="store_true", help="for programs")
 
 

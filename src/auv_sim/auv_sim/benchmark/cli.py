@@ -4,24 +4,17 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from auv_msgs_py.errors import ConfigurationError, SuiteError
+from auv_msgs_py.errors import ConfigurationError
+from auv_sim import pages
 from auv_sim.benchmark import graph, laws, machine, page, recording, sheets
 from auv_sim.benchmark.scale import FULL, QUICK, Scale
-from auv_sim.command_line import (
-    EXIT_BAD_INPUT,
-    EXIT_DONE,
-    EXIT_FAILED,
-    EXIT_INTERRUPTED,
-    Parser,
-    console,
-)
+from auv_sim.command_line import EXIT_DONE, Parser, command, console, make_directory, target
 
 Tick = Callable[[str], None]
 
@@ -48,7 +41,7 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument(
         "--only", nargs="+", choices=tuple(SECTIONS), metavar="SECTION", help=f"some of {', '.join(SECTIONS)}"
     )
-    p.add_argument("--json", type=Path, metavar="FILE", help="write all figures to FILE")
+    p.add_argument("--json", type=target, metavar="FILE", help="write all figures to FILE")
     p.add_argument(
         "--write-docs", action="store_true", help="renew the figures and pictures of docs/performance.md"
     )
@@ -57,20 +50,10 @@ def parser() -> argparse.ArgumentParser:
     return p
 
 
+@command("benchmark", interrupted="interrupted; nothing was written")
 def main(argv: Sequence[str] | None = None) -> int:
     """Measure; returns the exit code: 0 done, 1 something did not run, 2 bad input, 130 interrupted."""
-    options = parser().parse_args(argv)
-    try:
-        return _measure(options)
-    except ConfigurationError as error:
-        print(error, file=sys.stderr)
-        return EXIT_BAD_INPUT
-    except SuiteError as error:
-        print(f"benchmark failed: {error}", file=sys.stderr)
-        return EXIT_FAILED
-    except KeyboardInterrupt:
-        print("interrupted; nothing was written", file=sys.stderr)
-        return EXIT_INTERRUPTED
+    return _measure(parser().parse_args(argv))
 
 
 def _measure(options: argparse.Namespace) -> int:
@@ -79,7 +62,8 @@ def _measure(options: argparse.Namespace) -> int:
             raise ConfigurationError(
                 "--write-docs", "together with --only", "all sections, the page needs them"
             )
-        page.parts(options.page)  # before minutes of measuring, not after
+        pages.check(options.page, page.PART)  # before minutes of measuring, not after
+        make_directory(options.images, "--images")
     scale = QUICK if options.quick else FULL
     chosen = options.only or list(SECTIONS)
     out = console()

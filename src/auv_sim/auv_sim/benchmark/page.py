@@ -11,30 +11,17 @@ mpl.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
-from auv_msgs_py.errors import ConfigurationError
+from auv_sim import pages
 from auv_sim.analysis.plot_style import BLUE, INK, ORANGE, style
 from auv_sim.benchmark.sheets import Sheet, markdown
 
-BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
+#: Of the page.
+PART = "figures"
 PICTURE = "performance_growth.png"
-
-
-def parts(page: Path) -> tuple[str, str]:
-    """What stands before and behind the figures.
-
-    Raises:
-        ConfigurationError: the page has no place for them.
-    """
-    text = page.read_text(encoding="utf-8") if page.is_file() else ""
-    if BEGIN not in text or END not in text:
-        raise ConfigurationError(str(page), "no place for figures", f"a page with {BEGIN} and {END}")
-    return text.split(BEGIN)[0], text.split(END)[1]
 
 
 def renew(page: Path, images: Path, figures: dict[str, Any], found: list[Sheet]) -> None:
     """Put the machine, the tables and the growth curves into the page."""
-    before, after = parts(page)
-    images.mkdir(parents=True, exist_ok=True)
     draw(figures, images / PICTURE)
     machine = "; ".join(f"{name} {value}" for name, value in figures["machine"].items())
     load = figures["load"]
@@ -42,7 +29,7 @@ def renew(page: Path, images: Path, figures: dict[str, Any], found: list[Sheet])
         f"Measured on: {machine}. Load of the machine before it began: {load:.1f}.\n\n{markdown(found)}\n\n"
         f"![Growth: simulation by vehicles, guidance by subpaths, recorder by topics](images/{PICTURE})"
     )
-    page.write_text(f"{before}{BEGIN}\n{text}\n{END}{after}", encoding="utf-8")
+    pages.renew(page, PART, text)
 
 
 def draw(figures: dict[str, Any], picture: Path) -> None:

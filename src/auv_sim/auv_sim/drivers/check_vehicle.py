@@ -20,11 +20,10 @@ from auv_msgs_py.runtime import StopRequest
 from auv_path_following import vehicle
 from auv_path_following.vehicle import Vehicle
 from auv_sim.command_line import (
-    EXIT_BAD_INPUT,
     EXIT_DONE,
     EXIT_FAILED,
-    EXIT_INTERRUPTED,
     Parser,
+    command,
     console,
     positive,
     ros_namespace,
@@ -38,10 +37,6 @@ from auv_sim.vehicle_check.wiggle import END, THRUST_SHARE
 #: How long the discovery of a /clock may take, and how long ROS time may stand still, s of wall time.
 _DISCOVERY, _STILL = 1.0, 10.0
 _CONSENT = "--yes-the-vehicle-may-move"
-
-
-class Interrupted(Exception):
-    """Ctrl-C."""
 
 
 def parser() -> argparse.ArgumentParser:
@@ -80,27 +75,21 @@ def parser() -> argparse.ArgumentParser:
     return p
 
 
+@command("check", interrupted="interrupted: zero commands were sent")
 def main(argv: Sequence[str] | None = None) -> int:
     """Check; returns the exit code."""
     arguments = list(sys.argv[1:] if argv is None else argv)
     options = parser().parse_args(remove_ros_args(["check_vehicle", *arguments])[1:])
-    try:
-        hull = vehicle.load(options.vehicle)
-        if options.self_test:
-            from auv_sim.drivers.check_self_test import self_test
+    hull = vehicle.load(options.vehicle)
+    if options.self_test:
+        from auv_sim.drivers.check_self_test import self_test
 
-            return self_test(console(), hull)
-        if options.wiggle:
-            _ask(options.consent)
-        elif options.consent:
-            raise ConfigurationError(_CONSENT, "no --wiggle", "both: without it nothing moves")
-        return _check(options, arguments, hull)
-    except ConfigurationError as error:
-        print(error, file=sys.stderr)
-        return EXIT_BAD_INPUT
-    except (Interrupted, KeyboardInterrupt):
-        print("interrupted: zero commands were sent", file=sys.stderr)
-        return EXIT_INTERRUPTED
+        return self_test(console(), hull)
+    if options.wiggle:
+        _ask(options.consent)
+    elif options.consent:
+        raise ConfigurationError(_CONSENT, "no --wiggle", "both: without it nothing moves")
+    return _check(options, arguments, hull)
 
 
 def _ask(consent: bool) -> None:
@@ -113,7 +102,11 @@ def _ask(consent: bool) -> None:
         f"The vehicle will move for {END:g} s: {THRUST_SHARE:.0%} of its thrust, rudder up to 20 degrees,"
         " within some 40 m."
     )
-    if input("Type yes if it may: ").strip().lower() != "yes":
+    try:
+        answer = input("Type yes if it may: ").strip().lower()
+    except EOFError:
+        raise ConfigurationError("--wiggle", "no answer", "yes") from None
+    if answer != "yes":
         raise ConfigurationError("--wiggle", "another answer", "yes")
 
 
@@ -152,7 +145,7 @@ def _listen(
         deadline = time.monotonic() + patience
         while not until():
             if stop.requested:
-                raise Interrupted
+                raise KeyboardInterrupt
             if time.monotonic() > deadline:
                 return False
             executor.spin_once(timeout_sec=0.01)

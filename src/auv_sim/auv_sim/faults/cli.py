@@ -6,19 +6,27 @@ import argparse
 import json
 import math
 import os
-import sys
 import tempfile
 import time
 from collections.abc import Sequence
 from pathlib import Path
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
 from auv_msgs_py import topics
-from auv_msgs_py.errors import ConfigurationError, SuiteError
-from auv_sim.command_line import EXIT_BAD_INPUT, EXIT_DONE, EXIT_FAILED, Parser, positive, ros_domain
+from auv_msgs_py.errors import ConfigurationError
+from auv_sim.command_line import (
+    EXIT_DONE,
+    EXIT_FAILED,
+    Parser,
+    command,
+    make_directory,
+    positive,
+    progress_bar,
+    ros_domain,
+    target,
+)
 from auv_sim.command_line import console as terminal
 from auv_sim.faults.expectations import REPRESENTATIVE, TABLE, Expectation, chosen
 from auv_sim.mission.domains import free_domain
@@ -39,31 +47,22 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--full", action="store_true", help="all rows of the table in docs/safety.md")
     p.add_argument("--list", action="store_true", help="print the names of all rows")
     p.add_argument("--speed", type=positive, default=SPEED, metavar="N", help="of the simulator (default 4)")
-    p.add_argument("--json", type=Path, metavar="FILE", help="write the results there")
+    p.add_argument("--json", type=target, metavar="FILE", help="write the results there")
     p.add_argument("--out", type=Path, metavar="DIR", help="keep logs and bag there (default: thrown away)")
     p.add_argument("--domain", type=ros_domain, help="ROS domain (default: one of its own)")
     return p
 
 
+@command("fault matrix")
 def main(argv: Sequence[str] | None = None) -> int:
-    """Returns 0 when all rows are as expected, 1 when one is not, 2 for bad input."""
-    try:
-        return _main(parser().parse_args(argv))
-    except ConfigurationError as error:
-        print(error, file=sys.stderr)
-        return EXIT_BAD_INPUT
-    except SuiteError as error:
-        print(f"fault matrix failed: {error}", file=sys.stderr)
-        return EXIT_FAILED
-
-
-def _main(arguments: argparse.Namespace) -> int:
+    """Returns 0 when all rows are as expected, 1 when one is not, 2 for bad input, 130 when interrupted."""
+    arguments = parser().parse_args(argv)
     if arguments.list:
         print("\n".join(row.name for row in TABLE))
         return EXIT_DONE
     rows = _rows(arguments)
-    if arguments.out is not None and arguments.out.exists():
-        raise ConfigurationError("--out", f"{arguments.out}, which exists", "a new directory")
+    if arguments.out is not None:
+        make_directory(arguments.out, new=True)
     os.environ["ROS_DOMAIN_ID"] = str(arguments.domain if arguments.domain is not None else free_domain())
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     console = terminal()
@@ -95,8 +94,7 @@ def _run(rows: list[Expectation], directory: Path, speed: float, console: Consol
 
     begin = time.monotonic()
     results: list[Result] = []
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console, disable=not console.is_terminal) as bar:
+    with progress_bar(console, disable=not console.is_terminal) as bar:
         task = bar.add_task("spoiling", total=len(rows))
 
         def tell(result: Result) -> None:

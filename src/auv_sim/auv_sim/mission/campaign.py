@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
@@ -21,7 +22,7 @@ from rich.progress import (
 )
 from rich.table import Table
 
-from auv_msgs_py.errors import ConfigurationError, SuiteError
+from auv_msgs_py.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_sim.batch import engine
 from auv_sim.batch.compiled import COMPILED
@@ -30,7 +31,7 @@ from auv_sim.campaign.plan import StudyPlan
 from auv_sim.campaign.statistics import Estimate
 from auv_sim.campaign.store import RESULTS, Store
 from auv_sim.campaign.summary import TOLD, Summary, summarise
-from auv_sim.command_line import EXIT_BAD_INPUT, EXIT_DONE, EXIT_FAILED, EXIT_INTERRUPTED, Parser
+from auv_sim.command_line import EXIT_DONE, Parser, at_least_one, command
 from auv_sim.command_line import console as terminal
 from auv_sim.mission import campaign_replay
 
@@ -48,8 +49,10 @@ def parser() -> argparse.ArgumentParser:
     shipped = ", ".join(config_files.shipped("studies"))
     p.add_argument("study", metavar="STUDY", help=f"file, directory of a campaign, or one of: {shipped}")
     p.add_argument("--out", type=Path, metavar="DIR", help="campaign directory (default: campaigns/STUDY)")
-    p.add_argument("--workers", type=_count, metavar="N", help="processes (default: one for each core)")
-    p.add_argument("--chunk", type=_count, metavar="N", help="runs that are handed out and kept together")
+    p.add_argument("--workers", type=at_least_one, metavar="N", help="processes (default: one for each core)")
+    p.add_argument(
+        "--chunk", type=at_least_one, metavar="N", help="runs that are handed out and kept together"
+    )
     p.add_argument(
         "--dask", nargs="?", const="", metavar="ADDRESS",
         help="through Dask: a scheduler such as tcp://host:8786; without one a cluster on this machine",
@@ -60,18 +63,13 @@ def parser() -> argparse.ArgumentParser:
     return p
 
 
-def _count(text: str) -> int:
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"found '{text}', expected a whole number greater than 0")
-    return int(text)
-
-
 def _number(text: str) -> int:
     if not text.isdecimal():
         raise argparse.ArgumentTypeError(f"found '{text}', expected the number of a run, from 0")
     return int(text)
 
 
+@command("campaign")
 def main(argv: Sequence[str] | None = None) -> int:
     """Fly; returns the exit code: 0 done, 1 failed, 2 bad input, 130 interrupted."""
     options = parser().parse_args(argv)
@@ -82,16 +80,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         if options.replay_run is not None:
             return campaign_replay.replay(store, options.replay_run, options.graph, terminal(options.quiet))
         return _fly(store, options)
-    except ConfigurationError as error:
-        print(error, file=sys.stderr)
-        return EXIT_BAD_INPUT
-    except SuiteError as error:
-        print(f"campaign failed: {error}", file=sys.stderr)
-        return EXIT_FAILED
     except KeyboardInterrupt:
         again = shlex.join(["python3", "scripts/campaign.py", *(argv if argv is not None else sys.argv[1:])])
-        print(f"\ncampaign interrupted; what was flown is kept. Go on:  {again}", file=sys.stderr)
-        return EXIT_INTERRUPTED
+        raise KeyboardInterrupt(f"\ncampaign interrupted; what was flown is kept. Go on:  {again}") from None
 
 
 def _store(options: argparse.Namespace) -> Store:
@@ -105,9 +96,9 @@ def _store(options: argparse.Namespace) -> Store:
 def _fly(store: Store, options: argparse.Namespace) -> int:
     console, plan = terminal(options.quiet), store.plan
     console.print(
-        f"[bold]{plan.study.name}[/bold]: {plan.runs} flights"
+        f"[bold]{escape(plan.study.name)}[/bold]: {plan.runs} flights"
         + (f", {len(plan.points)} points of the grids" if plan.grids else "")
-        + (f"\n  {plan.study.description}" if plan.study.description else "")
+        + (f"\n  {escape(plan.study.description)}" if plan.study.description else "")
     )
     size = options.chunk or (50 if COMPILED and not plan.study.sea else 2)
     chunks = store.missing(size)

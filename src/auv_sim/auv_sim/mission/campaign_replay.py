@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pyarrow.parquet as pq
 from rich.console import Console
+from rich.markup import escape
 
 from auv_msgs_py import params_file, topics, yaml_file
 from auv_msgs_py.errors import ConfigurationError
@@ -45,7 +46,7 @@ def replay(store: Store, number: int, graph: bool, console: Console) -> int:
     plan = store.plan
     if number >= plan.runs:
         raise ConfigurationError("--replay-run", str(number), f"a run from 0 to {plan.runs - 1}")
-    console.print(f"[bold]{plan.study.name}[/bold], run {number}")
+    console.print(f"[bold]{escape(plan.study.name)}[/bold], run {number}")
     for name, value in plan.values(number).items():
         console.print(f"  {name:<32} {value:.6g}" if isinstance(value, float) else f"  {name:<32} {value}")
     scenario = plan.scenario(number)

@@ -9,15 +9,18 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from auv_msgs_py.errors import ConfigurationError, SuiteError
+from rich.markup import escape
+
+from auv_msgs_py.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_sim.command_line import (
-    EXIT_BAD_INPUT,
     EXIT_DONE,
     EXIT_FAILED,
     EXIT_INTERRUPTED,
     Parser,
+    command,
     finite,
+    make_directory,
     positive,
     ros_domain,
     ros_namespace,
@@ -115,16 +118,10 @@ def parser() -> argparse.ArgumentParser:
     return p
 
 
+@command("mission", interrupted="mission interrupted")
 def main(argv: Sequence[str] | None = None) -> int:
     """Fly; returns the exit code: 0 complete, 1 failed or aborted, 2 bad input, 130 interrupted."""
-    try:
-        return _fly(_options(argv))
-    except ConfigurationError as error:
-        print(error, file=sys.stderr)
-        return EXIT_BAD_INPUT
-    except SuiteError as error:
-        print(f"mission failed: {error}", file=sys.stderr)
-        return EXIT_FAILED
+    return _fly(_options(argv))
 
 
 def _options(argv: Sequence[str] | None) -> Options:
@@ -161,25 +158,20 @@ def _options(argv: Sequence[str] | None) -> Options:
 def _fly(options: Options) -> int:
     directory = _run_directory(options)
     resolved = plan.make(options, directory)
-    console = terminal(options.quiet)
-    try:
-        directory.mkdir(parents=True)
-    except OSError as error:
-        raise ConfigurationError(
-            "--out", f"{directory} ({error.strerror})", "a directory that can be made"
-        ) from None
-    path = resolved.mission.path
     domain = launcher.domain_of(resolved)
+    console = terminal(options.quiet)
+    make_directory(directory, new=True)
+    path = resolved.mission.path
     timing = "lockstep" if resolved.lockstep else "free running"
     console.print(
-        f"[bold]{resolved.mission.name}[/bold]: {path.n} subpaths, {path.length:.1f} m,"
-        f" {resolved.vehicle.name}, {timing}, ROS domain {domain},"
+        f"[bold]{escape(resolved.mission.name)}[/bold]: {path.n} subpaths, {path.length:.1f} m,"
+        f" {escape(resolved.vehicle.name)}, {timing}, ROS domain {domain},"
         f" namespace {options.namespace}",
         highlight=False,
     )
     for level, verdicts in (("refused", resolved.verdicts.refusals), ("warning", resolved.verdicts.warnings)):
         for verdict in verdicts:
-            console.print(f"[yellow]{level}[/yellow] {verdict}", highlight=False, soft_wrap=True)
+            console.print(f"[yellow]{level}[/yellow] {escape(str(verdict))}", highlight=False, soft_wrap=True)
     with Progress(path, console, options.quiet) as progress:
         outcome = launcher.fly(resolved, directory, domain, progress)
     if outcome.state != "complete":

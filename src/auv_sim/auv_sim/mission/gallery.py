@@ -10,17 +10,20 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from auv_msgs_py.errors import ConfigurationError, SuiteError
+from auv_msgs_py.errors import SuiteError
 from auv_path_following.paths import mission_file
 from auv_path_following.paths.mission_file import Mission
+from auv_sim import pages
 from auv_sim.analysis.metrics import under_way
 from auv_sim.analysis.run import Run
+from auv_sim.command_line import EXIT_DONE, Parser, command, make_directory
 from auv_sim.planning.gallery_picture import draw
 from auv_sim.recording.load import load
 
 KINDS = ("linear", "circular", "dubins", "clothoid", "fermat")
 CURRENTS = {"none": (0.0, 0.0), "current": (0.1, 0.2)}
-BEGIN, END = "<!-- gallery: begin -->", "<!-- gallery: end -->"
+#: Of the page.
+PART = "gallery"
 _TITLES = {
     "linear": "Piecewise linear",
     "circular": "Circular smoothing",
@@ -37,9 +40,10 @@ class Flight(NamedTuple):
     summary: dict[str, Any]
 
 
+@command("gallery")
 def main(argv: Sequence[str] | None = None) -> int:
-    """Fly what is not yet there, draw, and renew the table; 0 done, 1 a flight failed, 2 bad input."""
-    p = argparse.ArgumentParser(prog="gallery.py", description=__doc__, allow_abbrev=False)
+    """Fly what is not yet there, draw, renew the table; 0 done, 1 failed, 2 bad input, 130 interrupted."""
+    p = Parser(prog="gallery.py", description=__doc__, allow_abbrev=False)
     p.add_argument(
         "--page",
         type=Path,
@@ -59,21 +63,13 @@ def main(argv: Sequence[str] | None = None) -> int:
         help="folder of the flights; those that are there are not flown again (default: %(default)s)",
     )
     p.add_argument("--params", default="robust", help="gains (default: %(default)s)")
-    options = p.parse_args(argv)
-    try:
-        _renew(options)
-    except ConfigurationError as error:
-        print(error, file=sys.stderr)
-        return 2
-    except SuiteError as error:
-        print(error, file=sys.stderr)
-        return 1
-    return 0
+    _renew(p.parse_args(argv))
+    return EXIT_DONE
 
 
 def _renew(options: argparse.Namespace) -> None:
-    _parts(options.page)  # before ten flights, not after
-    options.images.mkdir(parents=True, exist_ok=True)
+    pages.check(options.page, PART)  # before ten flights, not after
+    make_directory(options.images, "--images")
     rows = []
     for kind in KINDS:
         mission = mission_file.load(f"course_{kind}")
@@ -87,17 +83,7 @@ def _renew(options: argparse.Namespace) -> None:
             picture,
         )
         rows.append(_row(kind, mission, flights))
-    before, after = _parts(options.page)
-    options.page.write_text(f"{before}{BEGIN}\n{_table(rows)}\n{END}{after}", encoding="utf-8")
-
-
-def _parts(page: Path) -> tuple[str, str]:
-    """What stands before and behind the table."""
-    text = page.read_text(encoding="utf-8") if page.is_file() else ""
-    if BEGIN not in text or END not in text:
-        found = f"{page} without a table to renew"
-        raise ConfigurationError("--page", found, f"a page with {BEGIN} and {END}")
-    return text.split(BEGIN)[0], text.split(END)[1]
+    pages.renew(options.page, PART, _table(rows))
 
 
 def _flown(kind: str, name: str, options: argparse.Namespace) -> Flight:

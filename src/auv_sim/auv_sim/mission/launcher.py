@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import time
@@ -9,8 +10,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from auv_msgs_py import topics
-from auv_msgs_py.errors import SuiteError
+from auv_msgs_py.errors import ConfigurationError, SuiteError
 from auv_msgs_py.runtime import StopRequest
+from auv_sim.command_line import ros_domain
 from auv_sim.mission.composed import NODES
 from auv_sim.mission.domains import free_domain
 from auv_sim.mission.placement import Processor
@@ -51,11 +53,20 @@ class Outcome:
 
 
 def domain_of(plan: Plan) -> int:
-    """The ROS domain: asked for; else a foreign vehicle's, from the environment; else one of our own."""
+    """The ROS domain: asked for; else a foreign vehicle's, from the environment; else one of our own.
+
+    Raises:
+        ConfigurationError: the environment names none.
+    """
     if plan.options.domain is not None:
         return plan.options.domain
     if plan.options.no_sim:
-        return int(os.environ.get("ROS_DOMAIN_ID", "0"))
+        # As ROS has it: empty is not set, and that is 0.
+        try:
+            return ros_domain(os.environ.get("ROS_DOMAIN_ID") or "0")
+        except argparse.ArgumentTypeError:
+            found = repr(os.environ["ROS_DOMAIN_ID"])
+            raise ConfigurationError("ROS_DOMAIN_ID", found, "a ROS domain from 0 to 232") from None
     return free_domain()
 
 

@@ -20,7 +20,8 @@ from auv_sim.plant.actuator import RudderFlaws
 from auv_sim.plant.sea import Sea
 from auv_sim.reproduction.flights import changed
 
-BEGIN, END = "<!-- noise: begin -->", "<!-- noise: end -->"
+#: Of the page.
+PART = "noise"
 #: The sea's white noise is multiplied by these.
 LEVELS = (0.0, 0.25, 0.5, 1.0, 2.0)
 SEED = 0

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
 from auv_msgs_py.errors import ConfigurationError
@@ -52,7 +53,7 @@ def conclude(plan: Plan, directory: Path, outcome: Outcome) -> MissionSummary | 
 
 def show(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary, console: Console) -> None:
     """The table, the files, the next command."""
-    table = Table(title=f"{plan.mission.name}: {outcome.state}", title_justify="left")
+    table = Table(title=f"{escape(plan.mission.name)}: {outcome.state}", title_justify="left")
     table.add_column("subpath")
     for heading in (
         "time [s]",
@@ -106,8 +107,10 @@ def show(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary,
         ("config", "mission, vehicle and parameters as flown"),
         ("log", "what each node said"),
     ):
-        console.print(f"  {directory / name}  [dim]{what}[/dim]", soft_wrap=True, highlight=False)
-    console.print(f"\nLook further:  {_next_command(directory)}", soft_wrap=True, highlight=False)
+        console.print(
+            f"  {escape(str(directory / name))}  [dim]{what}[/dim]", soft_wrap=True, highlight=False
+        )
+    console.print(f"\nLook further:  {escape(_next_command(directory))}", soft_wrap=True, highlight=False)
 
 
 def _next_command(directory: Path) -> str:

@@ -6,36 +6,36 @@ import argparse
 import dataclasses
 import json
 import os
-import sys
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from auv_msgs_py.errors import ConfigurationError, SuiteError
 from auv_path_following import config_files
-from auv_sim import closed_loop
+from auv_sim import closed_loop, pages
 from auv_sim.analysis.metrics import without_nan
 from auv_sim.analysis.trials import Together, Trial, judge, together
 from auv_sim.command_line import (
-    EXIT_BAD_INPUT,
     EXIT_DONE,
     EXIT_FAILED,
-    EXIT_INTERRUPTED,
     Parser,
+    at_least_one,
+    command,
+    make_directory,
     positive,
+    progress_bar,
     whole,
 )
 from auv_sim.command_line import console as terminal
 from auv_sim.mission import noise_study, plan
 from auv_sim.mission.plan import Options, Plan
-from auv_sim.pool import each
+from auv_sim.pool import tracked
 
-BEGIN, END = "<!-- trials: begin -->", "<!-- trials: end -->"
+#: Of the page.
+PART = "trials"
 
 
 class Job(NamedTuple):
@@ -66,7 +66,7 @@ def parser() -> argparse.ArgumentParser:
     )
     seas = ", ".join(config_files.shipped("seas"))
     p.add_argument("--sea", default="rough", metavar="FILE", help=f"file or one of: {seas} (default: rough)")
-    p.add_argument("--seeds", type=_count, default=50, metavar="N", help="how many (default 50)")
+    p.add_argument("--seeds", type=at_least_one, default=50, metavar="N", help="how many (default 50)")
     p.add_argument("--first", type=whole, default=0, metavar="N", help="the first seed (default 0)")
     p.add_argument(
         "--limit", type=positive, default=2.5, metavar="M", help="largest true distance to the path (2.5 m)"
@@ -76,7 +76,9 @@ def parser() -> argparse.ArgumentParser:
         choices=("noise",),
         help="instead: rudder activity against the level of noise, as a picture and a table",
     )
-    p.add_argument("--workers", type=_count, default=os.cpu_count() or 1, metavar="N", help="processes (all)")
+    p.add_argument(
+        "--workers", type=at_least_one, default=os.cpu_count() or 1, metavar="N", help="processes (all)"
+    )
     p.add_argument(
         "--out",
         type=Path,
@@ -88,41 +90,28 @@ def parser() -> argparse.ArgumentParser:
     return p
 
 
-def _count(text: str) -> int:
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"found '{text}', expected a whole number of at least 1")
-    return int(text)
-
-
+@command("sea trials")
 def main(argv: Sequence[str] | None = None) -> int:
     """Returns the exit code: 0 all within the limit, 1 not, 2 bad input, 130 interrupted."""
     options = parser().parse_args(argv)
     console = terminal()
-    try:
-        _directory(options.out)
-        noise = options.study == "noise"
-        _parts(options.page, *((noise_study.BEGIN, noise_study.END) if noise else (BEGIN, END)))
-        if noise:
-            with _progress(console) as bar:
-                study = noise_study.fly(
-                    options.mission, options.vehicle, options.sea, partial(_tracked, bar, options)
-                )
-            noise_study.draw(study, options.out / "rudder_activity.png")
-            _write(options.out / "rudder_activity.json", noise_study.record(study))
-            _renew(options.page, noise_study.BEGIN, noise_study.END, noise_study.markdown(study))
-            console.print(noise_study.table(study))
-            console.print(f"Picture: {options.out / 'rudder_activity.png'}", highlight=False)
-            return EXIT_DONE
-        return _trials(options, console)
-    except ConfigurationError as error:
-        print(error, file=sys.stderr)
-        return EXIT_BAD_INPUT
-    except SuiteError as error:
-        print(f"sea trials failed: {error}", file=sys.stderr)
-        return EXIT_FAILED
-    except KeyboardInterrupt:
-        print("interrupted", file=sys.stderr)
-        return EXIT_INTERRUPTED
+    make_directory(options.out)
+    noise = options.study == "noise"
+    if options.page is not None:
+        pages.check(options.page, noise_study.PART if noise else PART)  # before the flights, not after
+    if noise:
+        with progress_bar(console) as bar:
+            study = noise_study.fly(
+                options.mission, options.vehicle, options.sea, partial(tracked, bar, options.workers)
+            )
+        noise_study.draw(study, options.out / "rudder_activity.png")
+        _write(options.out / "rudder_activity.json", noise_study.record(study))
+        if options.page is not None:
+            pages.renew(options.page, noise_study.PART, noise_study.markdown(study))
+        console.print(noise_study.table(study))
+        console.print(f"Picture: {options.out / 'rudder_activity.png'}", highlight=False)
+        return EXIT_DONE
+    return _trials(options, console)
 
 
 def fly(job: Job) -> Trial:
@@ -148,8 +137,8 @@ def _trials(options: argparse.Namespace, console: Console) -> int:
     ]
     for job in jobs[: len(options.params)]:  # a mistake is told before the pool starts
         _plan(job)
-    with _progress(console) as bar:
-        trials = _tracked(bar, options, "flying", fly, jobs)
+    with progress_bar(console) as bar:
+        trials = tracked(bar, options.workers, "flying", fly, jobs)
     rows = together(trials, options.limit)
     record = {
         "mission": options.mission,
@@ -162,7 +151,8 @@ def _trials(options: argparse.Namespace, console: Console) -> int:
     }
     target = options.out / f"{Path(options.sea).stem}.json"
     _write(target, record)
-    _renew(options.page, BEGIN, END, _markdown(rows))
+    if options.page is not None:
+        pages.renew(options.page, PART, _markdown(rows))
     console.print(_table(rows, options))
     worst = max(trials, key=lambda trial: (not trial.completed, trial.largest_distance))
     console.print(f"  {target}  [dim]every flight[/dim]", highlight=False, soft_wrap=True)
@@ -211,47 +201,6 @@ def _write(file: Path, record: Any) -> None:
     """Strict JSON; what is not known (a corner where there is none) becomes null."""
     text = json.dumps(without_nan(record), indent=2, allow_nan=False)
     file.write_text(text + "\n", encoding="utf-8")
-
-
-def _parts(page: Path | None, begin: str, end: str) -> tuple[str, str]:
-    """What stands before and behind the page's table; asked once before the flights, not only after."""
-    if page is None:
-        return "", ""
-    text = page.read_text(encoding="utf-8") if page.is_file() else ""
-    if begin not in text or end not in text:
-        found = f"{page} without a table to renew"
-        raise ConfigurationError("--page", found, f"a page with {begin} and {end}")
-    return text.split(begin)[0], text.split(end)[1]
-
-
-def _renew(page: Path | None, begin: str, end: str, table: str) -> None:
-    before, after = _parts(page, begin, end)
-    if page is not None:
-        page.write_text(f"{before}{begin}\n{table}\n{end}{after}", encoding="utf-8")
-
-
-def _directory(out: Path) -> None:
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        found, expected = f"{out} ({error.strerror})", "a directory that can be made"
-        raise ConfigurationError("--out", found, expected) from None
-
-
-def _progress(console: Console) -> Progress:
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    return Progress(*columns, console=console)
-
-
-def _tracked(
-    bar: Progress, options: argparse.Namespace, what: str, work: Callable[[Any], Any], items: Sequence[Any]
-) -> list[Any]:
-    """`work` on each item with a bar; results in order."""
-    task = bar.add_task(what, total=len(items))
-    results: list[Any] = [None] * len(items)
-    for index, result in each(work, items, options.workers, lambda: bar.advance(task)):
-        results[index] = result
-    return results
 
 
 if __name__ == "__main__":

@@ -6,7 +6,6 @@ import argparse
 import json
 import math
 import os
-import sys
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -18,8 +17,7 @@ from rich.table import Table
 
 from auv_msgs_py import topics
 from auv_msgs_py.conversions import nanoseconds
-from auv_msgs_py.errors import ConfigurationError, SuiteError
-from auv_sim.command_line import EXIT_BAD_INPUT, EXIT_DONE, EXIT_FAILED, Parser, positive
+from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, Parser, command, make_directory, positive
 from auv_sim.command_line import console as terminal
 from auv_sim.mission import launcher, memory, plan
 from auv_sim.mission.domains import free_domain
@@ -92,8 +90,9 @@ def growth(rows: Sequence[tuple[float, dict[str, int]]]) -> list[Growth]:
     return found
 
 
+@command("soak")
 def main(argv: Sequence[str] | None = None) -> int:
-    """Returns 0 when nothing grew and nothing was lost, 1 when something did, 2 for bad input."""
+    """Returns 0 when nothing grew or was lost, 1 when something did, 2 for bad input, 130 interrupted."""
     p = Parser(
         prog="soak.py",
         description="Fly a looped survey for an hour of mission time and watch.",
@@ -108,22 +107,12 @@ def main(argv: Sequence[str] | None = None) -> int:
         help="largest growth, kB per 1000 steps (default 20)",
     )
     p.add_argument("--out", type=Path, metavar="DIR", help="run directory (default: runs/soak-DATE)")
-    arguments = p.parse_args(argv)
-    try:
-        return _soak(arguments)
-    except ConfigurationError as error:
-        print(error, file=sys.stderr)
-        return EXIT_BAD_INPUT
-    except SuiteError as error:
-        print(f"soak failed: {error}", file=sys.stderr)
-        return EXIT_FAILED
+    return _soak(p.parse_args(argv))
 
 
 def _soak(arguments: argparse.Namespace) -> int:
     directory = (arguments.out or Path("runs") / f"soak-{time.strftime('%Y%m%d-%H%M%S')}").absolute()
-    if directory.exists():
-        raise ConfigurationError("--out", f"{directory}, which exists", "a new directory")
-    directory.mkdir(parents=True)
+    make_directory(directory, new=True)
     mission = directory / "soak.yaml"
     mission.write_text(SURVEY.format(repeat=1), encoding="utf-8")
     once = plan.make(Options(mission=str(mission)), directory).verdicts.duration
@@ -133,6 +122,8 @@ def _soak(arguments: argparse.Namespace) -> int:
     watch = Watch(resolved, console)
     with watch:
         outcome = launcher.fly(resolved, directory, free_domain(), watch)
+    if outcome.state == "interrupted":
+        raise KeyboardInterrupt(f"interrupted: {outcome.reason}")
     if outcome.state != "complete":
         raise launcher.MissionFailed(f"{outcome.state}: {outcome.reason}")
     steps, lost = _counted(directory / "bag", resolved.parameters[topics.PLANT].step)

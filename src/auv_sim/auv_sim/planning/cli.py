@@ -11,6 +11,7 @@ from pathlib import Path
 
 from rich import box
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
@@ -23,12 +24,11 @@ from auv_path_following.guidance.switching import as_wished
 from auv_path_following.paths import mission_file
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
-from auv_sim.command_line import Parser, finite
+from auv_sim.command_line import EXIT_DONE, Parser, command, finite
 from auv_sim.parameters import SUITE
 from auv_sim.planning import chart, drawing
 from auv_sim.planning.check import Verdicts, check, refusal
 
-EXIT_FLYABLE, EXIT_REFUSED = 0, 2
 _ROWS = 40
 
 
@@ -63,13 +63,10 @@ def parser() -> argparse.ArgumentParser:
     return p
 
 
+@command("plan")
 def main(argv: Sequence[str] | None = None) -> int:
-    """Plan; returns the exit code: 0 flyable, 2 refused or bad input."""
-    try:
-        return _plan(parser().parse_args(argv))
-    except ConfigurationError as error:
-        print(error, file=sys.stderr)
-        return EXIT_REFUSED
+    """Plan; returns the exit code: 0 flyable, 2 refused or bad input, 130 interrupted."""
+    return _plan(parser().parse_args(argv))
 
 
 def _plan(options: argparse.Namespace) -> int:
@@ -88,14 +85,14 @@ def _plan(options: argparse.Namespace) -> int:
             drawing.draw(mission, verdicts, hull.name, png)
         except (OSError, ValueError) as error:  # ValueError: a suffix that is no picture
             raise ConfigurationError("--out", f"{png} ({error})", "a picture that can be written") from None
-        console.print(f"  {png}  [dim]the plan in one picture[/dim]")
+        console.print(f"  {escape(str(png))}  [dim]the plan in one picture[/dim]")
     if options.export is not None:
         chart.export(mission, options.export)
-        console.print(f"  {options.export}  [dim]the path for a chart[/dim]")
+        console.print(f"  {escape(str(options.export))}  [dim]the path for a chart[/dim]")
     if verdicts.refusals:
         raise refusal(mission, verdicts, "scripts/mission.py --force would fly it all the same")
-    console.print(f"\nFly it:  python3 scripts/mission.py --mission {options.mission}")
-    return EXIT_FLYABLE
+    console.print(f"\nFly it:  python3 scripts/mission.py --mission {escape(options.mission)}")
+    return EXIT_DONE
 
 
 def _guidance(options: argparse.Namespace, mission: Mission) -> PathFollowerConfig:
@@ -113,7 +110,8 @@ def _tell(console: Console, mission: Mission, hull: Vehicle, verdicts: Verdicts)
     path = mission.path
     times = path.n // max(mission.once, 1)
     console.print(
-        f"[bold]{mission.name}[/bold]" + (f": {mission.description}" if mission.description else "")
+        f"[bold]{escape(mission.name)}[/bold]"
+        + (f": {escape(mission.description)}" if mission.description else "")
     )
     console.print(
         f"  path      {path.n} subpaths, {path.length:.2f} m"
@@ -124,12 +122,12 @@ def _tell(console: Console, mission: Mission, hull: Vehicle, verdicts: Verdicts)
         f"  duration  {lasts} at {verdicts.speed:.2f} m/s through the water ({mission.thrust:.2f} N)"
     )
     turn = f"{verdicts.turn.radius:.2f} m, {verdicts.turn.source}"
-    console.print(f"  vehicle   {hull.name}, tightest turn {turn}")
+    console.print(f"  vehicle   {escape(hull.name)}, tightest turn {turn}")
     console.print(_joints(mission))
     for verdict in verdicts.refusals:
-        console.print(f"[bold red]refused[/bold red]  {verdict}")
+        console.print(f"[bold red]refused[/bold red]  {escape(str(verdict))}")
     for verdict in verdicts.warnings:
-        console.print(f"[yellow]warning[/yellow]  {verdict}")
+        console.print(f"[yellow]warning[/yellow]  {escape(str(verdict))}")
     if not verdicts.refusals and not verdicts.warnings:
         console.print("[green]nothing to say against it[/green]")
     console.print()

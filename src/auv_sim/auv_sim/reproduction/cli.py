@@ -5,23 +5,20 @@ from __future__ import annotations
 import argparse
 import json
 import math
-import sys
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from auv_msgs_py.errors import ConfigurationError, SuiteError
 from auv_path_following import vehicle
 from auv_path_following.paths import mission_file
 from auv_sim.analysis.run import Run
-from auv_sim.command_line import Parser
+from auv_sim.command_line import Parser, at_least_one, command, make_directory, progress_bar, whole
 from auv_sim.command_line import console as terminal
-from auv_sim.pool import each
+from auv_sim.pool import tracked
 from auv_sim.reproduction import claims_current, claims_following, corner, figures, page, starts
 from auv_sim.reproduction.cases import flights
 from auv_sim.reproduction.claim import FAILS, HOLDS, Claim
@@ -29,12 +26,6 @@ from auv_sim.reproduction.corner import Bound
 from auv_sim.reproduction.flights import MISSION, PLANTS, Flight, fly
 
 _BOUNDS = {"the rudder may move before the corner": True, "it may not": False}
-
-
-def _count(text: str) -> int:
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"found '{text}', expected a whole number of at least 1")
-    return int(text)
 
 
 def _seconds(text: str) -> float:
@@ -58,7 +49,7 @@ def parser() -> argparse.ArgumentParser:
         metavar="DIR",
         help="where to write (default: reproduction)",
     )
-    p.add_argument("--workers", type=_count, default=2, metavar="N", help="processes (default 2)")
+    p.add_argument("--workers", type=at_least_one, default=2, metavar="N", help="processes (default 2)")
     p.add_argument(
         "--quick",
         action="store_true",
@@ -77,9 +68,9 @@ def parser() -> argparse.ArgumentParser:
         help="instead: starts, the random starts; pictures, those of docs/reproduction.md and docs/tuning.md",
     )
     p.add_argument(
-        "--runs", type=_count, default=1000, metavar="N", help="study starts: how many (default 1000)"
+        "--runs", type=at_least_one, default=1000, metavar="N", help="study starts: how many (default 1000)"
     )
-    p.add_argument("--seed", type=int, default=1, metavar="N", help="study starts: seed (default 1)")
+    p.add_argument("--seed", type=whole, default=1, metavar="N", help="study starts: seed (default 1)")
     p.add_argument(
         "--laws", nargs="+", choices=tuple(starts.LAWS), default=["robust"], help="study starts: which laws"
     )
@@ -89,59 +80,22 @@ def parser() -> argparse.ArgumentParser:
     return p
 
 
+@command("reproduction")
 def main(argv: Sequence[str] | None = None) -> int:
     """Returns the exit code: 0 done, 1 failed, 2 bad input, 130 interrupted."""
     options = parser().parse_args(argv)
     console = terminal()
-    try:
-        _directory(options.out)
-        if options.study == "starts":
-            return _starts(options, console)
-        if options.study == "pictures":
-            from auv_sim.reproduction import pictures
+    make_directory(options.out)
+    if options.study == "starts":
+        return _starts(options, console)
+    if options.study == "pictures":
+        from auv_sim.reproduction import pictures
 
-            with _progress(console) as bar:
-                pictures.draw_all(options.out, partial(_tracked, bar, workers=options.workers))
-            console.print(f"Pictures: {options.out}", highlight=False)
-            return 0
-        return _paper(options, console)
-    except ConfigurationError as error:
-        print(error, file=sys.stderr)
-        return 2
-    except SuiteError as error:
-        print(f"reproduction failed: {error}", file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        print("interrupted", file=sys.stderr)
-        return 130
-
-
-def _directory(out: Path) -> None:
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ConfigurationError(
-            "--out", f"{out} ({error.strerror})", "a directory that can be made"
-        ) from None
-
-
-def _progress(console: Console) -> Progress:
-    return Progress(
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        console=console,
-    )
-
-
-def _tracked(bar: Progress, what: str, work: Any, items: Sequence[Any], workers: int) -> list[Any]:
-    """`work` on each item with a bar; results in order."""
-    task = bar.add_task(what, total=len(items))
-    results: list[Any] = [None] * len(items)
-    for index, result in each(work, items, workers, lambda: bar.advance(task)):
-        results[index] = result
-    return results
+        with progress_bar(console) as bar:
+            pictures.draw_all(options.out, partial(tracked, bar, options.workers))
+        console.print(f"Pictures: {options.out}", highlight=False)
+        return 0
+    return _paper(options, console)
 
 
 def _bound(early: bool, effort: int) -> Bound:
@@ -157,11 +111,11 @@ def _work(item: Flight | tuple[bool, int]) -> Run | Bound:
 def _paper(options: argparse.Namespace, console: Console) -> int:
     named = flights(0.1 if options.quick else 0.05, options.time_limit)
     path = mission_file.load(MISSION).path
-    with _progress(console) as bar:
+    with progress_bar(console) as bar:
         # The searches take longest: they go first.
         effort = 200 if options.quick else 1600
         items = [*((early, effort) for early in _BOUNDS.values()), *named.values()]
-        results = _tracked(bar, "flying the paper's cases", _work, items, options.workers)
+        results: list[Any] = tracked(bar, options.workers, "flying the paper's cases", _work, items)
         bounds = dict(zip(_BOUNDS, results[: len(_BOUNDS)], strict=True))
         runs: dict[str, Run] = dict(zip(named, results[len(_BOUNDS) :], strict=True))
         task = bar.add_task("drawing", total=len(figures.FIGURES))
@@ -226,7 +180,7 @@ def _show(claims: Sequence[Claim], out: Path, console: Console) -> None:
 
 def _starts(options: argparse.Namespace, console: Console) -> int:
     work = starts.jobs(options.runs, options.seed, options.laws, options.plants)
-    with _progress(console) as bar:
+    with progress_bar(console) as bar:
         task = bar.add_task("flying from everywhere", total=len(work))
         results = starts.study(work, options.workers, lambda: bar.advance(task))
     name = f"starts-seed{options.seed}"
