@@ -1,12 +1,14 @@
-"""Processes that share out work, and are gone when whoever started them is."""
+"""Processes that share out work, and are gone when whoever started them is, or with his Ctrl-C."""
 
 from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from multiprocessing import resource_tracker
 from typing import Any, TypeVar
 
 from rich.progress import Progress
@@ -14,11 +16,22 @@ from rich.progress import Progress
 T = TypeVar("T")
 
 
+class _Pool(ProcessPoolExecutor):
+    """A terminal sends Ctrl-C to the workers too: it waits until they can take it without a traceback."""
+
+    def submit(self, fn: Callable[..., T], /, *args: Any, **kwargs: Any) -> Future[T]:
+        # Whoever is missing is started in here, and inherits what is blocked; what comes meanwhile is kept.
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        try:
+            return super().submit(fn, *args, **kwargs)
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 def worker_pool(workers: int) -> ProcessPoolExecutor:
     """So many processes. Spawned, not forked: whoever calls may have threads."""
-    return ProcessPoolExecutor(
-        workers, mp_context=multiprocessing.get_context("spawn"), initializer=_end_with_parent
-    )
+    resource_tracker.ensure_running()  # its start, which would come with the first worker's, unblocks SIGINT
+    return _Pool(workers, mp_context=multiprocessing.get_context("spawn"), initializer=_end_with_parent)
 
 
 def each(
@@ -57,7 +70,9 @@ def tracked(
 
 
 def _end_with_parent() -> None:
-    """A worker whose parent was killed would wait for work for ever."""
+    """A worker whose parent was killed would wait for work for ever; Ctrl-C ends it as any other program."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     parent = multiprocessing.parent_process()
 
     def watch() -> None:

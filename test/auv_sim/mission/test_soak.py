@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from auv_sim.mission import memory
+from auv_sim.mission import launcher, memory
 from auv_sim.mission.soak import growth, main
 
 
@@ -36,6 +36,15 @@ def test_memory_of_a_child_is_read_and_drawn(tmp_path: Path) -> None:
     finally:
         sleeper.kill()
         sleeper.wait()
+
+
+def test_a_soak_that_is_interrupted_has_not_failed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    outcome = launcher.Outcome("interrupted", "stopped by a signal", 1.0, 1.0)
+    monkeypatch.setattr(launcher, "fly", lambda *_: outcome)
+    assert main(["--minutes", "1", "--out", str(tmp_path / "soak")]) == 130
+    assert capsys.readouterr().err == "interrupted: stopped by a signal\n"
 
 
 def test_a_directory_that_exists_is_never_written_to(

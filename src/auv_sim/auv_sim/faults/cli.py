@@ -146,3 +146,7 @@ def _table(results: list) -> Table:  # type: ignore[type-arg]
 
 def _seconds(value: float) -> str:
     return "-" if math.isnan(value) else f"{value:.2f}"
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

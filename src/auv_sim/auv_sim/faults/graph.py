@@ -18,11 +18,13 @@ from geometry_msgs.msg import Vector3Stamped
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.signals import SignalHandlerOptions
 from std_msgs.msg import Float64, String
 from std_srvs.srv import Trigger
 
 from auv_msgs_py import qos, topics
 from auv_msgs_py.errors import SuiteError
+from auv_msgs_py.runtime import StopRequest
 from auv_sim.faults.relay import RELAYED, FaultRelay, raw
 from auv_sim.mission.composed import NODES
 from auv_sim.nodes.pacing import Pacer
@@ -150,7 +152,13 @@ class Flight:
         self, nodes: Nodes, speed: float, start: tuple[float, float, float], own_plant: bool = True
     ) -> None:
         self.nodes = nodes
-        rclpy.init(args=[], domain_id=int(os.environ["ROS_DOMAIN_ID"]))
+        rclpy.init(
+            args=[],
+            domain_id=int(os.environ["ROS_DOMAIN_ID"]),
+            signal_handler_options=SignalHandlerOptions.NO,
+        )
+        # In the middle of a callback Ctrl-C would be a callback's mistake.
+        self._stop = StopRequest()
         self.executor = EventsExecutor()
         self.node = Node("fault_matrix", namespace=NAMESPACE, start_parameter_services=False)
         self.plant: RemusPlantNode | None = None
@@ -225,9 +233,12 @@ class Flight:
 
         Raises:
             GraphFailed: it does not within `patience` s of wall time.
+            KeyboardInterrupt: a signal came.
         """
         deadline = time.monotonic() + patience
         while not condition():
+            if self._stop.requested:
+                raise KeyboardInterrupt
             if time.monotonic() > deadline:
                 crashed = ", ".join(self.nodes.crashed())
                 raise GraphFailed(
@@ -250,6 +261,7 @@ class Flight:
 
     def close(self) -> None:
         """Leave the graph."""
+        self._stop.withdraw()
         for node in (self.plant, self.relay, self.node):
             if node is not None:
                 node.destroy_node()
