@@ -185,6 +185,29 @@ def test_a_directory_is_made_or_named(tmp_path: Path) -> None:
         command_line.make_directory(tmp_path / "file" / "below", "--images")
 
 
+@pytest.mark.parametrize(
+    ("script", "arguments"),
+    [
+        ("campaign.py", ["region_of_attraction", "--out"]),
+        ("sea_trials.py", ["--out"]),
+        ("reproduce_paper.py", ["--out"]),
+        ("soak.py", ["--out"]),
+        ("fault_matrix.py", ["--out"]),
+        ("mission.py", ["--out"]),
+        ("gallery.py", ["--page", str(ROOT / "docs" / "missions.md"), "--images"]),
+        ("benchmark.py", ["--write-docs", "--page", str(ROOT / "docs" / "performance.md"), "--images"]),
+    ],
+)
+def test_every_command_makes_its_directory_first(
+    script: str, arguments: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "file").touch()
+    main = importlib.import_module(COMMANDS[script]).main
+    assert main([*arguments, str(tmp_path / "file" / "below")]) == 2
+    err = capsys.readouterr().err
+    assert "expected a directory that can be made" in err and err.count("\n") == 1
+
+
 def test_a_page_is_renewed_between_its_marks(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
     begin, end = pages.marks("table")

@@ -23,6 +23,7 @@ from auv_msgs_py.errors import ConfigurationError
 from auv_sim.batch.compiled import laws_digest
 from auv_sim.campaign.plan import BUNDLED, StudyPlan
 from auv_sim.campaign.table import schema_of
+from auv_sim.command_line import make_directory
 
 RESULTS = "results.parquet"
 _IDENTITY = "campaign.json"
@@ -58,7 +59,8 @@ class Store:
         self._chunks = directory / "chunks"
 
     def _begin(self, plan: StudyPlan, config: Path) -> None:
-        if self.directory.exists() and any(self.directory.iterdir()):
+        make_directory(self.directory)
+        if any(self.directory.iterdir()):
             raise ConfigurationError(str(self.directory), "a directory with other things in it", "a new one")
         files = bundle_of(plan)
         write_bundle(files, config)
