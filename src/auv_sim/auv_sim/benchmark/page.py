@@ -14,6 +14,7 @@ from matplotlib.axes import Axes
 from auv_sim import pages
 from auv_sim.analysis.plot_style import BLUE, INK, ORANGE, style
 from auv_sim.benchmark.sheets import Sheet, markdown
+from auv_sim.command_line import make_directory
 
 #: Of the page.
 PART = "figures"
@@ -22,6 +23,7 @@ PICTURE = "performance_growth.png"
 
 def renew(page: Path, images: Path, figures: dict[str, Any], found: list[Sheet]) -> None:
     """Put the machine, the tables and the growth curves into the page."""
+    make_directory(images, "--images")
     draw(figures, images / PICTURE)
     machine = "; ".join(f"{name} {value}" for name, value in figures["machine"].items())
     load = figures["load"]

@@ -12,18 +12,16 @@ import heapq
 import math
 import random
 import signal
-import sys
 import time
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple, NoReturn
 
 from pymavlink.dialects.v20 import common as mavlink
 
-from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.types import STOP, Command, Current
 from auv_path_following import vehicle
 from auv_path_following.vehicle import Vehicle
-from auv_sim.command_line import EXIT_BAD_INPUT, EXIT_DONE, Parser, finite, not_negative, positive
+from auv_sim.command_line import EXIT_DONE, Parser, command, finite, not_negative, positive
 from auv_sim.drivers.mavlink_link import STANDARD_PORT, MavlinkLink
 from auv_sim.drivers.mavlink_mapping import (
     WATER_LOG,
@@ -215,6 +213,7 @@ def live(emulator: Emulator, link: MavlinkLink, speed: float, loss: float, seed:
                 answer_due = time.monotonic() + _WAIT
 
 
+@command("emulator")
 def main(argv: Sequence[str] | None = None) -> int:
     """Run until interrupted."""
     p = Parser(
@@ -256,15 +255,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     )
     p.add_argument("--seed", type=int, default=1, help="of delays and losses")
     a = p.parse_args(argv)
-    try:
-        hull = vehicle.load(a.vehicle)
-        north, east, heading = a.initial
-        start = PlantState(north, east, math.radians(heading), a.surge, 0.0, 0.0)
-        emulator = Emulator(hull, start, Current(*a.current))
-        link = MavlinkLink(a.address, 1, mavlink.MAV_COMP_ID_AUTOPILOT1, "--address")
-    except ConfigurationError as error:
-        print(error, file=sys.stderr)
-        return EXIT_BAD_INPUT
+    hull = vehicle.load(a.vehicle)
+    north, east, heading = a.initial
+    start = PlantState(north, east, math.radians(heading), a.surge, 0.0, 0.0)
+    emulator = Emulator(hull, start, Current(*a.current))
+    link = MavlinkLink(a.address, 1, mavlink.MAV_COMP_ID_AUTOPILOT1, "--address")
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         live(emulator, link, a.speed, a.loss, a.seed)
