@@ -47,6 +47,9 @@ class Vehicle:
             found += [m for m in self.link.messages(datagram) if m.get_type() == "MANUAL_CONTROL"]
         return found
 
+    def stranger_heard(self) -> bool:
+        return self.stranger.receive(0.0) != b""
+
 
 @pytest.fixture
 def vehicle_and_driver(bench: Bench) -> Iterator[tuple[Vehicle, SuiteNode]]:
@@ -116,6 +119,27 @@ def test_commands_are_handed_on_and_a_missing_one_is_a_stop(
 
     boot_ms = itertools.count(5_050, 50)
     bench.until(diagnosed)
+
+
+def test_a_ground_station_that_talks_as_well_gets_no_commands(
+    bench: Bench, vehicle_and_driver: tuple[Vehicle, SuiteNode]
+) -> None:
+    vehicle, _ = vehicle_and_driver
+    boot_ms = itertools.count(5_000, 50)
+    heard: list[Any] = []
+
+    def commanded() -> bool:
+        vehicle.measure(next(boot_ms))
+        vehicle.stranger.send(mavlink.MAVLink_attitude_message(99_000, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0))
+        vehicle.stranger.send_bytes(b"not MAVLink at all")
+        bench.spin(0.02)
+        bench.send(topics.RUDDER_CMD, Float64(data=0.1))
+        bench.send(topics.THRUST_CMD, Float64(data=5.0))
+        heard.extend(vehicle.commands())
+        return len(heard) > 10
+
+    bench.until(commanded)
+    assert not vehicle.stranger_heard()
 
 
 @pytest.mark.parametrize("state", ["holding", "complete", "aborted"])

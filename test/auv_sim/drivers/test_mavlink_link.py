@@ -44,6 +44,28 @@ def test_who_waits_answers_to_where_it_was_spoken_to(links: tuple[MavlinkLink, M
     assert (message.time_boot_ms, message.get_srcSystem(), message.get_srcComponent()) == (3, 255, 191)
 
 
+def test_only_a_message_of_the_vehicle_makes_somebody_the_one_who_is_spoken_to() -> None:
+    port = free_port()
+    driver = MavlinkLink(f"udpin:127.0.0.1:{port}", 255, 191, peer_system=1)
+    vehicle, station = (MavlinkLink(f"udpout:127.0.0.1:{port}", system, 1) for system in (1, 254))
+    try:
+        station.send_bytes(b"not MAVLink at all")
+        station.send(attitude(1))
+        received(driver, 2)
+        driver.send(attitude(2))
+        assert station.receive(0.1) == b""
+        vehicle.send(attitude(3))
+        for data in (b"again", station.pack(attitude(4)), station.pack(attitude(5))):
+            station.send_bytes(data)
+        assert [m.time_boot_ms for m in received(driver, 4)] == [3, 4, 5]
+        driver.send(attitude(6))
+        assert [m.time_boot_ms for m in received(vehicle, 1)] == [6]
+        assert station.receive(0.1) == b""
+    finally:
+        for link in (driver, vehicle, station):
+            link.close()
+
+
 def test_lost_messages_are_counted_for_each_component(links: tuple[MavlinkLink, MavlinkLink]) -> None:
     driver, vehicle = links
     datagrams = [vehicle.pack(attitude(k)) for k in range(6)]

@@ -49,7 +49,8 @@ class MavlinkDriverNode(SuiteNode):
                 f"{self.get_name()}: parameter lockstep", "true", "false: vehicles never wait"
             )
         self.limits = Limits.of(vehicle.load(p.vehicle))
-        self.link = MavlinkLink(p.address, p.system, p.component, f"{self.get_name()}: parameter address")
+        where = f"{self.get_name()}: parameter address"
+        self.link = MavlinkLink(p.address, p.system, p.component, where, p.vehicle_system)
         self._time: OffsetEstimate | FollowedClock = (
             FollowedClock(topics.FIRST_STAMP_NS, p.clock_speed)
             if p.clock_speed

@@ -41,12 +41,20 @@ class MavlinkLink:
         address: as `parse_address` reads it.
         system, component: our own ids.
         where: what to name when the address cannot be used.
+        peer_system: who waits speaks to where this system's last message came from; None: any system's.
 
     Raises:
         ConfigurationError: the address cannot be used.
     """
 
-    def __init__(self, address: str, system: int, component: int, where: str = "address") -> None:
+    def __init__(
+        self,
+        address: str,
+        system: int,
+        component: int,
+        where: str = "address",
+        peer_system: int | None = None,
+    ) -> None:
         waits, host, port = parse_address(address, where)
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         try:
@@ -61,7 +69,8 @@ class MavlinkLink:
             raise ConfigurationError(
                 where, f"'{address}' ({error.strerror})", "an address that is free"
             ) from None
-        self._waits = waits
+        self._waits, self._peer_system = waits, peer_system
+        self._sender: tuple[str, int] | None = None
         self._codec = mavlink.MAVLink(None, srcSystem=system, srcComponent=component)
         self._codec.robust_parsing = True
         self._voices = {component: self._codec}
@@ -73,19 +82,19 @@ class MavlinkLink:
         """One datagram, empty when none came within `timeout` s."""
         try:
             self._socket.settimeout(timeout)
-            data, peer = self._socket.recvfrom(_LARGEST_DATAGRAM)
+            data, self._sender = self._socket.recvfrom(_LARGEST_DATAGRAM)
         except OSError:  # nothing came, or nobody listens there yet
             return b""
-        if self._waits:
-            self._peer = peer
         return data
 
     def messages(self, datagram: bytes) -> Iterator[Any]:
-        """The messages of a datagram; damaged ones are counted and left out."""
+        """The messages of the datagram last received; damaged ones are counted and left out."""
         for message in self._codec.parse_buffer(datagram) or ():
             if message.get_type() == "BAD_DATA":
                 self.damaged += 1
                 continue
+            if self._waits and self._peer_system in (None, message.get_srcSystem()):
+                self._peer = self._sender
             sender = message.get_srcSystem(), message.get_srcComponent()
             number = message.get_seq()
             missing = (number - self._sequence.get(sender, number - 1) - 1) % 256
