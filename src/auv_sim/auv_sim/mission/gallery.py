@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 import json
+import shutil
+import signal
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -17,7 +19,10 @@ from auv_sim import pages
 from auv_sim.analysis.metrics import under_way
 from auv_sim.analysis.run import Run
 from auv_sim.command_line import EXIT_DONE, Parser, command, make_directory
+from auv_sim.mission import plan
+from auv_sim.mission.plan import Options
 from auv_sim.planning.gallery_picture import draw
+from auv_sim.recording.bag_writer import texts_below
 from auv_sim.recording.load import load
 
 KINDS = ("linear", "circular", "dubins", "clothoid", "fermat")
@@ -40,7 +45,7 @@ class Flight(NamedTuple):
     summary: dict[str, Any]
 
 
-@command("gallery")
+@command("gallery", "interrupted; what was flown is kept, start it again to go on")
 def main(argv: Sequence[str] | None = None) -> int:
     """Fly what is not yet there, draw, renew the table; 0 done, 1 failed, 2 bad input, 130 interrupted."""
     p = Parser(prog="gallery.py", description=__doc__, allow_abbrev=False)
@@ -60,7 +65,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         "--runs",
         type=Path,
         default=Path("runs/gallery"),
-        help="folder of the flights; those that are there are not flown again (default: %(default)s)",
+        help="folder of the flights; one that is there, complete and of the same configuration, is not"
+        " flown again (default: %(default)s)",
     )
     p.add_argument("--params", default="robust", help="gains (default: %(default)s)")
     _renew(p.parse_args(argv))
@@ -87,27 +93,60 @@ def _renew(options: argparse.Namespace) -> None:
 
 
 def _flown(kind: str, name: str, options: argparse.Namespace) -> Flight:
-    """The flight of one mission over the ROS graph, or what an earlier one left behind."""
-    directory = options.runs / f"{kind}-{name}"
-    if not (directory / "summary.json").is_file():
-        print(f"flying course_{kind}, {name}", flush=True)
-        command = [sys.executable, "-c", "from auv_sim.mission.cli import main; raise SystemExit(main())"]
-        command += [
-            "--mission",
-            f"course_{kind}",
-            "--params",
-            options.params,
-            "--out",
-            str(directory),
-            "--quiet",
-        ]
-        if any(CURRENTS[name]):
-            command += ["--current", *map(str, CURRENTS[name])]
-        if subprocess.run(command, check=False).returncode != 0:  # noqa: S603 - our own launcher
-            raise SuiteError(f"course_{kind}: the flight failed, see {directory}")
+    """The flight of one mission over the ROS graph, or the same one of an earlier start.
+
+    It is flown under another name, so that only what came to its end ever bears the right one.
+    """
+    directory = (options.runs / f"{kind}-{name}").absolute()
+    scratch = directory.with_name(f"{directory.name}.part")
+    shutil.rmtree(scratch, ignore_errors=True)
+    asked = Options(
+        mission=f"course_{kind}",
+        params=options.params,
+        current=CURRENTS[name] if any(CURRENTS[name]) else None,
+    )
+    wanted = _configuration(asked, scratch)
+    if not _is_the_same(directory, wanted):
+        print(f"flying {asked.mission}, {name}", flush=True)
+        arguments = ["--mission", asked.mission, "--params", asked.params, "--out", str(scratch), "--quiet"]
+        if asked.current is not None:
+            arguments += ["--current", *map(str, asked.current)]
+        if launch(arguments) != 0:
+            raise SuiteError(f"{asked.mission}: the flight failed, see {scratch}")
+        shutil.rmtree(directory, ignore_errors=True)
+        scratch.rename(directory)
     summary = json.loads((directory / "summary.json").read_text(encoding="utf-8"))
-    mission = mission_file.load(f"course_{kind}")
+    mission = mission_file.load(asked.mission)
     return Flight(under_way(load(directory / "bag"), mission.path.n), summary)
+
+
+def _configuration(asked: Options, scratch: Path) -> dict[str, str]:
+    """What the launcher will write down: every file that it flies with, and every parameter."""
+    plan.make(asked, scratch).write(scratch / "config")
+    told = texts_below(scratch / "config")
+    shutil.rmtree(scratch)
+    return told
+
+
+def _is_the_same(directory: Path, wanted: dict[str, str]) -> bool:
+    """Whether a flight is there, came to its end, and was flown with the same files and parameters."""
+    summary = directory / "summary.json"
+    if not summary.is_file() or json.loads(summary.read_text(encoding="utf-8"))["outcome"] != "complete":
+        return False
+    return texts_below(directory / "config") == wanted
+
+
+def launch(arguments: list[str]) -> int:
+    """`scripts/mission.py` as a process; returns its exit code. Ctrl-C lets it end its nodes first."""
+    program = "from auv_sim.mission.cli import main; raise SystemExit(main())"
+    command = [sys.executable, "-c", program, *arguments]
+    process = subprocess.Popen(command, start_new_session=True)  # noqa: S603 - our own launcher
+    try:
+        return process.wait()
+    except KeyboardInterrupt:
+        process.send_signal(signal.SIGINT)
+        process.wait()
+        raise
 
 
 def _row(kind: str, mission: Mission, flights: dict[str, Flight]) -> list[str]:
