@@ -7,6 +7,7 @@ import importlib
 import os
 import pty
 import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -220,3 +221,18 @@ def test_a_page_is_renewed_between_its_marks(tmp_path: Path) -> None:
         pages.check(page, "figures")
     with pytest.raises(ConfigurationError, match="--page: found "):
         pages.check(tmp_path / "none.md", "table")
+
+
+def test_a_printed_command_is_the_same_after_the_shell_has_read_it() -> None:
+    words = {
+        "out": Path("my runs/$HOME"),
+        "current": (-0.1, 0.2),
+        "replay_run": 3,
+        "graph": True,
+        "sea": None,
+    }
+    line = command_line.to_type("campaign.py", "it's here", **words)
+    assert shlex.split(line) == [
+        "python3", "scripts/campaign.py", "it's here", "--out", "my runs/$HOME", "--current", "-0.1", "0.2",
+        "--replay-run", "3", "--graph",
+    ]  # fmt: skip

@@ -7,6 +7,7 @@ import functools
 import math
 import os
 import re
+import shlex
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -133,6 +134,22 @@ def ros_domain(text: str) -> int:
     if not text.isdecimal() or int(text) > 232:
         raise argparse.ArgumentTypeError(f"found '{text}', expected a ROS domain from 0 to 232")
     return int(text)
+
+
+def to_type(script: str, *words: object, **options: object) -> str:
+    """A command of `scripts/` for people to type, quoted for the shell.
+
+    Args:
+        script: its file.
+        words: what comes first.
+        options: name -> value, or several; True stands for the option alone, None for none.
+    """
+    line = ["python3", f"scripts/{script}", *map(str, words)]
+    for name, value in options.items():
+        if value is not None:
+            values = value if isinstance(value, (tuple, list)) else () if value is True else (value,)
+            line += [f"--{name.replace('_', '-')}", *map(str, values)]
+    return shlex.join(line)
 
 
 def console(quiet: bool = False) -> Console:

@@ -48,3 +48,15 @@ def test_only_a_completed_flight_within_the_limit_counts() -> None:
     assert (robust.params, robust.flights, robust.completed, robust.within) == ("robust", 4, 3, 2)
     assert (robust.median["largest_distance"], robust.worst["largest_distance"]) == (1.5, 2.6)
     assert (rough.flights, rough.within) == (1, 1)
+
+
+def test_a_flight_that_never_came_to_a_corner_does_not_hide_the_others() -> None:
+    trials = [
+        dataclasses.replace(GOOD, seed=0, largest_at_corners=1.0),
+        dataclasses.replace(GOOD, seed=1, largest_at_corners=3.0),
+        dataclasses.replace(GOOD, seed=2, completed=False),
+    ]
+    (row,) = together(trials, 2.5)
+    assert (row.median["largest_at_corners"], row.worst["largest_at_corners"]) == (2.0, 3.0)
+    (row,) = together([GOOD], 2.5)
+    assert math.isnan(row.median["largest_at_corners"]) and math.isnan(row.worst["largest_at_corners"])

@@ -51,7 +51,7 @@ def test_a_section_as_table_and_json(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert set(figures["subpaths"]["step_us"]) == {"10", "100"}
     told = capsys.readouterr().out
     assert "Guidance, by number of subpaths" in told
-    assert "Keep them" in told
+    assert "benchmark.py --write-docs" in told
 
 
 def test_one_vehicle_and_many_are_counted_in_vehicle_steps() -> None:

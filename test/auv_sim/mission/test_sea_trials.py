@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import shlex
+import shutil
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -10,8 +12,9 @@ from pathlib import Path
 import pytest
 
 from auv_msgs_py.errors import ConfigurationError
+from auv_path_following import config_files
 from auv_sim import pages
-from auv_sim.mission import noise_study, plan, sea_trials
+from auv_sim.mission import cli, noise_study, plan, sea_trials
 from auv_sim.mission.plan import Options
 from auv_sim.mission.sea_trials import Job
 from auv_sim.plant import sea
@@ -64,6 +67,31 @@ def test_a_limit_that_is_not_kept_fails(short_mission: Path, tmp_path: Path, cap
     asked = ["--mission", str(short_mission), "--seeds", "1", "--params", "robust", "--limit", "0.01"]
     assert sea_trials.main([*asked, "--workers", "1", "--out", str(tmp_path)]) == 1
     assert "1 of 1" in capsys.readouterr().out
+
+
+def test_the_printed_command_flies_the_same_and_files_of_one_name_stay_apart(
+    short_mission: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for folder in ("my gains", "others"):
+        Path(folder).mkdir()
+        shutil.copyfile(config_files.find("params", "robust"), Path(folder) / "gains.yaml")
+    shutil.copyfile(short_mission, "a mission.yaml")
+    asked = ["--mission", "a mission.yaml", "--vehicle", "remus100_mismatch", "--seeds", "1", "--limit", "9"]
+    gains = ["my gains/gains.yaml", "others/gains.yaml"]
+    assert sea_trials.main([*asked, "--params", *gains, "--workers", "1", "--out", "out"]) == 0
+    out = capsys.readouterr().out
+    assert out.count("1 of 1") == 2
+    record = json.loads(Path("out/rough.json").read_text())
+    assert [row["params"] for row in record["together"]] == gains
+    (line,) = (line for line in out.splitlines() if line.startswith("The worst one over ROS:"))
+    words = shlex.split(line.split(":", 1)[1])
+    assert words[:2] == ["python3", "scripts/mission.py"]
+    told = cli.parser().parse_args(words[2:])
+    assert (told.mission, told.vehicle, told.sea, told.seed) == (
+        "a mission.yaml", "remus100_mismatch", "rough", 0
+    )  # fmt: skip
+    assert told.params in gains
 
 
 @pytest.mark.parametrize(

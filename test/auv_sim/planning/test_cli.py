@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import shlex
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -10,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from auv_path_following import config_files
+from auv_sim.mission import cli as mission_cli
 from auv_sim.planning import cli
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -74,6 +77,32 @@ def test_a_name_is_no_markup(tmp_path, capsys):
     out = capsys.readouterr().out
     assert "leg [/m]: at 2 [m/s]" in out
     assert "[bold].png" in out and "a [b] c.yaml" in out
+
+
+def _to_fly(capsys):
+    (line,) = (line for line in capsys.readouterr().out.splitlines() if line.startswith("Fly it:"))
+    words = shlex.split(line.split(":", 1)[1])
+    assert words[:2] == ["python3", "scripts/mission.py"]
+    return words[2:]
+
+
+def test_the_printed_command_flies_what_was_checked(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    shutil.copyfile(config_files.find("missions", "loiter"), "my [first] loiter.yaml")
+    wanted = {"--vehicle": ["remus100_mismatch"], "--params": ["paper"], "--switching": ["all"]}
+    wanted |= {"--current": ["-0.1", "0.2"]}
+    asked = [word for option, words in wanted.items() for word in (option, *words)]
+    assert cli.main(["my [first] loiter.yaml", *asked]) == 0
+    told = mission_cli.parser().parse_args(_to_fly(capsys))
+    assert (told.mission, told.vehicle, told.params) == (
+        "my [first] loiter.yaml", "remus100_mismatch", "paper"
+    )  # fmt: skip
+    assert (told.switching, told.current) == ("all", [-0.1, 0.2])
+
+
+def test_the_printed_command_does_not_repeat_defaults(tmp_path, capsys):
+    assert cli.main(["loiter", "--out", str(tmp_path / "plan.png")]) == 0
+    assert _to_fly(capsys) == ["--mission", "loiter"]
 
 
 def test_the_papers_path_is_flyable_with_its_corner_and_its_crossing(tmp_path, capsys):

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from auv_path_following.paths.composite import CompositePath
 from auv_sim.analysis.metrics import summarise, under_way
-from auv_sim.analysis.run import Run
+from auv_sim.analysis.run import Column, Run
 
 
 @dataclass(frozen=True)
@@ -18,7 +19,7 @@ class Trial:
     """One flight, judged by where the vehicle really was.
 
     Attributes:
-        params: which gains.
+        params: which gains: the file, or the name of a shipped one.
         seed: of the sea.
         completed: whether the end of the path was reached.
         duration: s.
@@ -75,7 +76,7 @@ class Together:
     Attributes:
         params: which gains.
         flights, completed, within: how many; how many came to the end; how many of those within the limit.
-        median, worst: figure of `Trial` -> its value.
+        median, worst: figure of `Trial` -> its value, of the flights that have one.
     """
 
     params: str
@@ -90,6 +91,12 @@ FIGURES = (
     "duration", "largest_distance", "largest_at_corners", "rms_distance", "navigation_error", "rudder_travel",
     "rudder_rate",
 )  # fmt: skip
+
+
+def _of_known(figure: Callable[[Column], Any], column: Column) -> float:
+    """A figure of the numbers that are there, NaN if none is: a flight may end before its first corner."""
+    known = column[np.isfinite(column)]
+    return float(figure(known)) if known.size else math.nan
 
 
 def together(trials: Sequence[Trial], limit: float) -> list[Together]:
@@ -109,8 +116,8 @@ def together(trials: Sequence[Trial], limit: float) -> list[Together]:
                 flights=len(mine),
                 completed=sum(trial.completed for trial in mine),
                 within=sum(trial.completed and trial.largest_distance <= limit for trial in mine),
-                median={name: float(np.median(column)) for name, column in columns.items()},
-                worst={name: float(np.max(column)) for name, column in columns.items()},
+                median={name: _of_known(np.median, column) for name, column in columns.items()},
+                worst={name: _of_known(np.max, column) for name, column in columns.items()},
             )
         )
     return rows

@@ -14,7 +14,7 @@ from auv_msgs_py.errors import ConfigurationError
 from auv_sim import pages
 from auv_sim.benchmark import graph, laws, machine, page, recording, sheets
 from auv_sim.benchmark.scale import FULL, QUICK, Scale
-from auv_sim.command_line import EXIT_DONE, Parser, command, console, make_directory, target
+from auv_sim.command_line import EXIT_DONE, Parser, command, console, make_directory, target, to_type
 
 Tick = Callable[[str], None]
 
@@ -90,7 +90,7 @@ def _measure(options: argparse.Namespace) -> int:
         page.renew(options.page, options.images, figures, found)
         out.print(f"  {options.page}  [dim]renewed, with {options.images / page.PICTURE}[/dim]")
     else:
-        out.print("\nKeep them:  python3 scripts/benchmark.py --write-docs")
+        out.print(f"\nMeasure everything and renew the page:  {to_type('benchmark.py', write_docs=True)}")
     return EXIT_DONE
 
 

@@ -26,6 +26,7 @@ from auv_sim.command_line import (
     progress_bar,
     ros_domain,
     target,
+    to_type,
 )
 from auv_sim.command_line import console as terminal
 from auv_sim.faults.expectations import REPRESENTATIVE, TABLE, Expectation, chosen
@@ -75,7 +76,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         record = {"speed": arguments.speed, "good": good, "rows": [as_data(result) for result in results]}
         arguments.json.write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
     if not arguments.full and not arguments.rows:
-        console.print(f"\nAll {len(TABLE)} rows:  python3 scripts/fault_matrix.py --full", highlight=False)
+        speed = arguments.speed if arguments.speed != SPEED else None
+        again = to_type("fault_matrix.py", full=True, speed=speed)
+        console.print(f"\nAll {len(TABLE)} rows:  {again}", highlight=False)
     return EXIT_DONE if good == len(results) == len(rows) else EXIT_FAILED
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import shlex
 import sys
 import time
 from collections.abc import Sequence
@@ -31,7 +30,7 @@ from auv_sim.campaign.plan import StudyPlan
 from auv_sim.campaign.statistics import Estimate
 from auv_sim.campaign.store import RESULTS, Store
 from auv_sim.campaign.summary import TOLD, Summary, summarise
-from auv_sim.command_line import EXIT_DONE, Parser, at_least_one, command
+from auv_sim.command_line import EXIT_DONE, Parser, at_least_one, command, to_type
 from auv_sim.command_line import console as terminal
 from auv_sim.mission import campaign_replay
 
@@ -81,7 +80,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             return campaign_replay.replay(store, options.replay_run, options.graph, terminal(options.quiet))
         return _fly(store, options)
     except KeyboardInterrupt:
-        again = shlex.join(["python3", "scripts/campaign.py", *(argv if argv is not None else sys.argv[1:])])
+        again = to_type("campaign.py", *(argv if argv is not None else sys.argv[1:]))
         raise KeyboardInterrupt(f"\ncampaign interrupted; what was flown is kept. Go on:  {again}") from None
 
 
@@ -163,11 +162,8 @@ def _show(store: Store, summary: Summary, drawn: list[Path], console: Console) -
         *((path, "") for path in drawn),
     ):
         console.print(f"  {path}  [dim]{what}[/dim]", soft_wrap=True)
-    place = shlex.quote(str(store.directory))
-    console.print(
-        f"\nFly the worst run again:  python3 scripts/campaign.py {place} --replay-run {summary.worst[0]}",
-        soft_wrap=True,
-    )
+    again = to_type("campaign.py", store.directory, replay_run=summary.worst[0])
+    console.print(f"\nFly the worst run again:  {again}", soft_wrap=True, markup=False)
 
 
 def _figures(summary: Summary) -> Table:

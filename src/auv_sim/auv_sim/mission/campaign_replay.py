@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import shlex
 import shutil
 from pathlib import Path
 from typing import Any
@@ -22,7 +21,7 @@ from auv_sim.batch import engine
 from auv_sim.campaign.plan import StudyPlan
 from auv_sim.campaign.store import RESULTS, Store
 from auv_sim.closed_loop import Scenario, start_of
-from auv_sim.command_line import EXIT_DONE
+from auv_sim.command_line import EXIT_DONE, to_type
 from auv_sim.mission import cli
 from auv_sim.parameters import ConstantCurrent, InitialPose
 from auv_sim.recording.load import load
@@ -58,11 +57,8 @@ def replay(store: Store, number: int, graph: bool, console: Console) -> int:
     _picture(plan, number, flown, scenario, directory / "overview.png")
     console.print(f"  {directory / 'overview.png'}  [dim]the run in one picture[/dim]", soft_wrap=True)
     if not graph:
-        again = shlex.quote(str(store.directory))
-        console.print(
-            f"\nFly it over ROS 2:  python3 scripts/campaign.py {again} --replay-run {number} --graph",
-            soft_wrap=True,
-        )
+        again = to_type("campaign.py", store.directory, replay_run=number, graph=True)
+        console.print(f"\nFly it over ROS 2:  {again}", soft_wrap=True, markup=False)
         return EXIT_DONE
     code = cli.main([*command_line(directory / "config"), "--out", str(directory / "graph")])
     recorded = load(directory / "graph" / "bag")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import shlex
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +14,7 @@ from rich.table import Table
 from auv_msgs_py.errors import ConfigurationError
 from auv_sim.analysis.metrics import MissionSummary, summarise
 from auv_sim.analysis.overview import draw
+from auv_sim.command_line import to_type
 from auv_sim.mission.launcher import Outcome
 from auv_sim.mission.plan import Plan
 from auv_sim.recording.load import load
@@ -110,11 +110,12 @@ def show(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary,
         console.print(
             f"  {escape(str(directory / name))}  [dim]{what}[/dim]", soft_wrap=True, highlight=False
         )
-    console.print(f"\nLook further:  {escape(_next_command(directory))}", soft_wrap=True, highlight=False)
-
-
-def _next_command(directory: Path) -> str:
-    return f"python3 scripts/bag.py report {shlex.quote(str(directory))}"
+    console.print(
+        f"\nLook further:  {to_type('bag.py', 'report', directory)}",
+        soft_wrap=True,
+        highlight=False,
+        markup=False,
+    )
 
 
 def _number(value: float, digits: int) -> str:

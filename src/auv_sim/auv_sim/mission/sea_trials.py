@@ -27,6 +27,7 @@ from auv_sim.command_line import (
     make_directory,
     positive,
     progress_bar,
+    to_type,
     whole,
 )
 from auv_sim.command_line import console as terminal
@@ -121,7 +122,7 @@ def fly(job: Job) -> Trial:
         ConfigurationError: a file that cannot be used.
     """
     scenario = _plan(job).scenario()
-    return judge(closed_loop.fly(scenario), scenario.path, Path(job.params).stem, job.seed)
+    return judge(closed_loop.fly(scenario), scenario.path, job.params, job.seed)
 
 
 def _plan(job: Job) -> Plan:
@@ -156,12 +157,9 @@ def _trials(options: argparse.Namespace, console: Console) -> int:
     console.print(_table(rows, options))
     worst = max(trials, key=lambda trial: (not trial.completed, trial.largest_distance))
     console.print(f"  {target}  [dim]every flight[/dim]", highlight=False, soft_wrap=True)
-    console.print(
-        f"\nThe worst one over ROS:  python3 scripts/mission.py --mission {options.mission}"
-        f" --params {worst.params} --sea {options.sea} --seed {worst.seed}",
-        highlight=False,
-        soft_wrap=True,
-    )
+    files = {"mission": options.mission, "vehicle": options.vehicle, "params": worst.params}
+    again = to_type("mission.py", **files, sea=options.sea, seed=worst.seed)
+    console.print(f"\nThe worst one over ROS:  {again}", highlight=False, soft_wrap=True, markup=False)
     return EXIT_DONE if all(row.within == row.flights for row in rows) else EXIT_FAILED
 
 
@@ -193,7 +191,9 @@ def _table(rows: Sequence[Together], options: argparse.Namespace) -> Table:
 
 def _markdown(rows: Sequence[Together]) -> str:
     lines = [["gains", *(heading for heading, _ in _COLUMNS)], ["---", *["---:"] * len(_COLUMNS)]]
-    lines += [[f"`{row.params}.yaml`", *(cell(row) for _, cell in _COLUMNS)] for row in rows]
+    lines += [
+        [f"`{row.params.removesuffix('.yaml')}.yaml`", *(cell(row) for _, cell in _COLUMNS)] for row in rows
+    ]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import re
+import shlex
 import time
 from collections.abc import Sequence
 from pathlib import Path
@@ -152,7 +153,7 @@ class RecorderNode(SuiteNode):
         for name, number in lost.items():
             print(f"{self.writer.directory}: {number} messages of {name} never came")
         if not whole:
-            advice = f"python3 scripts/bag.py repair {self.writer.directory} makes it whole"
+            advice = f"python3 scripts/bag.py repair {shlex.quote(str(self.writer.directory))} makes it whole"
             print(f"{self.writer.directory}: left unfinished ({self.writer.trouble}); {advice}")
 
 

@@ -24,11 +24,12 @@ from auv_path_following.guidance.switching import as_wished
 from auv_path_following.paths import mission_file
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
-from auv_sim.command_line import EXIT_DONE, Parser, command, finite
+from auv_sim.command_line import EXIT_DONE, Parser, command, finite, to_type
 from auv_sim.parameters import SUITE
 from auv_sim.planning import chart, drawing
 from auv_sim.planning.check import Verdicts, check, refusal
 
+_VEHICLE, _STILL = "remus100", (0.0, 0.0)
 _ROWS = 40
 
 
@@ -43,7 +44,7 @@ def parser() -> argparse.ArgumentParser:
     )
     p.add_argument("mission", metavar="MISSION", help=f"file or one of: {shipped['missions']}")
     p.add_argument(
-        "--vehicle", default="remus100", metavar="FILE", help=f"file or one of: {shipped['vehicles']}"
+        "--vehicle", default=_VEHICLE, metavar="FILE", help=f"file or one of: {shipped['vehicles']}"
     )
     p.add_argument(
         "--params", metavar="FILE", help=f"for its circles of acceptance: file or one of: {shipped['params']}"
@@ -52,7 +53,7 @@ def parser() -> argparse.ArgumentParser:
         "--current",
         nargs=2,
         type=finite,
-        default=(0.0, 0.0),
+        default=_STILL,
         metavar=("VX", "VY"),
         help="current towards north and east, m/s",
     )
@@ -91,8 +92,20 @@ def _plan(options: argparse.Namespace) -> int:
         console.print(f"  {escape(str(options.export))}  [dim]the path for a chart[/dim]")
     if verdicts.refusals:
         raise refusal(mission, verdicts, "scripts/mission.py --force would fly it all the same")
-    console.print(f"\nFly it:  python3 scripts/mission.py --mission {escape(options.mission)}")
+    console.print(f"\nFly it:  {_command(options)}", markup=False)
     return EXIT_DONE
+
+
+def _command(options: argparse.Namespace) -> str:
+    """What flies it as it was checked."""
+    return to_type(
+        "mission.py",
+        mission=options.mission,
+        vehicle=options.vehicle if options.vehicle != _VEHICLE else None,
+        params=options.params,
+        current=options.current if tuple(options.current) != _STILL else None,
+        switching=options.switching,
+    )
 
 
 def _guidance(options: argparse.Namespace, mission: Mission) -> PathFollowerConfig:

@@ -16,7 +16,7 @@ from rich.table import Table
 from auv_path_following import vehicle
 from auv_path_following.paths import mission_file
 from auv_sim.analysis.run import Run
-from auv_sim.command_line import Parser, at_least_one, command, make_directory, progress_bar, whole
+from auv_sim.command_line import Parser, at_least_one, command, make_directory, progress_bar, to_type, whole
 from auv_sim.command_line import console as terminal
 from auv_sim.pool import tracked
 from auv_sim.reproduction import claims_current, claims_following, corner, figures, page, starts
@@ -135,7 +135,7 @@ def _paper(options: argparse.Namespace, console: Console) -> int:
         json.dumps(record, indent=2, allow_nan=False) + "\n", encoding="utf-8"
     )
     page.write(options.out / "reproduction.html", claims, stems, bounds, facts)
-    _show(claims, options.out, console)
+    _show(claims, options, console)
     return 0
 
 
@@ -159,7 +159,8 @@ def judge(runs: dict[str, Run], plain: Flight) -> list[Claim]:
     ]
 
 
-def _show(claims: Sequence[Claim], out: Path, console: Console) -> None:
+def _show(claims: Sequence[Claim], options: argparse.Namespace, console: Console) -> None:
+    out, usual = options.out, parser().get_default
     table = Table(title="The paper's claims", title_justify="left")
     for heading in ("where", "claim", "verdict"):
         table.add_column(heading)
@@ -173,9 +174,10 @@ def _show(claims: Sequence[Claim], out: Path, console: Console) -> None:
         ("figure-05.png ...", "Figures 5 to 12: .png, .svg, and the data as .csv"),
     ):
         console.print(f"  {out / name}  [dim]{what}[/dim]", highlight=False, soft_wrap=True)
-    console.print(
-        "\nLook further:  python3 scripts/reproduce_paper.py --study starts --runs 20", highlight=False
-    )
+    changed = {name: getattr(options, name) for name in ("out", "workers")}
+    changed = {name: value for name, value in changed.items() if value != usual(name)}
+    again = to_type("reproduce_paper.py", study="starts", runs=20, **changed)
+    console.print(f"\nLook further:  {again}", highlight=False, soft_wrap=True, markup=False)
 
 
 def _starts(options: argparse.Namespace, console: Console) -> int:
