@@ -3,7 +3,7 @@
 
 import _bootstrap
 
-_bootstrap.ensure_environment()
+_bootstrap.ensure_environment(extra=("batch",))
 
 from auv_sim.benchmark.cli import main  # noqa: E402 - only there once the environment is
 

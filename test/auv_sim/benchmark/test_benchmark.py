@@ -62,6 +62,21 @@ def test_one_vehicle_and_many_are_counted_in_vehicle_steps() -> None:
     assert told == ["closed loop", "batch, 3 vehicles"]
 
 
+def test_without_numba_few_vehicles_are_flown_and_the_table_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(laws, "COMPILED", False)
+    scale = dataclasses.replace(QUICK, vehicles=(2, 10_000), flight=0.5)
+    batch = laws.batch_figures(scale, lambda _: None)
+    assert batch["compiled"] is False and list(batch["vehicle_steps_per_second"]) == ["2"]
+    closed_loop = {"vehicle_steps_per_second": 1e4}
+    (sheet,) = sheets.sheets({"simulation": {"closed_loop": closed_loop, "batch": batch}})
+    assert [row[0] for row in sheet.rows] == ["closed_loop, one vehicle", "batch, not compiled, 2 vehicles"]
+
+
+def test_the_command_brings_numba() -> None:
+    script = Path(__file__).parents[3] / "scripts" / "benchmark.py"
+    assert 'ensure_environment(extra=("batch",))' in script.read_text(encoding="utf-8")
+
+
 def test_the_suite_is_compared_with_its_own_floor(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -100,7 +115,7 @@ def figures() -> dict[str, object]:
         "latency": {"20": at, "50": at},
         "simulation": {
             "closed_loop": {"vehicle_steps_per_second": 2e4},
-            "batch": {"vehicle_steps_per_second": {"1": 1e6, "10000": 2e6}, "threads": 2},
+            "batch": {"vehicle_steps_per_second": {"1": 1e6, "10000": 2e6}, "threads": 2, "compiled": True},
         },
         "start_up": {"seconds": 2.5},
         "subpaths": {"step_us": {"10": 20.0, "10000": 21.0}},

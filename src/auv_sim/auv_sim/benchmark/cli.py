@@ -27,7 +27,7 @@ def _simulation(scale: Scale, tick: Tick) -> dict[str, Any]:
 SECTIONS: dict[str, tuple[Callable[[Scale, Tick], dict[str, Any]], Callable[[Scale], int]]] = {
     "lockstep": (graph.lockstep_figures, lambda scale: 10 * scale.rounds),
     "latency": (graph.latency_figures, lambda _: 3),
-    "simulation": (_simulation, lambda scale: 1 + len(scale.vehicles)),
+    "simulation": (_simulation, lambda scale: 1 + len(laws.vehicles(scale))),
     "start_up": (graph.start_up_figures, lambda scale: scale.rounds),
     "subpaths": (laws.subpath_figures, lambda scale: len(scale.subpaths)),
     "recording": (recording.topic_figures, lambda scale: len(scale.topics)),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import importlib
 import math
 import os
 import time
@@ -16,12 +15,16 @@ from auv_path_following.guidance.path_follower import PathFollower
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.smoothing import Smoothing, smooth
 from auv_sim import closed_loop
+from auv_sim.batch import engine
+from auv_sim.batch.compiled import COMPILED
 from auv_sim.benchmark.scale import Scale
 from auv_sim.closed_loop import Scenario
 from auv_sim.mission import plan
 from auv_sim.mission.plan import Options
 
 Tick = Callable[[str], None]
+#: More vehicles than this are not flown uncompiled: they would take half an hour and show nothing new.
+_UNCOMPILED = 10
 
 
 def _scenario(duration: float) -> Scenario:
@@ -46,16 +49,17 @@ def closed_loop_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
     return {"vehicle_steps_per_second": 1.0 / _best(2 * scale.rounds + 1, measure)}
 
 
+def vehicles(scale: Scale) -> tuple[int, ...]:
+    """The numbers of vehicles that the batch engine flies."""
+    return tuple(number for number in scale.vehicles if COMPILED or number <= _UNCOMPILED)
+
+
 def batch_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
     """Vehicle-steps per second of the batch engine, all cores, by number of vehicles."""
-    try:
-        engine = importlib.import_module("auv_sim.batch.engine")
-    except ImportError:
-        return {}
     threads = len(os.sched_getaffinity(0))
     engine.fly([_scenario(scale.flight)])  # compiles
     found = {}
-    for number in scale.vehicles:
+    for number in vehicles(scale):
         tick(f"batch, {number} vehicles")
         # Few vehicles fly longer, or what is measured is the preparation.
         scenarios = _different(_scenario(scale.flight * min(30.0, max(1.0, 10_000 / number))), number)
@@ -66,7 +70,7 @@ def batch_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
             return float(time.perf_counter() - begin) / int(flights.steps.sum())
 
         found[str(number)] = 1.0 / _best(scale.rounds, measure)
-    return {"vehicle_steps_per_second": found, "threads": threads}
+    return {"vehicle_steps_per_second": found, "threads": threads, "compiled": COMPILED}
 
 
 def _different(scenario: Scenario, number: int) -> list[Scenario]:

@@ -48,10 +48,9 @@ def draw(figures: dict[str, Any], picture: Path) -> None:
 
 def _vehicles(ax: Axes, figures: dict[str, Any]) -> None:
     scalar = 1e6 / figures["closed_loop"]["vehicle_steps_per_second"]
-    rates = figures.get("batch", {}).get("vehicle_steps_per_second", {})
-    numbers = [int(n) for n in rates] or [1]
-    if rates:
-        ax.loglog(numbers, [1e6 / rate for rate in rates.values()], "o-", color=BLUE, label="batch")
+    rates = figures["batch"]["vehicle_steps_per_second"]
+    numbers = [int(n) for n in rates]
+    ax.loglog(numbers, [1e6 / rate for rate in rates.values()], "o-", color=BLUE, label="batch")
     ax.axhline(scalar, color=ORANGE, label="closed_loop")
     ax.set_xscale("log")
     ax.set_yscale("log")

@@ -103,10 +103,11 @@ def _latency(figures: dict[str, Any]) -> list[Sheet]:
 def _simulation(figures: dict[str, Any]) -> list[Sheet]:
     scalar = figures["closed_loop"]["vehicle_steps_per_second"]
     rows = [("closed_loop, one vehicle", "1.0", f"{scalar:,.0f}", f"{1e6 / scalar:.2f}")]
-    for number, rate in figures.get("batch", {}).get("vehicle_steps_per_second", {}).items():
+    how = "batch" if figures["batch"]["compiled"] else "batch, not compiled"
+    for number, rate in figures["batch"]["vehicle_steps_per_second"].items():
         rows.append(
             (
-                f"batch, {int(number):,} vehicle{'s' * (number != '1')}",
+                f"{how}, {int(number):,} vehicle{'s' * (number != '1')}",
                 f"{rate / scalar:.1f}",
                 f"{rate:,.0f}",
                 f"{1e6 / rate:.3f}",
