@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -184,3 +187,20 @@ def test_a_short_line_is_flown_to_its_end() -> None:
     flights = engine.fly([told])
     assert flights.completed[0] and flights.progress[0] == 1.0
     assert flights.last_x[0] == pytest.approx(5.0, abs=0.2)
+
+
+def test_without_numba_the_flights_are_the_same() -> None:
+    """Everything in a process that cannot find it: every law, twelve seconds of each flight."""
+    program = (
+        "import sys; sys.modules['numba'] = None; sys.path.insert(0, sys.argv[1])\n"
+        "from test_engine import *; from auv_sim.batch.compiled import COMPILED\n"
+        "assert not COMPILED\n"
+        "for name, told in FLIGHTS.items():\n"
+        "    told = scenario(**told | {'time_limit': 12.0})\n"
+        "    assert largest_difference(engine.track(told), closed_loop.fly(told)) < 1e-9, name\n"
+        "print(engine.fly([told], threads=2).steps[0])\n"
+    )
+    command = [sys.executable, "-c", program, str(Path(__file__).parent)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
+    assert done.returncode == 0, done.stderr[-500:]
+    assert int(done.stdout) > 200

@@ -132,6 +132,24 @@ def test_the_study_is_drawn(short_mission: Path, tmp_path: Path, monkeypatch: py
     assert noise_study.markdown(study).count("\n") == 7
 
 
+def test_the_study_renews_the_page_and_the_picture_that_it_shows(
+    short_mission: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys
+) -> None:
+    monkeypatch.setattr(noise_study, "LEVELS", (0.0,))
+    monkeypatch.setattr(noise_study, "GAINS", noise_study.GAINS[:1])
+    page = tmp_path / "docs" / "sea.md"
+    page.parent.mkdir()
+    begin, end = pages.marks(noise_study.PART)
+    page.write_text(f"before\n{begin}\nold\n{end}\n", encoding="utf-8")
+    asked = ["--study", "noise", "--mission", str(short_mission), "--workers", "1", "--out", tmp_path / "out"]
+    assert sea_trials.main([*map(str, asked), "--page", str(page)]) == 0
+    picture = page.parent / "images" / "rudder_activity.png"
+    assert picture.stat().st_size > 10_000
+    assert str(picture) in capsys.readouterr().out.replace("\n", "")
+    assert (tmp_path / "out" / "rudder_activity.json").is_file()
+    assert "old" not in page.read_text(encoding="utf-8")
+
+
 def test_a_seed_without_a_sea_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ConfigurationError, match="--seed: found without a sea"):
         plan.make(Options(seed=3), tmp_path)

@@ -1,4 +1,4 @@
-"""Flies many scenarios of `closed_loop` and keeps their figures: the same laws, some hundred times as fast.
+"""Flies many scenarios of `closed_loop` and keeps their figures: the same laws, many times as fast.
 
     flights = fly([Scenario(...), Scenario(...), ...])
     print(flights.completed.mean(), flights.rms_distance.max())

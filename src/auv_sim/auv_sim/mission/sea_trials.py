@@ -87,7 +87,12 @@ def parser() -> argparse.ArgumentParser:
         metavar="DIR",
         help="where to write (default: sea_trials)",
     )
-    p.add_argument("--page", type=Path, metavar="FILE", help="renew the table on this page (docs/sea.md)")
+    p.add_argument(
+        "--page",
+        type=Path,
+        metavar="FILE",
+        help="renew the table on this page (docs/sea.md), and the study's picture in images/ beside it",
+    )
     return p
 
 
@@ -101,16 +106,17 @@ def main(argv: Sequence[str] | None = None) -> int:
     if options.page is not None:
         pages.check(options.page, noise_study.PART if noise else PART)  # before the flights, not after
     if noise:
+        picture = _pictures(options) / "rudder_activity.png"
         with progress_bar(console) as bar:
             study = noise_study.fly(
                 options.mission, options.vehicle, options.sea, partial(tracked, bar, options.workers)
             )
-        noise_study.draw(study, options.out / "rudder_activity.png")
+        noise_study.draw(study, picture)
         _write(options.out / "rudder_activity.json", noise_study.record(study))
         if options.page is not None:
             pages.renew(options.page, noise_study.PART, noise_study.markdown(study))
         console.print(noise_study.table(study))
-        console.print(f"Picture: {options.out / 'rudder_activity.png'}", highlight=False)
+        console.print(f"  {picture}  [dim]the table as a picture[/dim]", highlight=False, soft_wrap=True)
         return EXIT_DONE
     return _trials(options, console)
 
@@ -201,6 +207,15 @@ def _write(file: Path, record: Any) -> None:
     """Strict JSON; what is not known (a corner where there is none) becomes null."""
     text = json.dumps(without_nan(record), indent=2, allow_nan=False)
     file.write_text(text + "\n", encoding="utf-8")
+
+
+def _pictures(options: argparse.Namespace) -> Path:
+    """Where they go: beside the page that shows them, or where everything goes."""
+    if options.page is None:
+        return Path(options.out)
+    images: Path = options.page.parent / "images"
+    make_directory(images, "--page")
+    return images
 
 
 if __name__ == "__main__":
