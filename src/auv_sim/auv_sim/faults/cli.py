@@ -126,7 +126,7 @@ def _table(results: list) -> Table:  # type: ignore[type-arg]
     table = Table(title="What failed, and what was done about it", title_justify="left")
     for heading in ("place", "fault", "noticed by"):
         table.add_column(heading)
-    for heading in ("after [s]", "at most", "stopped [s]", "at most"):
+    for heading in ("after (s)", "at most", "stopped (s)", "at most"):
         table.add_column(heading, justify="right")
     table.add_column("mission")
     table.add_column("")

@@ -56,11 +56,11 @@ def show(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary,
     table = Table(title=f"{escape(plan.mission.name)}: {outcome.state}", title_justify="left")
     table.add_column("subpath")
     for heading in (
-        "time [s]",
-        "rms distance [m]",
-        "largest [m]",
-        "rms heading error [deg]",
-        "rudder [deg/m]",
+        "time (s)",
+        "rms distance (m)",
+        "largest (m)",
+        "rms heading error (°)",
+        "rudder (°/m)",
     ):
         table.add_column(heading, justify="right")
     for part in summary.subpaths:
