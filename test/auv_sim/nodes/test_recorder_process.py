@@ -19,11 +19,13 @@ import rclpy
 from geometry_msgs.msg import Vector3Stamped
 from mcap.reader import make_reader
 from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosbags.highlevel import AnyReader
 from std_msgs.msg import Float64, String
 
+from auv_msgs_py import qos, topics
 from auv_sim.recording.bag import read_bag
 from auv_sim.recording.repair import repair
 from bag_watch import recorded
@@ -212,3 +214,43 @@ def test_replay_repeats_messages_and_qos(tmp_path: Path, node: Node) -> None:
     assert second.messages == first.messages
     span = [max(topic.log_ns) - min(topic.log_ns) for topic in (first, second)]
     assert span[1] == pytest.approx(span[0] / 2, rel=0.2)
+
+
+def test_in_lockstep_a_simulator_that_is_discovered_late_is_told_the_newest_count(
+    node: Node, tmp_path: Path
+) -> None:
+    """On a busy machine its reader may be found only when several reports are due."""
+    namespace = truth_topic(tmp_path).rsplit("/", 1)[0]
+    recorder = start(tmp_path / "bag", "lockstep:=true")
+    publishers = {
+        topic: node.create_publisher(
+            qos.message_class(topic.type), f"{namespace}/{topic.name}", qos.offered(topic)
+        )
+        for topic in topics.PER_STEP
+    }
+    for publisher in publishers.values():
+        wait_for(publisher)
+    steps = 3 * topics.RECORDING_REPORT
+    for _ in range(steps):
+        for topic, publisher in publishers.items():
+            publisher.publish(qos.message_class(topic.type)())
+        time.sleep(0.005)
+    time.sleep(0.3)
+    assert recorder.poll() is None
+    told: list[int] = []
+    executor = SingleThreadedExecutor(context=node.context)
+    simulator = rclpy.create_node(topics.PLANT, namespace=namespace, context=node.context)
+    executor.add_node(simulator)
+    topic = topics.RECORDED_STEPS
+    simulator.create_subscription(
+        qos.message_class(topic.type), topic.name, lambda m: told.append(m.data), qos.requested(topic, True)
+    )
+    deadline = time.monotonic() + 20.0
+    while not told:
+        assert recorder.poll() is None, recorder.stdout.read() if recorder.stdout else ""
+        assert time.monotonic() < deadline, "nothing was told"
+        executor.spin_once(timeout_sec=0.05)
+    simulator.destroy_node()
+    recorder.send_signal(signal.SIGINT)
+    assert recorder.wait(20.0) == 0
+    assert told[0] > 2 * topics.RECORDING_REPORT

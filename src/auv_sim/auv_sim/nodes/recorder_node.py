@@ -95,6 +95,7 @@ class RecorderNode(SuiteNode):
         if batch:
             self._last = time.monotonic()
             self._take_in(batch)
+        self._report_progress()
         now, end = time.monotonic(), self._times.now or 0
         period = self.parameters.flush_period
         if now - self._flushed >= period or abs(end - self._flushed_ns) >= period * 1e9:
@@ -120,14 +121,16 @@ class RecorderNode(SuiteNode):
             write(topic.channel, log_ns, publish_ns, taken.data, taken.sequence)
         if self._progress is not None:
             self.time_is(times.now or 0)
-            self._report_progress()
 
     def _report_progress(self) -> None:
-        counts, progress = self.writer.counts, self._progress
+        """Tell the newest count, once somebody can hear it: those before it do not matter."""
+        if self._progress is None:
+            return
+        counts = self.writer.counts
         steps = min(counts[name] for name in self._per_step)
-        if steps - self._told >= topics.RECORDING_REPORT and progress is not None:
+        if steps - self._told >= topics.RECORDING_REPORT and not self.gate_waits_for():
             self._told = steps
-            self.answer(lambda: progress.publish(UInt64(data=steps)))
+            self._progress.publish(UInt64(data=steps))
 
     def _flush(self) -> None:
         if self.writer.flush():
