@@ -146,6 +146,12 @@ def test_a_wrong_file_gets_one_line(loaded, text, said):
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize("body", ["{gains.k1: 3, gains.k1.x: 9}", "{gains: {k1: 3, k1.x: 9}}", "{gains.k1.x: 9}"])
+def test_a_name_that_is_too_deep_is_not_ignored(loaded, body):
+    with pytest.raises(ConfigurationError, match=r"params\.yaml: pilot: gains\.k1"):
+        loaded(f"/**/pilot:\n  ros__parameters:\n    {body}\n")
+
+
 def test_as_ros_is_read_back(tmp_path):
     configurations = {
         "pilot": Pilot(gains=Gains(k1=0.1, k2=1e-7), place=(1.0, -2.0), name="1e3"),

@@ -143,3 +143,10 @@ def test_flattening_and_nesting_are_inverse(inner, flag):
     assert flat["inner.gain"] == inner.gain
     assert set(flat) == {leaf.name for leaf in leaves(Outer)}
     assert validated(Outer, nested(flat), "f.yaml") == outer
+
+
+@pytest.mark.parametrize("names", [("inner.gain", "inner.gain.x"), ("inner.gain.x", "inner.gain")])
+def test_a_name_below_a_value_is_refused(names):
+    with pytest.raises(ConfigurationError) as error:
+        validated(Outer, nested(dict.fromkeys(names, 1.0)), "f.yaml")
+    assert str(error.value).startswith("f.yaml: inner.gain.x: found an unknown key, expected only the")

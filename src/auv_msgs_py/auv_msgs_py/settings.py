@@ -223,18 +223,20 @@ def leaves(cls: type[Any], prefix: str = "") -> list[SettingInfo]:
 def nested(flat: Mapping[str, Any]) -> dict[str, Any]:
     """`{"nism.k1": 0.8}` -> ``{"nism": {"k1": 0.8}}``.
 
-    Where one name is both a value and a group, the value stays, for `validated` to refuse.
+    Where one name is both a value and a group, the value stays and what lies below it keeps its dots, for
+    `validated` to refuse: the one or the other is a key that the class does not have.
     """
     tree: dict[str, Any] = {}
     for name, value in flat.items():
-        *parents, leaf = name.split(".")
+        parts = name.split(".")
         branch = tree
-        for parent in parents:
-            branch = branch.setdefault(parent, {})
-            if not isinstance(branch, dict):
+        for depth in range(1, len(parts)):
+            if ".".join(parts[:depth]) in flat:
+                branch[".".join(parts[depth - 1 :])] = value
                 break
+            branch = branch.setdefault(parts[depth - 1], {})
         else:
-            branch[leaf] = value
+            branch[parts[-1]] = value
     return tree
 
 
