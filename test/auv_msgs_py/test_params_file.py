@@ -146,7 +146,9 @@ def test_a_wrong_file_gets_one_line(loaded, text, said):
     assert "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize("body", ["{gains.k1: 3, gains.k1.x: 9}", "{gains: {k1: 3, k1.x: 9}}", "{gains.k1.x: 9}"])
+@pytest.mark.parametrize(
+    "body", ["{gains.k1: 3, gains.k1.x: 9}", "{gains: {k1: 3, k1.x: 9}}", "{gains.k1.x: 9}"]
+)
 def test_a_name_that_is_too_deep_is_not_ignored(loaded, body):
     with pytest.raises(ConfigurationError, match=r"params\.yaml: pilot: gains\.k1"):
         loaded(f"/**/pilot:\n  ros__parameters:\n    {body}\n")

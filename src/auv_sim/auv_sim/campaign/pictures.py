@@ -15,7 +15,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from auv_sim.analysis.plot_style import BLUE, GREEN, GRID, INK, MUTED, ORANGE, RED, style
 from auv_sim.campaign import statistics
 from auv_sim.campaign.plan import StudyPlan
-from auv_sim.campaign.summary import Summary, column
+from auv_sim.campaign.summary import Summary, column, rounds_of
 
 UNITS = {
     "distance": "m", "bearing_deg": "deg", "ahead": "m", "starboard": "m", "heading_deg": "deg",
@@ -118,7 +118,7 @@ def _success(plan: StudyPlan, table: pa.Table, summary: Summary, axes: tuple[str
     if len(axes) == 1:
         figure = _headed(plan, summary, (7.5, 4.8))
         place = figure.subplots()
-        _share_over(place, column(table, axes[0]), success)
+        _share_over(place, column(table, axes[0]), success, rounds_of(plan, table))
         place.set_xlabel(label(axes[0]), color=INK)
         return figure
     figure = _headed(plan, summary, (12.5, 5.2))
@@ -163,13 +163,13 @@ def _binned(values: Any) -> tuple[Any, Any]:
     return edges, np.clip(np.searchsorted(edges, values, side="right") - 1, 0, len(edges) - 2)
 
 
-def _share_over(place: Any, x: Any, success: Any) -> None:
+def _share_over(place: Any, x: Any, success: Any, rounds: Any) -> None:
     edges, owner = _binned(x)
     rows = []
     for number in range(len(edges) - 1):
         here = owner == number
         if here.any():
-            estimate = statistics.share(int(success[here].sum()), int(here.sum()))
+            estimate = statistics.share_of_rounds(success[here], rounds[here])
             rows.append((0.5 * (edges[number] + edges[number + 1]), *estimate))
     at, value, low, high = np.array(rows).T
     style(place, "share of successes, with 95 % intervals")
@@ -186,6 +186,9 @@ def _sensitivity(plan: StudyPlan, table: pa.Table, summary: Summary, names: list
     style(bars, "")
     shares = [np.nan_to_num(summary.explained[name]) for name in names]
     bars.barh(range(len(names)), shares, color=BLUE)
+    for place, name in enumerate(names):
+        if math.isnan(summary.explained[name]):
+            bars.text(0.0, place, " too few flights to tell", va="center", color=MUTED, fontsize=8)
     bars.set_yticks(range(len(names)), [name.split(".", 1)[-1] for name in names], fontsize=8)
     bars.invert_yaxis()
     bars.set_xlim(0.0, max(1.0, *shares) if max(shares) > 0.5 else max(0.1, 1.15 * max(shares)))

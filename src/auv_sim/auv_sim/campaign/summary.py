@@ -59,10 +59,11 @@ class Summary:
     Attributes:
         name: of the study.
         runs: flown.
-        success, completed: shares.
-        figures: by name, over the completed flights.
+        success, completed: shares; with grids over all points.
+        figures: by name, over the completed flights; with grids of all points.
         judge: the figure that `points` and `explained` are about.
-        explained: share of its variance that each drawn number explains by itself, the largest first.
+        explained: share of its variance that each varied number explains by itself, the largest first; NaN
+            where there are too few rounds to tell.
         points: of the grids; empty without any.
         worst: numbers of the runs to look at: failed ones, then those with the largest judged figure.
     """
@@ -93,20 +94,18 @@ def summarise(plan: StudyPlan, table: pa.Table) -> Summary:
     completed = column(table, "completed").astype(bool)
     success = column(table, "success").astype(bool)
     judged = column(table, study.judge)
+    rounds = rounds_of(plan, table)
     figures = {
-        name: _spread(column(table, name)[completed], study.seed)
+        name: _spread(column(table, name)[completed], rounds[completed] if plan.grids else None, study.seed)
         for name in dict.fromkeys((*TOLD, study.judge))
     }
-    drawn = [name for name in numeric(plan) if name not in plan.grids] + [
-        name for name in numeric(plan) if name in plan.grids
-    ]
-    explained = {name: statistics.explained(column(table, name), judged) for name in drawn}
+    explained = {name: _explained(plan, column(table, name), judged, name) for name in numeric(plan)}
     order = np.lexsort((column(table, "run"), -np.nan_to_num(judged, nan=np.inf), success))
     return Summary(
         name=study.name,
         runs=table.num_rows,
-        success=statistics.share(int(success.sum()), table.num_rows),
-        completed=statistics.share(int(completed.sum()), table.num_rows),
+        success=statistics.share_of_rounds(success, rounds),
+        completed=statistics.share_of_rounds(completed, rounds),
         figures=figures,
         judge=study.judge,
         explained=dict(sorted(explained.items(), key=lambda item: -np.nan_to_num(item[1]))),
@@ -120,9 +119,22 @@ def column(table: pa.Table, name: str) -> Any:
     return table.column(name).to_numpy()
 
 
+def rounds_of(plan: StudyPlan, table: pa.Table) -> Any:
+    """Which round each run belongs to: the runs of a round share what is drawn."""
+    return column(table, "run") // len(plan.points)
+
+
 def numeric(plan: StudyPlan) -> list[str]:
     """The varied parameters whose values are numbers."""
     return [name for name, distribution in plan.study.vary.items() if distribution.is_numeric]
+
+
+def _explained(plan: StudyPlan, parameter: Any, judged: Any, name: str) -> float:
+    points = len(plan.points)
+    figure = judged.reshape(-1, points)
+    if name in plan.grids:
+        return statistics.explained_by_grid(parameter[:points], figure)
+    return statistics.explained(parameter[::points], figure)
 
 
 def _points(plan: StudyPlan, success: Any, completed: Any, judged: Any) -> list[Point]:
@@ -142,12 +154,12 @@ def _points(plan: StudyPlan, success: Any, completed: Any, judged: Any) -> list[
     return points
 
 
-def _spread(values: Any, seed: int) -> Spread:
+def _spread(values: Any, rounds: Any, seed: int) -> Spread:
     known = values[np.isfinite(values)]
     return Spread(
-        mean=statistics.mean(known),
-        median=statistics.quantile(known, 0.5, seed),
-        p95=statistics.quantile(known, 0.95, seed),
+        mean=statistics.mean(values, rounds),
+        median=statistics.quantile(values, 0.5, seed, rounds),
+        p95=statistics.quantile(values, 0.95, seed, rounds),
         largest=float(known.max()) if known.size else math.nan,
     )
 

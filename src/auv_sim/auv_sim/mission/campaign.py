@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import os
 import sys
 import time
@@ -156,6 +157,9 @@ def _show(store: Store, summary: Summary, drawn: list[Path], console: Console) -
     told = [f"{name} {100 * value:.0f} %" for name, value in summary.explained.items() if value >= 0.005]
     if told:
         console.print(f"what explains {summary.judge} by itself: {', '.join(told[:6])}\n", soft_wrap=True)
+    unknown = [name for name, value in summary.explained.items() if math.isnan(value)]
+    if unknown:
+        console.print(f"too few flights to tell: {', '.join(unknown)}\n", soft_wrap=True)
     for path, what in (
         (store.directory / RESULTS, "every run: its parameters and its figures"),
         (store.directory / "summary.json", "the figures above, for programs"),
