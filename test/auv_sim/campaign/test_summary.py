@@ -10,7 +10,8 @@ import pytest
 
 from auv_sim.campaign import statistics
 from auv_sim.campaign.plan import StudyPlan
-from auv_sim.campaign.summary import TOLD, Summary, summarise
+from auv_sim.campaign.spec import FIGURES
+from auv_sim.campaign.summary import TOLD, Summary, figure_label, summarise
 
 STUDY = """\
 version: 1
@@ -52,3 +53,11 @@ def test_enough_rounds_tell_what_the_draws_do(tmp_path: Path) -> None:
     assert explained["initial.starboard"] > 0.9
     assert explained["initial.heading_deg"] < 0.1
     assert next(iter(explained)) == "initial.starboard"
+
+
+def test_every_figure_has_its_unit() -> None:
+    # Counts, shares and the path's own parameter are pure numbers; nothing else is.
+    assert {name for name in FIGURES if "[" not in figure_label(name)} == {"steps", "progress", "saturated"}
+    assert figure_label("rms_rudder_rate") == "rms rudder rate [deg/s]"
+    assert figure_label("current_estimate_error") == "current estimate error [m/s]"
+    assert figure_label("late_rms_distance") == "late rms distance [m]"

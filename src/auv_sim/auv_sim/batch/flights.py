@@ -16,6 +16,25 @@ from auv_sim.batch.flight import End
 
 Column = npt.NDArray[np.float64]
 
+#: Units of the figures that are one number for each flight; what is not here has none.
+UNITS = {
+    "duration": "s",
+    "rms_distance": "m",
+    "largest_distance": "m",
+    "late_rms_distance": "m",
+    "late_largest_distance": "m",
+    "time_to_path": "s",
+    "rms_heading_error": "deg",
+    "distance_covered": "m",
+    "rudder_travel": "deg",
+    "rudder_travel_per_metre": "deg/m",
+    "rms_rudder_rate": "deg/s",
+    "largest_rudder_rate": "deg/s",
+    "current_estimate_error": "m/s",
+    "last_x": "m",
+    "last_y": "m",
+}
+
 
 @dataclass(frozen=True, eq=False)
 class Flights:

@@ -15,13 +15,13 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from auv_sim.analysis.plot_style import BLUE, GREEN, GRID, INK, MUTED, ORANGE, RED, style
 from auv_sim.campaign import statistics
 from auv_sim.campaign.plan import StudyPlan
-from auv_sim.campaign.summary import Summary, column, rounds_of
+from auv_sim.campaign.summary import Summary, column, figure_label, rounds_of
 
+#: Of the start and of the current; other parameters have those of their files.
 UNITS = {
     "distance": "m", "bearing_deg": "deg", "ahead": "m", "starboard": "m", "heading_deg": "deg",
     "surge": "m/s", "speed": "m/s", "course_deg": "deg", "north": "m/s", "east": "m/s",
 }  # fmt: skip
-FIGURE_UNITS = {"duration": "s", "time_to_path": "s", "rms_heading_error": "deg"}
 _BINS = 12
 
 
@@ -50,13 +50,6 @@ def label(name: str) -> str:
     """A parameter's name with its unit, where it has one of its own."""
     unit = UNITS.get(name.rpartition(".")[2], "") if name.startswith(("initial.", "current.")) else ""
     return f"{name} [{unit}]" if unit else name
-
-
-def figure_label(name: str) -> str:
-    """A figure's name with its unit."""
-    unit = "m" if name.endswith("distance") else FIGURE_UNITS.get(name, "")
-    words = name.replace("_", " ")
-    return f"{words} [{unit}]" if unit else words
 
 
 def _varies(table: pa.Table, name: str) -> bool:

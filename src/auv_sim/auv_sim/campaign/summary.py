@@ -11,24 +11,25 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 
+from auv_sim.batch.flights import UNITS
 from auv_sim.campaign import statistics
 from auv_sim.campaign.plan import StudyPlan
 from auv_sim.campaign.statistics import Estimate
 
-#: The figures that the summary tells about, with their units.
-TOLD = {
-    "rms_distance": "m",
-    "largest_distance": "m",
-    "late_rms_distance": "m",
-    "late_largest_distance": "m",
-    "time_to_path": "s",
-    "duration": "s",
-    "rms_heading_error": "deg",
-    "rudder_travel_per_metre": "deg/m",
-    "rms_rudder_rate": "deg/s",
-    "saturated": "",
-    "current_estimate_error": "m/s",
-}
+#: The figures that the summary tells about.
+TOLD = (
+    "rms_distance",
+    "largest_distance",
+    "late_rms_distance",
+    "late_largest_distance",
+    "time_to_path",
+    "duration",
+    "rms_heading_error",
+    "rudder_travel_per_metre",
+    "rms_rudder_rate",
+    "saturated",
+    "current_estimate_error",
+)
 
 
 @dataclass(frozen=True)
@@ -117,6 +118,12 @@ def summarise(plan: StudyPlan, table: pa.Table) -> Summary:
 def column(table: pa.Table, name: str) -> Any:
     """A column as an array; what is missing is NaN."""
     return table.column(name).to_numpy()
+
+
+def figure_label(name: str) -> str:
+    """A figure's name for people, with its unit."""
+    words = name.replace("_", " ")
+    return f"{words} [{UNITS[name]}]" if name in UNITS else words
 
 
 def rounds_of(plan: StudyPlan, table: pa.Table) -> Any:

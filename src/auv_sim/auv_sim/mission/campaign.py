@@ -30,7 +30,7 @@ from auv_sim.campaign import pictures, runner
 from auv_sim.campaign.plan import StudyPlan
 from auv_sim.campaign.statistics import Estimate
 from auv_sim.campaign.store import RESULTS, Store
-from auv_sim.campaign.summary import TOLD, Summary, summarise
+from auv_sim.campaign.summary import TOLD, Summary, figure_label, summarise
 from auv_sim.command_line import EXIT_DONE, Parser, at_least_one, command, to_type
 from auv_sim.command_line import console as terminal
 from auv_sim.mission import campaign_replay
@@ -175,11 +175,10 @@ def _figures(summary: Summary) -> Table:
     table.add_column("figure")
     for heading in ("mean", "median", "95 % of flights below", "largest"):
         table.add_column(heading, justify="right")
-    for name, unit in (TOLD | {summary.judge: TOLD.get(summary.judge, "")}).items():
+    for name in dict.fromkeys((*TOLD, summary.judge)):
         spread = summary.figures[name]
         cells = [_estimate(value) for value in (spread.mean, spread.median, spread.p95)]
-        words = name.replace("_", " ")
-        table.add_row(f"{words} \\[{unit}]" if unit else words, *cells, f"{spread.largest:.4g}")
+        table.add_row(escape(figure_label(name)), *cells, f"{spread.largest:.4g}")
     return table
 
 
@@ -187,7 +186,7 @@ def _points(plan: StudyPlan, summary: Summary) -> Table:
     table = Table(title="points of the grids", title_justify="left")
     for name in plan.grids:
         table.add_column(name)
-    for heading in ("flights", "success", f"mean {summary.judge.replace('_', ' ')}"):
+    for heading in ("flights", "success", escape(f"mean {figure_label(summary.judge)}")):
         table.add_column(heading, justify="right")
     best = sorted(summary.points, key=lambda point: (-point.success.value, point.judged.value))
     shown = summary.points if len(summary.points) <= _POINTS else best[:_POINTS]
