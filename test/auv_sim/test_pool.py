@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from auv_sim.pool import each
+from auv_sim.pool import WorkerDied, each
 
 
 def test_every_item_comes_with_its_place() -> None:
@@ -20,6 +20,11 @@ def test_every_item_comes_with_its_place() -> None:
     found = dict(each(math.sqrt, [4.0, 9.0, 16.0], 2, lambda: done.append(None)))
     assert found == {0: 2.0, 1: 3.0, 2: 4.0} == dict(each(math.sqrt, [4.0, 9.0, 16.0], 1))
     assert len(done) == 3
+
+
+def test_a_worker_that_dies_is_told() -> None:
+    with pytest.raises(WorkerDied, match="a worker process died"):
+        list(each(os._exit, [1, 1, 1], 2))
 
 
 def test_workers_go_with_a_parent_that_is_killed() -> None:

@@ -8,12 +8,19 @@ import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import resource_tracker
 from typing import Any, TypeVar
 
 from rich.progress import Progress
 
+from auv_msgs_py.errors import SuiteError
+
 T = TypeVar("T")
+
+
+class WorkerDied(SuiteError):
+    """A process that shared in the work is gone."""
 
 
 class _Pool(ProcessPoolExecutor):
@@ -40,10 +47,13 @@ def each(
     """`work` on every item in a pool of processes; (index, result) as they come.
 
     Args:
-        work: a function of a module.
+        work: a function of a module, or a `functools.partial` of one.
         items: what to work on.
         workers: processes; 1 works here.
         done: called after each.
+
+    Raises:
+        WorkerDied: killed, or out of memory; what has come until then counts.
     """
     if workers <= 1:
         for index, item in enumerate(items):
@@ -51,11 +61,13 @@ def each(
             done()
         return
     with worker_pool(workers) as pool:
-        futures = {pool.submit(work, item): index for index, item in enumerate(items)}
         try:
+            futures = {pool.submit(work, item): index for index, item in enumerate(items)}
             for future in as_completed(futures):
                 yield futures[future], future.result()
                 done()
+        except BrokenProcessPool:
+            raise WorkerDied("a worker process died: killed, or out of memory") from None
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 import tempfile
 from collections.abc import Iterator, Mapping
-from concurrent.futures import as_completed
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -16,7 +15,7 @@ from auv_sim.batch import engine
 from auv_sim.campaign.plan import StudyPlan
 from auv_sim.campaign.store import Store, bundle_of, fingerprint, write_bundle
 from auv_sim.campaign.table import table_of
-from auv_sim.pool import worker_pool
+from auv_sim.pool import WorkerDied, each
 
 #: A chunk, or the three parts of the error that ended it: an exception of ours does not survive pickling.
 Result: TypeAlias = "pa.Table | tuple[str, str, str]"
@@ -60,15 +59,14 @@ def on_this_machine(store: Store, chunks: list[range], workers: int) -> Iterator
 
     Raises:
         ConfigurationError: a run whose values do not go together.
+        WorkerDied: a process of the pool is gone.
     """
-    with worker_pool(workers) as pool:
-        source = str(store.plan.source)
-        futures = {pool.submit(fly_chunk, source, chunk.start, chunk.stop): chunk for chunk in chunks}
-        try:
-            for future in as_completed(futures):
-                yield futures[future], _table(future.result())
-        finally:
-            pool.shutdown(wait=True, cancel_futures=True)
+    for index, result in each(functools.partial(_fly, str(store.plan.source)), chunks, workers):
+        yield chunks[index], _table(result)
+
+
+def _fly(source: str, runs: range) -> Result:
+    return fly_chunk(source, runs.start, runs.stop)
 
 
 def through_dask(
@@ -84,6 +82,7 @@ def through_dask(
 
     Raises:
         ConfigurationError: Dask is missing, nobody answers, or a run whose values do not go together.
+        WorkerDied: a chunk ended several workers, one after the other.
     """
     try:
         import distributed as dask
@@ -107,8 +106,11 @@ def through_dask(
             client.submit(fly_bundled, files, study, chunk.start, chunk.stop, pure=False): chunk
             for chunk in chunks
         }
-        for future in distributed.as_completed(list(futures)):
-            yield futures[future], _table(future.result())
+        try:
+            for future in distributed.as_completed(list(futures)):
+                yield futures[future], _table(future.result())
+        except distributed.KilledWorker:
+            raise WorkerDied("workers died again and again: killed, or out of memory") from None
     if not scheduler:
         cluster.close()
 
