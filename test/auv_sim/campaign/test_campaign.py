@@ -130,13 +130,13 @@ def test_a_campaign_is_not_mixed_with_another(finished: Store, study: Path, tmp_
         Store(tmp_path)
 
 
-def test_laws_that_changed_in_between_are_refused(study: Path, tmp_path: Path, capsys) -> None:
+def test_code_that_changed_in_between_is_refused(study: Path, tmp_path: Path, capsys) -> None:
     Store(tmp_path / "old", StudyPlan(study))
-    identity = tmp_path / "old" / "campaign.json"
-    begun = json.loads(identity.read_text(encoding="utf-8")) | {"laws": "others"}
+    identity = tmp_path / "old" / "config" / "campaign.json"
+    begun = json.loads(identity.read_text(encoding="utf-8")) | {"code": "another"}
     identity.write_text(json.dumps(begun), encoding="utf-8")
     assert campaign.main([str(study), "--out", str(tmp_path / "old"), "--quiet"]) == 2
-    assert "a campaign begun with other laws" in capsys.readouterr().err
+    assert "a campaign begun with another version" in capsys.readouterr().err
 
 
 def test_a_killed_campaign_goes_on(study: Path, tmp_path: Path, command_line, spawn) -> None:

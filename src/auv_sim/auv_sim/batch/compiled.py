@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import functools
 import hashlib
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -50,18 +49,21 @@ def part(function: F) -> F:
     return function
 
 
-@functools.cache
-def laws_digest() -> str:
-    """Names the version of the laws: what was flown with another one cannot be compared to the last bit."""
+def digest_of(files: Iterable[Path]) -> str:
+    """Names what stands in these files."""
     digest = hashlib.sha256()
-    for package, folder in _COMPILED_FROM:
-        for path in sorted((Path(str(package.__file__)).parent / folder).glob("*.py")):
-            digest.update(path.read_bytes() + b"\0")
+    for path in files:
+        digest.update(path.read_bytes() + b"\0")
     return digest.hexdigest()[:16]
+
+
+def _laws_digest() -> str:
+    folders = [Path(str(package.__file__)).parent / folder for package, folder in _COMPILED_FROM]
+    return digest_of(path for folder in folders for path in sorted(folder.glob("*.py")))
 
 
 if COMPILED:
     # Numba looks at the file of the compiled function only, not at the others whose functions it calls: so
     # the compiled code of every version of the laws gets a folder of its own.
     _BASE = os.environ.get("NUMBA_CACHE_DIR") or Path("~/.cache/auv_sim").expanduser()
-    numba.config.CACHE_DIR = str(Path(_BASE) / laws_digest())
+    numba.config.CACHE_DIR = str(Path(_BASE) / _laws_digest())

@@ -62,7 +62,7 @@ def _headed(plan: StudyPlan, summary: Summary, size: tuple[float, float]) -> Fig
     figure.suptitle(
         f"{plan.study.name}: {summary.runs} flights, success {100 * p.value:.2f} %"
         f" ({100 * p.low:.2f} to {100 * p.high:.2f})",
-        color=INK, fontsize=12,
+        color=INK, fontsize=12, parse_math=False,
     )  # fmt: skip
     return figure
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import itertools
-import json
 import math
 import zlib
 from collections.abc import Iterator
@@ -15,6 +14,7 @@ import numpy as np
 
 from auv_msgs_py import params_file, topics, yaml_file
 from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.settings import validated
 from auv_path_following import config_files, vehicle
 from auv_path_following.paths import mission_file
 from auv_path_following.paths.mission_file import Mission
@@ -49,7 +49,11 @@ class StudyPlan:
         self.source = source
         self.where = str(source)
         bundled = source.parent / BUNDLED
-        self._bundled = json.loads(bundled.read_text(encoding="utf-8")) if bundled.is_file() else {}
+        self._bundled: dict[str, dict[str, str]] = (
+            validated(dict[str, dict[str, str]], yaml_file.parse(bundled), str(bundled))
+            if bundled.is_file()
+            else {}
+        )
         self.study = study = yaml_file.load(source, Study)
         self.grids = [name for name, distribution in study.vary.items() if distribution.grid is not None]
         self.points: list[tuple[Value, ...]] = list(
@@ -63,7 +67,7 @@ class StudyPlan:
 
     def file(self, kind: config_files.Kind, name: str) -> str:
         """A file that the study names: as it was bundled, beside the study, from here, or a shipped one."""
-        if kind in self._bundled:
+        if name in self._bundled.get(kind, {}):
             return str(self.source.parent / self._bundled[kind][name])
         beside = self.source.parent / Path(name).expanduser()
         try:

@@ -22,7 +22,7 @@ from rich.progress import (
 )
 from rich.table import Table
 
-from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.errors import ConfigurationError, SuiteError
 from auv_path_following import config_files
 from auv_sim.batch import engine
 from auv_sim.batch.compiled import COMPILED
@@ -34,6 +34,7 @@ from auv_sim.campaign.summary import TOLD, Summary, figure_label, summarise
 from auv_sim.command_line import EXIT_DONE, Parser, at_least_one, command, to_type
 from auv_sim.command_line import console as terminal
 from auv_sim.mission import campaign_replay
+from auv_sim.pool import WorkerDied
 
 _POINTS = 40
 
@@ -80,9 +81,16 @@ def main(argv: Sequence[str] | None = None) -> int:
         if options.replay_run is not None:
             return campaign_replay.replay(store, options.replay_run, options.graph, terminal(options.quiet))
         return _fly(store, options)
+    except WorkerDied as error:
+        raise SuiteError(f"{error}. What was flown is kept. Go on:  {_again(argv)}") from None
     except KeyboardInterrupt:
-        again = to_type("campaign.py", *(argv if argv is not None else sys.argv[1:]))
-        raise KeyboardInterrupt(f"\ncampaign interrupted; what was flown is kept. Go on:  {again}") from None
+        raise KeyboardInterrupt(
+            f"\ncampaign interrupted; what was flown is kept. Go on:  {_again(argv)}"
+        ) from None
+
+
+def _again(argv: Sequence[str] | None) -> str:
+    return to_type("campaign.py", *(argv if argv is not None else sys.argv[1:]))
 
 
 def _store(options: argparse.Namespace) -> Store:
@@ -101,16 +109,17 @@ def _fly(store: Store, options: argparse.Namespace) -> int:
         + (f"\n  {escape(plan.study.description)}" if plan.study.description else "")
     )
     size = options.chunk or (50 if COMPILED and not plan.study.sea else 2)
-    chunks = store.missing(size)
-    if chunks and not store.same_laws:
-        raise ConfigurationError(
-            str(store.directory), "a campaign begun with other laws", "a new directory: --out DIR"
-        )
-    _fly_chunks(store, chunks, options, console)
-    table = store.finish()
-    summary = summarise(plan, table)
-    (store.directory / "summary.json").write_text(summary.to_json(), encoding="utf-8")
-    drawn = pictures.draw(plan, table, summary, store.directory)
+    with store.alone():
+        chunks = store.missing(size)
+        if chunks and not store.same_code:
+            raise ConfigurationError(
+                str(store.directory), "a campaign begun with another version", "a new directory: --out DIR"
+            )
+        _fly_chunks(store, chunks, options, console)
+        table = store.finish()
+        summary = summarise(plan, table)
+        (store.directory / "summary.json").write_text(summary.to_json(), encoding="utf-8")
+        drawn = pictures.draw(plan, table, summary, store.directory)
     _show(store, summary, drawn, console)
     return EXIT_DONE
 
@@ -165,7 +174,7 @@ def _show(store: Store, summary: Summary, drawn: list[Path], console: Console) -
         (store.directory / "summary.json", "the figures above, for programs"),
         *((path, "") for path in drawn),
     ):
-        console.print(f"  {path}  [dim]{what}[/dim]", soft_wrap=True)
+        console.print(f"  {escape(str(path))}  [dim]{what}[/dim]", soft_wrap=True)
     again = to_type("campaign.py", store.directory, replay_run=summary.worst[0])
     console.print(f"\nFly the worst run again:  {again}", soft_wrap=True, markup=False)
 
@@ -192,7 +201,8 @@ def _points(plan: StudyPlan, summary: Summary) -> Table:
     shown = summary.points if len(summary.points) <= _POINTS else best[:_POINTS]
     for point in shown:
         cells = [
-            f"{value:.4g}" if isinstance(value, float) else str(value) for value in point.values.values()
+            f"{value:.4g}" if isinstance(value, float) else escape(str(value))
+            for value in point.values.values()
         ]
         table.add_row(*cells, str(point.runs), _percent(point.success), _estimate(point.judged))
     if len(shown) < len(summary.points):

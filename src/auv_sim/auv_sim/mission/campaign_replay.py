@@ -47,7 +47,8 @@ def replay(store: Store, number: int, graph: bool, console: Console) -> int:
         raise ConfigurationError("--replay-run", str(number), f"a run from 0 to {plan.runs - 1}")
     console.print(f"[bold]{escape(plan.study.name)}[/bold], run {number}")
     for name, value in plan.values(number).items():
-        console.print(f"  {name:<32} {value:.6g}" if isinstance(value, float) else f"  {name:<32} {value}")
+        told = f"{value:.6g}" if isinstance(value, float) else escape(str(value))
+        console.print(f"  {name:<32} {told}")
     scenario = plan.scenario(number)
     directory = store.directory / "runs" / f"{number:07d}"
     shutil.rmtree(directory, ignore_errors=True)
@@ -55,7 +56,9 @@ def replay(store: Store, number: int, graph: bool, console: Console) -> int:
     flown = engine.track(scenario)
     _tell(store, number, flown, scenario, console)
     _picture(plan, number, flown, scenario, directory / "overview.png")
-    console.print(f"  {directory / 'overview.png'}  [dim]the run in one picture[/dim]", soft_wrap=True)
+    console.print(
+        f"  {escape(str(directory / 'overview.png'))}  [dim]the run in one picture[/dim]", soft_wrap=True
+    )
     if not graph:
         again = to_type("campaign.py", store.directory, replay_run=number, graph=True)
         console.print(f"\nFly it over ROS 2:  {again}", soft_wrap=True, markup=False)
