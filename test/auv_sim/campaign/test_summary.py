@@ -20,18 +20,20 @@ runs: {runs}
 vary:
   autopilot.nism.k1: {{grid: [0.2, 0.4, 0.6, 0.8]}}
   autopilot.nism.k3: {{grid: [0.2, 0.4]}}
+  guidance.law: {{grid: [ailos, los]}}
   initial.starboard: {{uniform: [-15, 15]}}
   initial.heading_deg: {{uniform: [-180, 180]}}
 """
 
 
 def summed(folder: Path, runs: int) -> Summary:
-    """Flights that a start beside the path and k1 decide, the heading and k3 not."""
+    """Flights that a start beside the path, k1 and the law decide, the heading and k3 not."""
     (folder / "trial.yaml").write_text(STUDY.format(runs=runs), encoding="utf-8")
     plan = StudyPlan(folder / "trial.yaml")
     rows = [plan.values(run) for run in range(plan.runs)]
     columns = {name: np.array([row[name] for row in rows]) for name in plan.study.vary}
     figure = 20.0 + columns["initial.starboard"] + 5.0 * columns["autopilot.nism.k1"]
+    figure += 2.0 * (columns["guidance.law"] == "los")
     figures = dict.fromkeys((*TOLD, plan.study.judge), figure)
     flags = dict.fromkeys(("success", "completed"), np.ones(plan.runs, dtype=bool))
     return summarise(plan, pa.table({"run": np.arange(plan.runs)} | columns | flags | figures))
@@ -39,10 +41,11 @@ def summed(folder: Path, runs: int) -> Summary:
 
 def test_points_of_a_grid_do_not_count_as_draws(tmp_path: Path) -> None:
     summary = summed(tmp_path, 20)
-    assert summary.runs == 160 and summary.success == statistics.share(20, 20)
+    assert summary.runs == 320 and summary.success == statistics.share(20, 20)
     # Twenty starts tell nothing of what starts do; what they share out among the grid's values they do tell.
     assert np.isnan([summary.explained[f"initial.{name}"] for name in ("starboard", "heading_deg")]).all()
     assert summary.explained["autopilot.nism.k3"] == 0.0 < summary.explained["autopilot.nism.k1"] < 0.1
+    assert 0.0 < summary.explained["guidance.law"] < 0.1
     spread = summary.figures["rms_distance"]
     # 30/sqrt(12) m of scatter from start to start, in 20 of them.
     assert spread.mean.high - spread.mean.value == pytest.approx(2.09 * 8.66 / np.sqrt(20.0), rel=0.25)

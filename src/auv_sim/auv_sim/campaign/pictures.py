@@ -32,12 +32,12 @@ def draw(plan: StudyPlan, table: pa.Table, summary: Summary, directory: Path) ->
         their files.
     """
     drawn = {"distribution.png": _distribution(plan, table, summary)}
-    axes = plan.study.axes or tuple(name for name in summary.explained if _varies(table, name))[:2]
+    varied = [name for name in summary.explained if _varies(table, name)]
+    axes = plan.study.axes or tuple(name for name in varied if plan.study.vary[name].is_numeric)[:2]
     if axes:
         drawn["success.png"] = _success(plan, table, summary, axes)
-    parameters = [name for name in summary.explained if _varies(table, name)]
-    if parameters:
-        drawn["sensitivity.png"] = _sensitivity(plan, table, summary, parameters[:12])
+    if varied:
+        drawn["sensitivity.png"] = _sensitivity(plan, table, summary, varied[:12])
     files = []
     for name, figure in drawn.items():
         FigureCanvasAgg(figure)
@@ -171,8 +171,9 @@ def _share_over(place: Any, x: Any, success: Any, rounds: Any) -> None:
 
 
 def _sensitivity(plan: StudyPlan, table: pa.Table, summary: Summary, names: list[str]) -> Figure:
-    columns = min(4, len(names) + 1)
-    rows = math.ceil((len(names) + 1) / columns)
+    numbers = [name for name in names if plan.study.vary[name].is_numeric]
+    columns = min(4, len(numbers) + 1)
+    rows = math.ceil((len(numbers) + 1) / columns)
     figure = _headed(plan, summary, (max(3.6 * columns, 8.0), 3.2 * rows + 0.6))
     places = figure.subplots(rows, columns, squeeze=False).ravel()
     bars = places[0]
@@ -189,15 +190,16 @@ def _sensitivity(plan: StudyPlan, table: pa.Table, summary: Summary, names: list
     judged, success = column(table, summary.judge), column(table, "success").astype(bool)
     known = judged[np.isfinite(judged)]
     low, high = np.quantile(known, [0.0, 0.995]) if known.size else (0.0, 1.0)
-    for place, name in zip(places[1:], names, strict=False):
+    for place, name in zip(places[1:], numbers, strict=False):
         _dependence(place, column(table, name), judged, success)
         place.set_xlabel(label(name), color=INK, fontsize=9)
         if low > 0.0 and high > 10.0 * low:
             place.set_yscale("log")
             _plain_ticks(place.yaxis)
         place.set_ylim(low if low > 0.0 else 0.0, max(high, low + 1e-9))
-    places[1 % len(places)].set_ylabel(figure_label(summary.judge), color=INK)
-    for place in places[len(names) + 1 :]:
+    if numbers:
+        places[1].set_ylabel(figure_label(summary.judge), color=INK)
+    for place in places[len(numbers) + 1 :]:
         place.set_visible(False)
     return figure
 

@@ -168,7 +168,7 @@ def explained_by_grid(parameter: Column, figure: Column) -> float:
     ranks = _ranked(figure)
     total = float(np.nanvar(ranks)) if np.isfinite(ranks).any() else 0.0
     levels = np.unique(parameter)
-    y = np.column_stack([_means(ranks[:, parameter == level], axis=1) for level in levels])
+    y: Column = np.column_stack([_means(ranks[:, parameter == level], axis=1) for level in levels])
     y = y[:, np.isfinite(y).any(axis=0)]
     y = y[np.isfinite(y).any(axis=1)]
     if y.shape[1] < 2 or not total > 0.0:

@@ -63,7 +63,7 @@ class Summary:
         success, completed: shares; with grids over all points.
         figures: by name, over the completed flights; with grids of all points.
         judge: the figure that `points` and `explained` are about.
-        explained: share of its variance that each varied number explains by itself, the largest first; NaN
+        explained: share of its variance that each varied parameter explains by itself, the largest first; NaN
             where there are too few rounds to tell.
         points: of the grids; empty without any.
         worst: numbers of the runs to look at: failed ones, then those with the largest judged figure.
@@ -100,7 +100,7 @@ def summarise(plan: StudyPlan, table: pa.Table) -> Summary:
         name: _spread(column(table, name)[completed], rounds[completed] if plan.grids else None, study.seed)
         for name in dict.fromkeys((*TOLD, study.judge))
     }
-    explained = {name: _explained(plan, column(table, name), judged, name) for name in numeric(plan)}
+    explained = {name: _explained(plan, column(table, name), judged, name) for name in study.vary}
     order = np.lexsort((column(table, "run"), -np.nan_to_num(judged, nan=np.inf), success))
     return Summary(
         name=study.name,
@@ -131,12 +131,9 @@ def rounds_of(plan: StudyPlan, table: pa.Table) -> Any:
     return column(table, "run") // len(plan.points)
 
 
-def numeric(plan: StudyPlan) -> list[str]:
-    """The varied parameters whose values are numbers."""
-    return [name for name, distribution in plan.study.vary.items() if distribution.is_numeric]
-
-
 def _explained(plan: StudyPlan, parameter: Any, judged: Any, name: str) -> float:
+    if not plan.study.vary[name].is_numeric:
+        parameter = np.unique(parameter, return_inverse=True)[1].astype(np.float64)  # words: which one
     points = len(plan.points)
     figure = judged.reshape(-1, points)
     if name in plan.grids:
