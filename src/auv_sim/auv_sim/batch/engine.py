@@ -5,7 +5,8 @@
 
 A scenario may have its own path, vehicle, gains, current and start. What a flight gives depends on its own
 scenario only, to the last bit: not on the others, their order or the number of threads. One at sea
-(`Scenario.sea`) is flown by `closed_loop` itself, with instruments and navigator, at that one's speed.
+(`Scenario.sea`) is flown by `closed_loop` itself, with instruments and navigator, at that one's speed:
+docs/performance.md tells them apart.
 """
 
 from __future__ import annotations
