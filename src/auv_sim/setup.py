@@ -39,6 +39,7 @@ setup(
         "PyYAML",
         "rich",
         "rosbags",
+        "scipy",
         "zstandard",
     ],
     # Without numba the batch engine is slow, without distributed a campaign stays on one machine.

@@ -173,8 +173,8 @@ def explained_by_grid(parameter: Column, figure: Column) -> float:
     y = y[np.isfinite(y).any(axis=1)]
     if y.shape[1] < 2 or not total > 0.0:
         return math.nan
-    rounds, values = y.shape
     effects = _means(y, axis=0)
+    rounds, values = len(y), len(effects)
     left = y - effects
     left -= _means(left, axis=1)[:, None]
     known = int(np.isfinite(y).sum())
