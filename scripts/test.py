@@ -20,7 +20,7 @@ CHECKS = {
     "types": ("mypy",),
     # Whole missions wait more than they compute; a file's tests stay together, as its fixtures do, and files
     # keep the order that conftest.py gives them.
-    "tests": "pytest -p xdist --numprocesses 2 --dist loadfile --no-loadscope-reorder".split(),
+    "tests": ("pytest", "-p", "xdist", "--numprocesses", "2", "--dist", "loadfile", "--no-loadscope-reorder"),
 }
 
 
