@@ -25,8 +25,10 @@ from std_srvs.srv import Trigger
 from auv_msgs_py import qos, topics
 from auv_msgs_py.errors import SuiteError
 from auv_msgs_py.runtime import StopRequest
+from auv_path_following import config_files
 from auv_sim.faults.relay import RELAYED, FaultRelay, raw
 from auv_sim.mission.composed import NODES
+from auv_sim.mission.plan import DEFAULT_PARAMS
 from auv_sim.nodes.pacing import Pacer
 from auv_sim.nodes.plant_node import RemusPlantNode
 
@@ -100,7 +102,9 @@ class Nodes:
         told = {"use_sim_time": "true", **self._parameters.get(name, {})}
         if name == topics.GUIDANCE:
             told["mission"] = str(self._mission)
-        words = ["-r", f"__ns:={NAMESPACE}"]
+        # The gains that are flown by default: Table 4's do not come back to the path from everywhere.
+        params = config_files.find("params", DEFAULT_PARAMS)
+        words = ["-r", f"__ns:={NAMESPACE}", "--params-file", str(params)]
         for topic in RELAYED.values():
             if self._relayed and topic.publisher == name:
                 words += ["-r", f"{topic.name}:={raw(topic.name)}"]
