@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from auv_msgs_py import topics
 from auv_msgs_py.errors import MessageRefused
 from auv_msgs_py.health import Health
 from node_bench import Bench
@@ -52,3 +53,17 @@ def test_another_number_is_not_another_kind(told: tuple[Health, list[str]]) -> N
     assert len(lines) == 1
     health.refuse(MessageRefused("odom", "a heading 90 deg away", "at most 30 deg"))
     assert len(lines) == 2
+
+
+def test_what_comes_just_after_a_report_is_told_long_before_the_next_one_is_due(bench: Bench) -> None:
+    """The next regular report of this node would come in an hour; and a flood is not a flood of reports."""
+    bench._listen(topics.DIAGNOSTICS)
+    health = Health(bench.node, period=3600.0)
+    bench.until(lambda: health._publisher.get_subscription_count() == 1)
+    for name in ("first", "second"):
+        health.publish()
+        for _ in range(50):
+            health.refuse(late(name))
+        bench.until(lambda name=name: bench.diagnosed(f"refused: {name}"))
+    bench.spin(0.3)
+    assert len(bench.received[topics.DIAGNOSTICS.name]) < 10

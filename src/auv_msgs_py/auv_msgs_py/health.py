@@ -20,7 +20,7 @@ _OK, _WARN, _ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatu
 _MEMORY = 5.0
 #: What may differ from one refusal to the next of its kind.
 _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?")
-#: News are told at once, but for those that come sooner after a report than this, s of wall time.
+#: News are told at once, or when so much has passed since the last report, s of wall time.
 _NEWS = 0.1
 
 
@@ -57,7 +57,10 @@ class Health:
         self._publisher = node.create_publisher(
             DiagnosticArray, topics.DIAGNOSTICS.name, qos.offered(topics.DIAGNOSTICS)
         )
-        self._timer = node.create_timer(period, self._report, clock=Clock(clock_type=ClockType.STEADY_TIME))
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = node.create_timer(period, self._report, clock=steady)
+        self._kept_back = node.create_timer(_NEWS, self._tell_kept_back, clock=steady)
+        self._kept_back.cancel()
 
     @property
     def last_refusal(self) -> str:
@@ -105,6 +108,12 @@ class Health:
         """What has changed, but not more often than anybody can read; a new condition is never kept back."""
         if time.monotonic() - self._reported_at > _NEWS:
             self.publish()
+        elif self._kept_back.is_canceled():
+            self._kept_back.reset()
+
+    def _tell_kept_back(self) -> None:
+        self._kept_back.cancel()
+        self.publish()
 
     def _report(self) -> None:
         self._look()
