@@ -50,6 +50,14 @@ def test_on_a_machine_with_one_processor_the_system_decides() -> None:
     assert Processor([0]).number is None
 
 
+def test_a_node_that_has_died_meanwhile_is_left_to_who_watches_it() -> None:
+    ended = subprocess.Popen([sys.executable, "-c", ""])
+    ended.wait()
+    processor = Processor(NUMBERS)
+    processor.place({topics.GUIDANCE: ended.pid})
+    processor.release()
+
+
 @pytest.fixture
 def sleepers() -> Iterator[dict[str, int]]:
     """A recorder and a guidance with two threads each, as processes."""
