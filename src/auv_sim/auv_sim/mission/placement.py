@@ -68,7 +68,10 @@ class Processor:
 
 def _put(pid: int, processors: set[int]) -> None:
     """All threads of a process; as batch work, who is woken waits until who woke him has said everything."""
-    for task in Path("/proc").glob(f"{pid}/task/*"):
+    tasks: list[Path] = []
+    with contextlib.suppress(OSError):
+        tasks += Path(f"/proc/{pid}/task").iterdir()
+    for task in tasks:
         # What has ended meanwhile needs no place; where a container forbids it, all is slower, not different.
         with contextlib.suppress(OSError):
             os.sched_setaffinity(int(task.name), processors)
