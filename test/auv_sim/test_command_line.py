@@ -242,3 +242,15 @@ def test_a_printed_command_is_the_same_after_the_shell_has_read_it() -> None:
         "python3", "scripts/campaign.py", "it's here", "--out", "my runs/$HOME", "--current", "-0.1", "0.2",
         "--replay-run", "3", "--graph",
     ]  # fmt: skip
+
+
+def test_what_was_written_and_what_comes_next_are_told_as_they_are(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    out = command_line.console()
+    command_line.wrote(out, Path("runs/leg [/m] [bold]") / "bag", "every topic [m/s]")
+    command_line.go_on(out, "Look [red]further", "python3 scripts/bag.py report 'runs/leg [/m]'")
+    assert capsys.readouterr().out == (
+        "  runs/leg [/m] [bold]/bag  every topic [m/s]\n"
+        "\nLook [red]further:  python3 scripts/bag.py report 'runs/leg [/m]'\n"
+    )

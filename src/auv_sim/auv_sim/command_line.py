@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import NoReturn, ParamSpec
 
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from auv_msgs_py.errors import ConfigurationError, MessageRefused, SuiteError
@@ -156,6 +157,16 @@ def console(quiet: bool = False) -> Console:
     """Where tables go: as wide as the terminal; in a pipe or a file wide enough for the widest table."""
     free = not sys.stdout.isatty() and "COLUMNS" not in os.environ
     return Console(width=140 if free else None, quiet=quiet, highlight=False)
+
+
+def wrote(console: Console, path: object, what: str) -> None:
+    """Tell what was written, and what it is for; a path may look like markup."""
+    console.print(f"  {escape(str(path))}  [dim]{escape(what)}[/dim]", soft_wrap=True, highlight=False)
+
+
+def go_on(console: Console, words: str, line: str) -> None:
+    """Tell the next command, as it can be copied, and what it is for."""
+    console.print(f"\n{words}:  {line}", soft_wrap=True, highlight=False, markup=False)
 
 
 def progress_bar(console: Console, disable: bool = False) -> Progress:

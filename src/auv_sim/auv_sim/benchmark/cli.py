@@ -14,7 +14,17 @@ from auv_msgs_py.errors import ConfigurationError
 from auv_sim import pages
 from auv_sim.benchmark import graph, laws, machine, page, recording, sheets
 from auv_sim.benchmark.scale import FULL, QUICK, Scale
-from auv_sim.command_line import EXIT_DONE, Parser, command, console, make_directory, target, to_type
+from auv_sim.command_line import (
+    EXIT_DONE,
+    Parser,
+    command,
+    console,
+    go_on,
+    make_directory,
+    target,
+    to_type,
+    wrote,
+)
 
 Tick = Callable[[str], None]
 
@@ -85,12 +95,12 @@ def _measure(options: argparse.Namespace) -> int:
     sheets.show(found, out)
     if options.json is not None:
         options.json.write_text(json.dumps(figures, indent=2) + "\n", encoding="utf-8")
-        out.print(f"  {options.json}  [dim]all figures[/dim]")
+        wrote(out, options.json, "all figures")
     if options.write_docs:
         page.renew(options.page, options.images, figures, found)
-        out.print(f"  {options.page}  [dim]renewed, with {options.images / page.PICTURE}[/dim]")
+        wrote(out, options.page, f"renewed, with {options.images / page.PICTURE}")
     else:
-        out.print(f"\nMeasure everything and renew the page:  {to_type('benchmark.py', write_docs=True)}")
+        go_on(out, "Measure everything and renew the page", to_type("benchmark.py", write_docs=True))
     return EXIT_DONE
 
 

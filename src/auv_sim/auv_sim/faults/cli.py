@@ -21,6 +21,7 @@ from auv_sim.command_line import (
     EXIT_FAILED,
     Parser,
     command,
+    go_on,
     make_directory,
     positive,
     progress_bar,
@@ -78,7 +79,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     if not arguments.full and not arguments.rows:
         speed = arguments.speed if arguments.speed != SPEED else None
         again = to_type("fault_matrix.py", full=True, speed=speed)
-        console.print(f"\nAll {len(TABLE)} rows:  {again}", highlight=False)
+        go_on(console, f"All {len(TABLE)} rows", again)
     return EXIT_DONE if good == len(results) == len(rows) else EXIT_FAILED
 
 

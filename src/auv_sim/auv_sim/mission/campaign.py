@@ -31,7 +31,7 @@ from auv_sim.campaign.plan import StudyPlan
 from auv_sim.campaign.statistics import Estimate
 from auv_sim.campaign.store import RESULTS, Store
 from auv_sim.campaign.summary import TOLD, Summary, figure_label, summarise
-from auv_sim.command_line import EXIT_DONE, Parser, at_least_one, command, to_type
+from auv_sim.command_line import EXIT_DONE, Parser, at_least_one, command, go_on, to_type, wrote
 from auv_sim.command_line import console as terminal
 from auv_sim.mission import campaign_replay
 from auv_sim.pool import WorkerDied
@@ -174,9 +174,9 @@ def _show(store: Store, summary: Summary, drawn: list[Path], console: Console) -
         (store.directory / "summary.json", "the figures above, for programs"),
         *((path, "") for path in drawn),
     ):
-        console.print(f"  {escape(str(path))}  [dim]{what}[/dim]", soft_wrap=True)
+        wrote(console, path, what)
     again = to_type("campaign.py", store.directory, replay_run=summary.worst[0])
-    console.print(f"\nFly the worst run again:  {again}", soft_wrap=True, markup=False)
+    go_on(console, "Fly the worst run again", again)
 
 
 def _figures(summary: Summary) -> Table:

@@ -21,7 +21,7 @@ from auv_sim.batch import engine
 from auv_sim.campaign.plan import StudyPlan
 from auv_sim.campaign.store import RESULTS, Store
 from auv_sim.closed_loop import Scenario, start_of
-from auv_sim.command_line import EXIT_DONE, to_type
+from auv_sim.command_line import EXIT_DONE, go_on, to_type, wrote
 from auv_sim.mission import cli
 from auv_sim.parameters import ConstantCurrent, InitialPose
 from auv_sim.recording.load import load
@@ -56,12 +56,10 @@ def replay(store: Store, number: int, graph: bool, console: Console) -> int:
     flown = engine.track(scenario)
     _tell(store, number, flown, scenario, console)
     _picture(plan, number, flown, scenario, directory / "overview.png")
-    console.print(
-        f"  {escape(str(directory / 'overview.png'))}  [dim]the run in one picture[/dim]", soft_wrap=True
-    )
+    wrote(console, directory / "overview.png", "the run in one picture")
     if not graph:
         again = to_type("campaign.py", store.directory, replay_run=number, graph=True)
-        console.print(f"\nFly it over ROS 2:  {again}", soft_wrap=True, markup=False)
+        go_on(console, "Fly it over ROS 2", again)
         return EXIT_DONE
     code = cli.main([*command_line(directory / "config"), "--out", str(directory / "graph")])
     recorded = load(directory / "graph" / "bag")

@@ -14,7 +14,7 @@ from rich.table import Table
 from auv_msgs_py.errors import ConfigurationError
 from auv_sim.analysis.metrics import MissionSummary, summarise
 from auv_sim.analysis.overview import draw
-from auv_sim.command_line import to_type
+from auv_sim.command_line import go_on, to_type, wrote
 from auv_sim.mission.launcher import Outcome
 from auv_sim.mission.plan import Plan
 from auv_sim.recording.load import load
@@ -107,15 +107,8 @@ def show(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary,
         ("config", "mission, vehicle and parameters as flown"),
         ("log", "what each node said"),
     ):
-        console.print(
-            f"  {escape(str(directory / name))}  [dim]{what}[/dim]", soft_wrap=True, highlight=False
-        )
-    console.print(
-        f"\nLook further:  {to_type('bag.py', 'report', directory)}",
-        soft_wrap=True,
-        highlight=False,
-        markup=False,
-    )
+        wrote(console, directory / name, what)
+    go_on(console, "Look further", to_type("bag.py", "report", directory))
 
 
 def _number(value: float, digits: int) -> str:

@@ -24,11 +24,13 @@ from auv_sim.command_line import (
     Parser,
     at_least_one,
     command,
+    go_on,
     make_directory,
     positive,
     progress_bar,
     to_type,
     whole,
+    wrote,
 )
 from auv_sim.command_line import console as terminal
 from auv_sim.mission import noise_study, plan
@@ -116,7 +118,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         if options.page is not None:
             pages.renew(options.page, noise_study.PART, noise_study.markdown(study))
         console.print(noise_study.table(study))
-        console.print(f"  {picture}  [dim]the table as a picture[/dim]", highlight=False, soft_wrap=True)
+        wrote(console, picture, "the table as a picture")
         return EXIT_DONE
     return _trials(options, console)
 
@@ -162,10 +164,10 @@ def _trials(options: argparse.Namespace, console: Console) -> int:
         pages.renew(options.page, PART, _markdown(rows))
     console.print(_table(rows, options))
     worst = max(trials, key=lambda trial: (not trial.completed, trial.largest_distance))
-    console.print(f"  {target}  [dim]every flight[/dim]", highlight=False, soft_wrap=True)
+    wrote(console, target, "every flight")
     files = {"mission": options.mission, "vehicle": options.vehicle, "params": worst.params}
     again = to_type("mission.py", **files, sea=options.sea, seed=worst.seed)
-    console.print(f"\nThe worst one over ROS:  {again}", highlight=False, soft_wrap=True, markup=False)
+    go_on(console, "The worst one over ROS", again)
     return EXIT_DONE if all(row.within == row.flights for row in rows) else EXIT_FAILED
 
 

@@ -17,7 +17,7 @@ from rich.table import Table
 
 from auv_msgs_py import topics
 from auv_msgs_py.conversions import nanoseconds
-from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, Parser, command, make_directory, positive
+from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, Parser, command, make_directory, positive, wrote
 from auv_sim.command_line import console as terminal
 from auv_sim.mission import launcher, memory, plan
 from auv_sim.mission.domains import free_domain
@@ -163,9 +163,8 @@ def _soak(arguments: argparse.Namespace) -> int:
         "processes": [vars(one) for one in grown],
     }
     (directory / "soak.json").write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
-    console.print(
-        f"\n  {directory / 'soak.png'}  [dim]memory of each process[/dim]", soft_wrap=True, highlight=False
-    )
+    console.print()
+    wrote(console, directory / "soak.png", "memory of each process")
     good = not lost and all(one.slope <= arguments.flat for one in grown)
     return EXIT_DONE if good else EXIT_FAILED
 

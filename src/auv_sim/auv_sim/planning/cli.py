@@ -24,7 +24,7 @@ from auv_path_following.guidance.switching import as_wished
 from auv_path_following.paths import mission_file
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
-from auv_sim.command_line import EXIT_DONE, Parser, command, finite, to_type
+from auv_sim.command_line import EXIT_DONE, Parser, command, finite, go_on, to_type, wrote
 from auv_sim.parameters import SUITE
 from auv_sim.planning import chart, drawing
 from auv_sim.planning.check import Verdicts, check, refusal
@@ -86,13 +86,13 @@ def _plan(options: argparse.Namespace) -> int:
             drawing.draw(mission, verdicts, hull.name, png)
         except (OSError, ValueError) as error:  # ValueError: a suffix that is no picture
             raise ConfigurationError("--out", f"{png} ({error})", "a picture that can be written") from None
-        console.print(f"  {escape(str(png))}  [dim]the plan in one picture[/dim]")
+        wrote(console, png, "the plan in one picture")
     if options.export is not None:
         chart.export(mission, options.export)
-        console.print(f"  {escape(str(options.export))}  [dim]the path for a chart[/dim]")
+        wrote(console, options.export, "the path for a chart")
     if verdicts.refusals:
         raise refusal(mission, verdicts, "scripts/mission.py --force would fly it all the same")
-    console.print(f"\nFly it:  {_command(options)}", markup=False)
+    go_on(console, "Fly it", _command(options))
     return EXIT_DONE
 
 

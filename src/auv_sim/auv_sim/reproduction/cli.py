@@ -16,7 +16,17 @@ from rich.table import Table
 from auv_path_following import vehicle
 from auv_path_following.paths import mission_file
 from auv_sim.analysis.run import Run
-from auv_sim.command_line import Parser, at_least_one, command, make_directory, progress_bar, to_type, whole
+from auv_sim.command_line import (
+    Parser,
+    at_least_one,
+    command,
+    go_on,
+    make_directory,
+    progress_bar,
+    to_type,
+    whole,
+    wrote,
+)
 from auv_sim.command_line import console as terminal
 from auv_sim.pool import tracked
 from auv_sim.reproduction import claims_current, claims_following, corner, figures, page, starts
@@ -173,11 +183,11 @@ def _show(claims: Sequence[Claim], options: argparse.Namespace, console: Console
         ("claims.json", "the same for programs"),
         ("figure-05.png ...", "Figures 5 to 12: .png, .svg, and the data as .csv"),
     ):
-        console.print(f"  {out / name}  [dim]{what}[/dim]", highlight=False, soft_wrap=True)
+        wrote(console, out / name, what)
     changed = {name: getattr(options, name) for name in ("out", "workers")}
     changed = {name: value for name, value in changed.items() if value != usual(name)}
     again = to_type("reproduce_paper.py", study="starts", runs=20, **changed)
-    console.print(f"\nLook further:  {again}", highlight=False, soft_wrap=True, markup=False)
+    go_on(console, "Look further", again)
 
 
 def _starts(options: argparse.Namespace, console: Console) -> int:
