@@ -50,11 +50,7 @@ class SuiteNode(Node):  # type: ignore[misc]
         self._stamp: int | None = None
         super().__init__(name, **arguments)
         self._steady_to_ros = float(self.get_clock().now().nanoseconds) * 1e-9 - time.monotonic()
-        #: Called before changed parameters are accepted; a `ConfigurationError` refuses them.
-        self.try_out: Callable[[Any], object] = lambda parameters: None
-        self.parameters: Any = params.declare(
-            self, parameters, self._changed, lambda wanted: self.try_out(wanted)
-        )
+        self.parameters: Any = params.declare(self, parameters, self._changed, self.try_out)
         self.publishers_by_topic: dict[Topic, Publisher] = {}
         self.fault = ""
         self.finished = False
@@ -80,6 +76,9 @@ class SuiteNode(Node):  # type: ignore[misc]
 
     def configure(self) -> None:
         """Called after `self.parameters` was changed in flight."""
+
+    def try_out(self, wanted: Any) -> None:
+        """Called before parameters are changed in flight; a `ConfigurationError` refuses them."""
 
     def _changed(self, parameters: Any) -> None:
         self.parameters = parameters

@@ -24,6 +24,7 @@ from auv_path_following.nodes.odometry_intake import OdometryIntake
 from auv_path_following.parameters import AutopilotParameters
 
 _REFERENCES = (topics.DESIRED_YAW, topics.DESIRED_YAW_RATE, topics.DESIRED_THRUST)
+_STOPPED = "rudder and thrust are 0"
 _STATES = tuple(state.value for state in State)
 
 
@@ -38,10 +39,9 @@ class HeadingAutopilotNode(SuiteNode):
         super().__init__(topics.AUTOPILOT, AutopilotParameters, **arguments)
         hull = vehicle.load(self.parameters.vehicle)
         self.autopilot = HeadingAutopilot(hull, self.parameters.autopilot)
-        self.try_out = lambda wanted: HeadingAutopilot(hull, wanted.autopilot)  # raises where that cannot be
         #: What no guidance asks for: more than a turn, a whirl, a multiple of the thrust there is.
         self._largest = dict(zip(_REFERENCES, (6.5, 10.0, 10.0 * hull.thrust_max), strict=True))
-        self._intake = OdometryIntake(self, "rudder and thrust are 0")
+        self._intake = OdometryIntake(self, _STOPPED)
         self._pairing = Pairing(
             (topics.ODOM.name, *(topic.name for topic in _REFERENCES)), strict=self.parameters.lockstep
         )
@@ -58,6 +58,9 @@ class HeadingAutopilotNode(SuiteNode):
         self.listen(topics.MISSION_STATE, self._on_mission_state)
         if not self.parameters.lockstep:
             self.every(0.1, self._watch)
+
+    def try_out(self, wanted: AutopilotParameters) -> None:
+        HeadingAutopilot(self.autopilot.vehicle, wanted.autopilot)  # raises where that cannot be
 
     def configure(self) -> None:
         self.autopilot.configure(self.parameters.autopilot)
@@ -126,11 +129,10 @@ class HeadingAutopilotNode(SuiteNode):
         if self.parameters.lockstep:
             return references.newest
         reference = references.allowed(self.now(), self._mission, self.parameters.reference_timeout)
-        stop = "rudder and thrust are 0"
-        silent = f"guidance is silent (no {self._missing}): {stop}" if references.silent else ""
+        silent = f"guidance is silent (no {self._missing}): {_STOPPED}" if references.silent else ""
         self.health.error("guidance", silent)
         odd = references.contradiction
-        self.health.error("interlock", f"{topics.DESIRED_THRUST.name} {odd}: {stop}" if odd else "")
+        self.health.error("interlock", f"{topics.DESIRED_THRUST.name} {odd}: {_STOPPED}" if odd else "")
         return reference
 
     def _watch(self) -> None:
@@ -138,14 +140,16 @@ class HeadingAutopilotNode(SuiteNode):
         if self._intake.silent:
             self.autopilot.reset()
             self._pairing.clear()
-            self._command = STOP
-            self._publish()
+            self._stop()
 
     def close(self) -> None:
         """Whoever stops the autopilot stops the vehicle."""
         if not self.parameters.lockstep:
-            self._command = STOP
-            self._publish()
+            self._stop()
+
+    def _stop(self) -> None:
+        self._command = STOP
+        self._publish()
 
     def _publish(self) -> None:
         command: Command = self._command
