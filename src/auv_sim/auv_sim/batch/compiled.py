@@ -6,6 +6,7 @@ import hashlib
 import os
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from types import ModuleType
 from typing import Any, TypeVar
 
 import auv_msgs_py
@@ -23,12 +24,12 @@ except ImportError:
 
 #: Where the functions are that end up in compiled code: (package, folder).
 _COMPILED_FROM = (
-    (auv_msgs_py, "."),
-    (auv_path_following, "control"),
-    (auv_path_following, "guidance"),
-    (auv_path_following, "paths"),
-    (auv_sim, "plant"),
-    (auv_sim, "batch"),
+    (auv_msgs_py, "*.py"),
+    (auv_path_following, "control/*.py"),
+    (auv_path_following, "guidance/*.py"),
+    (auv_path_following, "paths/*.py"),
+    (auv_sim, "plant/*.py"),
+    (auv_sim, "batch/*.py"),
 )
 
 #: Whether the engine is compiled; otherwise a flight takes about as long as one of `closed_loop`.
@@ -49,6 +50,15 @@ def part(function: F) -> F:
     return function
 
 
+def files_of(sources: Iterable[tuple[ModuleType, str]]) -> list[Path]:
+    """The files of packages that match a pattern, in order."""
+    return [
+        path
+        for package, pattern in sources
+        for path in sorted(Path(str(package.__file__)).parent.glob(pattern))
+    ]
+
+
 def digest_of(files: Iterable[Path]) -> str:
     """Names what stands in these files."""
     digest = hashlib.sha256()
@@ -57,13 +67,8 @@ def digest_of(files: Iterable[Path]) -> str:
     return digest.hexdigest()[:16]
 
 
-def _laws_digest() -> str:
-    folders = [Path(str(package.__file__)).parent / folder for package, folder in _COMPILED_FROM]
-    return digest_of(path for folder in folders for path in sorted(folder.glob("*.py")))
-
-
 if COMPILED:
     # Numba looks at the file of the compiled function only, not at the others whose functions it calls: so
     # the compiled code of every version of the laws gets a folder of its own.
     _BASE = os.environ.get("NUMBA_CACHE_DIR") or Path("~/.cache/auv_sim").expanduser()
-    numba.config.CACHE_DIR = str(Path(_BASE) / _laws_digest())
+    numba.config.CACHE_DIR = str(Path(_BASE) / digest_of(files_of(_COMPILED_FROM)))

@@ -35,7 +35,7 @@ class Measured(Children):
 
     def usage(self) -> dict[str, Usage]:
         """What each has used so far."""
-        return {child.name: usage(child.process.pid) for child in self}
+        return {name: usage(pid) for name, pid in self.ids.items()}
 
     def until(self, condition: Callable[[], bool], look: Callable[[], None], patience: float) -> None:
         """Look again and again until the condition holds.

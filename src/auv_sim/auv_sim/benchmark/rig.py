@@ -186,7 +186,7 @@ def observe(start: Callable[[Path, Measured], set[str]], seconds: float, placed:
             led = next(child for child in children if child.name in (topics.PLANT, COMPOSED))
             until(lambda: MARK in led.log.read_text(encoding="utf-8"))
             took, after = time.perf_counter() - begin, children.usage()
-            occupied = {child.name: memory(child.process.pid) for child in children}
+            occupied = {name: memory(pid) for name, pid in children.ids.items()}
         finally:
             monitor.close()
             processor.release()

@@ -8,7 +8,7 @@ from pathlib import Path
 import auv_msgs_py
 import auv_path_following
 import auv_sim
-from auv_sim.batch.compiled import digest_of
+from auv_sim.batch.compiled import digest_of, files_of
 
 #: All that a run passes through, from the study's file to its row: more than what is compiled.
 _FLOWN_BY = (
@@ -29,11 +29,7 @@ _FLOWN_BY = (
 
 def files() -> list[Path]:
     """The files of that code, in order."""
-    return [
-        path
-        for package, pattern in _FLOWN_BY
-        for path in sorted(Path(str(package.__file__)).parent.glob(pattern))
-    ]
+    return files_of(_FLOWN_BY)
 
 
 @functools.cache

@@ -82,7 +82,8 @@ def fly(plan: Plan, directory: Path, domain: int, progress: Progress) -> Outcome
     os.environ.update(environment)
     interrupt = StopRequest()
     children = Children(directory / "log", environment)
-    processor = Processor(None if plan.lockstep and not plan.options.any_processor else ())
+    separate = plan.lockstep and not plan.options.composed
+    processor = Processor(None if separate and not plan.options.any_processor else ())
     try:
         _start_nodes(plan, children, plan.write(directory / "config"))
         # Only now: a process with DDS threads must not fork.
@@ -139,8 +140,7 @@ class _Flight:
         begin = time.monotonic()
         if not self._all_listening() or not self._vehicle_there():
             return Outcome("interrupted", "stopped before the mission began", time.monotonic() - begin, 0.0)
-        if not self._plan.options.composed:
-            self._processor.place(self._children.ids)
+        self._processor.place(self._children.ids)
         refused = self._monitor.start()
         if refused:
             raise MissionFailed(f"the mission could not be started: {refused}")

@@ -10,7 +10,11 @@ def of_children(pid: int) -> dict[str, int]:
     """Resident memory (kB) of each direct child that runs a module: last part of the module's name -> kB."""
     found: dict[str, int] = {}
     for task in Path(f"/proc/{pid}/task").glob("*/children"):
-        for child in task.read_text().split():
+        try:
+            children = task.read_text().split()
+        except OSError:  # the thread has just ended
+            continue
+        for child in children:
             try:
                 words = Path(f"/proc/{child}/cmdline").read_bytes().decode().split("\0")
                 status = Path(f"/proc/{child}/status").read_text()
