@@ -128,7 +128,9 @@ def _fly_chunks(store: Store, chunks: list[range], options: argparse.Namespace, 
     if not chunks:
         return
     if not COMPILED:
-        console.print("[yellow]Numba is not installed: this takes some thirty times as long[/yellow]")
+        console.print(
+            "[yellow]Numba is not installed: this takes many times as long, see docs/performance.md[/yellow]"
+        )
     else:
         with console.status("compiling the laws (once for each version of them)"):
             engine.compile_once()
