@@ -103,14 +103,19 @@ def texts_of(bag: Bag) -> dict[str, str]:
 
 @contextlib.contextmanager
 def configuration(bag: Bag) -> Iterator[Path]:
-    """A directory with the configuration's files, for as long as it is needed."""
+    """A directory with the configuration's files, for as long as it is needed.
+
+    A name in a recording is not trusted: one that leads out of the directory, or that no file can have,
+    is left out.
+    """
     with tempfile.TemporaryDirectory(prefix="auv-bag-") as name:
-        directory = Path(name)
+        directory = Path(name).resolve()
         for file, text in texts_of(bag).items():
-            place = (directory / file).resolve()
-            if place.is_relative_to(directory.resolve()):  # a recording is not to be trusted with a path
-                place.parent.mkdir(parents=True, exist_ok=True)
-                place.write_text(text, encoding="utf-8")
+            with contextlib.suppress(OSError, ValueError):
+                place = (directory / file).resolve()
+                if place.is_relative_to(directory):
+                    place.parent.mkdir(parents=True, exist_ok=True)
+                    place.write_text(text, encoding="utf-8")
         yield directory
 
 

@@ -20,7 +20,8 @@ from auv_sim.bags.events import Event, events_of
 from auv_sim.bags.flight import Flight, flight_of
 from auv_sim.bags.topic_facts import TopicFacts, facts_of
 from auv_sim.command_line import console as terminal
-from auv_sim.recording.bag import Bag, read_bag, storage_of
+from auv_sim.recording.bag import Bag, read_bag
+from auv_sim.recording.bag_files import storage_of
 from auv_sim.recording.metadata import METADATA_FILE
 
 #: Larger messages are images or point clouds of somebody else: their sizes are enough.

@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
-import yaml
 from mcap.records import Attachment, Channel, Metadata, Schema
 
 from auv_msgs_py.errors import ConfigurationError
+from auv_sim.recording.bag_files import A_BAG, files_of, information_of, storage_of
 from auv_sim.recording.bag_writer import TEXTS
 from auv_sim.recording.mcap_scan import scan
 from auv_sim.recording.metadata import METADATA_FILE
 
-_BAG = "a rosbag2 directory with storage files and metadata.yaml"
-#: The note of a recording that lacks this file and nothing else.
-NO_METADATA = f"no {METADATA_FILE} (the recording was not closed)"
 #: The metadata record in which rosbag2 repeats metadata.yaml.
 _REPEATED = "rosbag2"
 
@@ -130,25 +125,6 @@ def everything(_: str, __: str) -> bool:
     return True
 
 
-def storage_of(path: Path) -> Path:
-    """The bag that a person means: a run directory stands for the bag in it.
-
-    Raises:
-        ConfigurationError: there is nothing.
-    """
-    if not path.exists():
-        raise ConfigurationError(str(path), "nothing", _BAG)
-    inside = path / "bag"
-    if (
-        path.is_dir()
-        and inside.is_dir()
-        and not (path / METADATA_FILE).exists()
-        and not any(path.glob("*.mcap"))
-    ):
-        return inside
-    return path
-
-
 def read_bag(path: Path, wanted: Wanted = everything) -> Bag:
     """Read a recording, with everything that is readable in a damaged one.
 
@@ -161,12 +137,12 @@ def read_bag(path: Path, wanted: Wanted = everything) -> Bag:
     """
     path = storage_of(path)
     bag = Bag(path)
-    information = _information(path, bag) if path.is_dir() else {}
-    files = _files(path, information, bag)
+    information = information_of(path, bag.notes) if path.is_dir() else {}
+    files = files_of(path, information, bag.notes)
     packed = information.get("compression_mode") or ""
     if not files:
         found = f"no {METADATA_FILE}" if path.is_dir() and not information else "no storage files"
-        raise ConfigurationError(str(path), found, _BAG)
+        raise ConfigurationError(str(path), found, A_BAG)
     if packed or any(file.suffix != ".mcap" for file in files):
         from auv_sim.recording.foreign import read_foreign
 
@@ -187,50 +163,11 @@ def read_bag(path: Path, wanted: Wanted = everything) -> Bag:
     return bag
 
 
-def _information(path: Path, bag: Bag) -> dict[str, Any]:
-    file = path / METADATA_FILE
-    if not file.exists():
-        if any(path.glob("*.mcap")):
-            bag.notes.append(NO_METADATA)
-        return {}
-    try:
-        content = yaml.safe_load(file.read_text(encoding="utf-8"))["rosbag2_bagfile_information"]
-        if not isinstance(content, dict):
-            raise TypeError
-    except (OSError, ValueError, yaml.YAMLError, KeyError, TypeError):
-        bag.notes.append(f"{METADATA_FILE} is damaged")
-        return {}
-    return content
-
-
-def _files(path: Path, information: dict[str, Any], bag: Bag) -> list[Path]:
-    if path.is_file():
-        return [path]
-    names = information.get("relative_file_paths") or []
-    listed = [path / str(name) for name in names] if isinstance(names, list) else []
-    missing = [file.name for file in listed if not file.exists()]
-    bag.notes += [f"{name} is missing" for name in missing]
-    found = [file for file in listed if file.exists()]
-    for pattern in ("*.mcap", "*.db3", "*.bag"):
-        others = [file for file in sorted(path.glob(pattern), key=_number) if file not in found]
-        if others and listed and not missing:
-            bag.notes += [f"{file.name} is not in {METADATA_FILE}" for file in others]
-        found += others
-        if found:
-            break
-    return found
-
-
 def _alike(a: Channel, a_schema: Schema | None, b: Channel, b_schema: Schema | None) -> bool:
     """Whether two channels of one name hold the same kind of message."""
     if a.message_encoding != b.message_encoding or (a_schema is None) != (b_schema is None):
         return False
     return a_schema is None or (a_schema.name, a_schema.encoding) == (b_schema.name, b_schema.encoding)  # type: ignore[union-attr]
-
-
-def _number(file: Path) -> tuple[int, str]:
-    digits = re.search(r"(\d+)$", file.stem)
-    return (int(digits[1]) if digits else -1, file.name)
 
 
 def _read_file(bag: Bag, file: Path, wanted: Wanted) -> None:

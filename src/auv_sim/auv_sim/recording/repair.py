@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import shutil
+import tempfile
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +14,8 @@ from rosbags.interfaces import Qos
 from rosbags.rosbag2.metadata import parse_qos
 
 from auv_msgs_py.errors import ConfigurationError
-from auv_sim.recording.bag import NO_METADATA, Bag, RecordedTopic, read_bag
+from auv_sim.recording.bag import Bag, RecordedTopic, read_bag
+from auv_sim.recording.bag_files import NO_METADATA
 from auv_sim.recording.bag_writer import TEXTS, BagWriter, Channel
 from auv_sim.recording.definitions import Definition
 from auv_sim.recording.mcap_scan import NOT_CLOSED, scan
@@ -64,23 +67,31 @@ def repair(path: Path, out: Path | None = None, compression: str = "zstd") -> Re
         if target.exists():
             raise ConfigurationError(str(target), "something with this name", "--out DIRECTORY")
         return _written(bag, target, compression)
-    draft = directory.with_name(f"{directory.name}.repairing")
-    shutil.rmtree(draft, ignore_errors=True)
-    done = _written(bag, draft, compression, directory.name)
-    return Repaired(directory, done.messages, done.notes, _replace(bag, directory, draft, done.notes))
+    try:
+        with tempfile.TemporaryDirectory(prefix=".repairing-", dir=directory) as draft:
+            done = _written(bag, Path(draft) / "bag", compression, directory.resolve().name)
+            kept = _replace(bag, directory, done)
+    except OSError as error:
+        raise ConfigurationError(str(directory), f"{error.strerror}", "a place to write to") from None
+    return Repaired(directory, done.messages, done.notes, kept)
 
 
-def _replace(bag: Bag, directory: Path, draft: Path, notes: list[str]) -> list[Path]:
-    """Put the new files in the place of the old ones; a crash in between leaves both."""
-    kept = []
+def _replace(bag: Bag, directory: Path, done: Repaired) -> list[Path]:
+    """Put the new files in the place of the old ones; a crash in between leaves both.
+
+    Nothing but the recording's own files is renamed or deleted, and nothing is written over.
+    """
     told = [directory / METADATA_FILE] if (directory / METADATA_FILE).exists() else []
-    for old in (*bag.files, *told):
-        kept.append(old.replace(_aside(old)))
-    for new in sorted(draft.iterdir()):
+    old_files, new_files = [*bag.files, *told], sorted(done.directory.iterdir())
+    for new in new_files:
+        place = directory / new.name
+        if os.path.lexists(place) and place not in old_files:
+            raise ConfigurationError(str(place), "something with this name", "--out DIRECTORY")
+    kept = [old.replace(_aside(old)) for old in old_files]
+    for new in new_files:
         new.replace(directory / new.name)
-    draft.rmdir()
     # Only what lacks nothing but its end is in the new one to the last byte.
-    if all(note.endswith((NOT_CLOSED, NO_METADATA)) for note in notes):
+    if all(note.endswith((NOT_CLOSED, NO_METADATA)) for note in done.notes):
         for old in kept:
             old.unlink()
         return []
@@ -90,7 +101,7 @@ def _replace(bag: Bag, directory: Path, draft: Path, notes: list[str]) -> list[P
 def _aside(old: Path) -> Path:
     """A name for the old file that nothing else has."""
     name, number = old.with_name(old.name + KEPT), 1
-    while name.exists():
+    while os.path.lexists(name):
         number += 1
         name = old.with_name(f"{old.name}{KEPT}-{number}")
     return name
