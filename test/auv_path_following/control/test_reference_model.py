@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from auv_msgs_py.angles import wrap
 from auv_path_following import vehicle
-from auv_path_following.control.hull_model import HullModel
+from auv_path_following.control.hull_model import tightest_turn
 from auv_path_following.control.reference_model import ReferenceConfig, ReferenceModel, limits_of
 
 REMUS = vehicle.load("remus100")
@@ -95,6 +95,6 @@ def test_given_limits_are_taken_and_others_follow_from_hull_and_rudder():
     slow, fast = (limits_of(CONFIG, REMUS, share * RATE) for share in (0.5, 1.0))
     assert fast.jerk == pytest.approx(2.0 * slow.jerk)
     assert fast.acceleration == pytest.approx(2.0 * slow.acceleration)
-    assert slow.rate < fast.rate <= HullModel(REMUS).steady_turn(HullModel(REMUS).cruise(REMUS.thrust_max))
+    assert slow.rate < fast.rate <= tightest_turn(REMUS).rate
     weak = limits_of(CONFIG, vehicle.load("remus100_mismatch"), RATE)
     assert weak.jerk < fast.jerk

@@ -1,10 +1,51 @@
-"""What a controller may know of the hull: yaw and sway of Eqs. (18), (19), and what the rudder does."""
+"""A controller's model of the hull: Eqs. (18), (19), the rudder's effect, the steady turn."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from typing import NamedTuple
 
+from auv_msgs_py.errors import ConfigurationError
 from auv_path_following.vehicle import Vehicle
+
+
+class SteadyTurn(NamedTuple):
+    """A steady turn with full rudder.
+
+    Attributes:
+        radius: of the vehicle's track, m.
+        speed: through the water on it, m/s; of a measured turn the speed straight ahead, an upper bound.
+        source: "measured" or "found from the hull".
+    """
+
+    radius: float
+    speed: float
+    source: str
+
+    @property
+    def rate(self) -> float:
+        """Yaw rate, rad/s."""
+        return self.speed / self.radius
+
+
+def tightest_turn(vehicle: Vehicle, thrust: float | None = None) -> SteadyTurn:
+    """Return the vehicle's tightest steady turn; a radius measured and given in its file takes precedence.
+
+    The radius does not depend on the thrust: all forces of Eq. (19) grow with the square of the speeds, so a
+    turn at another thrust is the same turn at another speed.
+
+    Args:
+        vehicle: the vehicle; a file without a hull has a measured radius and speed.
+        thrust: N; the largest if None.
+
+    Raises:
+        ConfigurationError: no turn of the hull is steady, and none was measured.
+    """
+    thrust = vehicle.thrust_max if thrust is None else thrust
+    if vehicle.turning is None:
+        return HullModel(vehicle).steady_turn(thrust)
+    return SteadyTurn(vehicle.turning.radius, vehicle.speed_at(thrust), "measured")
 
 
 class HullModel:
@@ -22,6 +63,7 @@ class HullModel:
         self.inv_vr = h.Yrd / determinant
         self.inv_rv = h.Nvd / determinant
         self.inv_rr = (h.m - h.Yvd) / determinant
+        self.Xvr = h.Xvr + (h.m if h.surge_coupling else 0.0)
 
     def cruise(self, thrust: float) -> float:
         """Speed at which drag balances `thrust` (N), sqrt(XT / |Xuu|), m/s."""
@@ -43,15 +85,55 @@ class HullModel:
             (self.inv_rv * h.Yuud + self.inv_rr * h.Nuud) * square,
         )
 
-    def steady_turn(self, ur: float) -> float:
-        """Rate of a steady turn under full rudder at `ur`, sway left out, rad/s.
+    def steady_turn(self, thrust: float) -> SteadyTurn:
+        """Return the turn under full rudder in which all forces of Eq. (19) balance, sway and drag included.
 
-        The positive root of |Nrr| r^2 + |Nur| ur r = |Nuud| ur^2 max_angle.
+        With n = vr/ur and p = r/ur the sway row gives the drift n for any p, the yaw row then p, and the
+        surge row the speed that is left.
+
+        Args:
+            thrust: N, greater than 0.
+
+        Raises:
+            ConfigurationError: there is no such balance.
         """
         h = self.hull
-        a, b = -h.Nrr, max(-h.Nur * ur, 0.0)
-        c = -h.Nuud * ur * ur * self.vehicle.rudder.max_angle
-        return (math.sqrt(b * b + 4.0 * a * c) - b) / (2.0 * a)
+        p = _first_root(lambda p: self._unbalanced(p)[1])
+        n = self._unbalanced(p)[0]
+        drag = -h.Xuu - self.Xvr * n * p - h.Xrr * p * p
+        if not drag > 0.0:  # NaN is no balance either
+            raise ConfigurationError(
+                f"{self.vehicle.name}: hull",
+                "no steady turn with full rudder",
+                "a measured radius: turning: {radius: ...}",
+            )
+        speed = math.sqrt(thrust / drag) * math.hypot(1.0, n)
+        return SteadyTurn(math.hypot(1.0, n) / p, speed, "found from the hull")
+
+    def _unbalanced(self, p: float) -> tuple[float, float]:
+        """Drift n = vr/ur in a turn to starboard with p = r/ur (rad/m), and SN/ur^2 that is left (kg)."""
+        h, rudder = self.hull, -self.vehicle.rudder.max_angle
+        SY = h.Yrr * p * p + (h.Yur - h.m) * p + h.Yuud * rudder
+        # Of the roots of Yvv n|n| + Yuv n + SY = 0 the outer one is where drag brakes the drift.
+        size = (h.Yuv + math.sqrt(h.Yuv * h.Yuv - 4.0 * h.Yvv * abs(SY))) / (-2.0 * h.Yvv)
+        n = math.copysign(size, SY)
+        return n, h.Nvv * n * abs(n) + h.Nrr * p * p + h.Nur * p + h.Nuv * n + h.Nuud * rudder
+
+
+def _first_root(f: Callable[[float], float], step: float = 0.01, largest: float = 100.0) -> float:
+    """Return the smallest positive root of a function that is positive at 0; NaN where there is none."""
+    x = 0.0
+    if not f(x) > 0.0:
+        return math.nan
+    while f(x + step) > 0.0:
+        x += step
+        if x > largest:
+            return math.nan
+    low, high = x, x + step
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if f(middle) > 0.0 else (low, middle)
+    return low
 
 
 class SwayEstimate:

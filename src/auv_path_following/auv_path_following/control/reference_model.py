@@ -14,7 +14,7 @@ from typing import NamedTuple
 from auv_msgs_py.angles import wrap
 from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.settings import setting, settings
-from auv_path_following.control.hull_model import HullModel
+from auv_path_following.control.hull_model import HullModel, tightest_turn
 from auv_path_following.vehicle import Vehicle
 
 
@@ -98,7 +98,7 @@ def limits_of(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> 
     speed = model.cruise(vehicle.thrust_max)
     jerk = config.max_jerk or JERK_SHARE * abs(model.rudder_gain(speed)[1]) * rudder_rate
     acceleration = config.max_acceleration or BUILD_UP * jerk
-    rate = config.max_rate or min(acceleration / config.bandwidth, model.steady_turn(speed))
+    rate = config.max_rate or min(acceleration / config.bandwidth, tightest_turn(vehicle).rate)
     return Limits(rate, acceleration, jerk)
 
 

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.types import NO_CURRENT, Current
+from auv_path_following.control.hull_model import SteadyTurn, tightest_turn
 from auv_path_following.guidance.ailos import AilosConfig
 from auv_path_following.guidance.limits import inside
 from auv_path_following.guidance.path_follower import PathFollowerConfig
@@ -20,7 +21,6 @@ from auv_path_following.paths.mission_file import Mission
 from auv_path_following.paths.outline import look, tightest
 from auv_path_following.vehicle import Vehicle
 from auv_sim.planning.crossings import crossings
-from auv_sim.plant.turning import SteadyTurn, tightest_turn
 
 Array = npt.NDArray[np.float64]
 
