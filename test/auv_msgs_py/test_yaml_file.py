@@ -89,7 +89,7 @@ def test_what_is_not_yaml_is_told_with_line_and_column(parsed, tmp_path, text, s
 def test_files_that_cannot_be_read(tmp_path):
     with pytest.raises(ConfigurationError, match="no such file"):
         yaml_file.parse(tmp_path / "missing.yaml")
-    with pytest.raises(ConfigurationError, match="cannot be read"):
+    with pytest.raises(ConfigurationError, match="found a directory, expected a YAML file"):
         yaml_file.parse(tmp_path)
     binary = tmp_path / "binary.yaml"
     binary.write_bytes(b"a: \xff\xfe")
@@ -106,6 +106,71 @@ def test_an_empty_file_is_told_so(parsed, tmp_path, text):
 
 def test_anchors_are_shared_and_merged(parsed):
     assert parsed("a: &a {x: 1}\nb: {<<: *a, y: 2}\n") == {"a": {"x": 1}, "b": {"x": 1, "y": 2}}
+
+
+#: What a hostile file holds -> the reason for its refusal.
+HOSTILE = {
+    "a: " + "[" * 100_000: "more than 64 lists and mappings inside each other",
+    "{a: " * 100_000: "more than 64 lists and mappings inside each other",
+    "- " * 100_000: "more than 64 lists and mappings inside each other",
+    "a: !!int x": "the tag 'tag:yaml.org,2002:int' on 'x'",
+    "a: !!timestamp 2": "the tag 'tag:yaml.org,2002:timestamp' on '2'",
+    "a: !!binary =": "the tag 'tag:yaml.org,2002:binary' on '='",
+    "a: !!set {x}": "the tag 'tag:yaml.org,2002:set'",
+    "a: " + "1" * 5000: "a number of 5000 characters",
+    "a: 0." + "1" * 5000: "a number of 5002 characters",
+    'name: "a\\0b"': "the control character U+0000 in a text",
+    'name: "\\e[2J"': "the control character U+001B in a text",
+    "a: &a [*a]": "the alias 'a' without its anchor before it",
+    "a: *b": "the alias 'b' without its anchor before it",
+    "a: {<<: 3}": "<< with something other than mappings",
+    "a: 1\n---\nb: 2": "a second document",
+    "[" + "a," * 300_000: "more than 200000 values, aliases expanded",
+    "a0: &a0 [x, x]\n" + "".join(f"a{k}: &a{k} [*a{k - 1}, *a{k - 1}]\n" for k in range(1, 60)): "more than",
+    "a0: &a0 {x: 1}\n"
+    + "".join(f"a{k}: &a{k} {{<<: [*a{k - 1}, *a{k - 1}]}}\n" for k in range(1, 60)): "more than",
+    f"a: &a {'x' * 100_000}\nb: [" + "*a, " * 1000 + "]": "more than 200000 values, aliases expanded",
+}
+
+
+@pytest.mark.parametrize("text", HOSTILE, ids=lambda text: text[:20])
+def test_what_would_exhaust_the_machine_is_refused_with_its_place(parsed, text):
+    with pytest.raises(ConfigurationError) as caught:
+        parsed(text)
+    message = str(caught.value)
+    assert f"found text that cannot be read ({HOSTILE[text]}" in message
+    assert "f.yaml: line " in message
+    assert message.isprintable()
+
+
+def test_a_file_that_is_too_large_is_not_parsed(tmp_path):
+    path = tmp_path / "f.yaml"
+    path.write_bytes(b"#" * (yaml_file.MOST_BYTES + 1))
+    with pytest.raises(
+        ConfigurationError, match="found 4,000,001 bytes, expected a file of at most 4,000,000 bytes"
+    ):
+        yaml_file.parse(path)
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("!!str 1", "1"),
+        ("!!float 1", 1.0),
+        ("!!int 1", 1),
+        ("!!bool true", True),
+        ("!!null ~", None),
+    ],
+)
+def test_tags_of_the_core_schema_are_read(parsed, text, value):
+    found = parsed(f"a: {text}")["a"]
+    assert found == value
+    assert type(found) is type(value)
+
+
+def test_a_merged_key_yields_to_an_own_one_and_to_an_earlier_one(parsed):
+    text = "a: &a {x: 1, y: 1}\nb: &b {x: 2, z: 2}\nc: {z: 3, <<: [*a, *b]}\n"
+    assert parsed(text)["c"] == {"x": 1, "y": 1, "z": 3}
 
 
 _text = st.text(st.characters(codec="utf-8", exclude_categories=("C", "Zl", "Zp")), max_size=12)

@@ -2,9 +2,34 @@
 
 from __future__ import annotations
 
+#: A place or a finding longer than this is printed without its middle, characters.
+_LONGEST = 400
+
+
+def printable(text: str) -> str:
+    """Return text from a file or a message as one line that is safe to print.
+
+    Control characters (terminal escapes among them), line ends and invisible characters are spelled out
+    (``\\x1b``).
+    """
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
+
+
+def shortened(text: str, longest: int = _LONGEST) -> str:
+    """Leave out the middle of a text that is longer than `longest` characters."""
+    if len(text) <= longest:
+        return text
+    end = (longest - 3) // 2
+    return f"{text[:end]}...{text[-end:]}"
+
 
 class SuiteError(Exception):
-    """Base of every error that is the fault of an input, never of the suite."""
+    """Base of every error that is the fault of an input, never of the suite; prints as one safe line."""
+
+    def __str__(self) -> str:
+        return printable(super().__str__())
 
 
 class ConfigurationError(SuiteError):
@@ -17,7 +42,7 @@ class ConfigurationError(SuiteError):
     """
 
     def __init__(self, where: str, found: str, expected: str) -> None:
-        super().__init__(f"{where}: found {found}, expected {expected}")
+        super().__init__(f"{shortened(where)}: found {shortened(found)}, expected {expected}")
         self.where = where
         self.found = found
         self.expected = expected
@@ -33,7 +58,7 @@ class MessageRefused(SuiteError):
     """
 
     def __init__(self, topic: str, found: str, expected: str) -> None:
-        super().__init__(f"{topic}: found {found}, expected {expected}")
+        super().__init__(f"{shortened(topic)}: found {shortened(found)}, expected {expected}")
         self.topic = topic
         self.found = found
         self.expected = expected

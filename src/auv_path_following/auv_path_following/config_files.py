@@ -6,6 +6,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Literal
 
+from auv_msgs_py import user_files
 from auv_msgs_py.errors import ConfigurationError
 
 Kind = Literal["missions", "vehicles", "params", "seas", "studies"]
@@ -35,13 +36,14 @@ def find(kind: Kind, name_or_path: str) -> Path:
     Raises:
         ConfigurationError: neither; it lists the shipped names.
     """
-    path = Path(name_or_path).expanduser()
-    if path.is_file():
+    path = user_files.from_home(name_or_path)
+    exists = user_files.exists(path)
+    if exists and not path.is_dir():
         return path
     files = shipped(kind)
     name = name_or_path.removesuffix(".yaml")
     if name in files:
         return files[name]
     word = _WORD[kind]
-    found = f"no {word} file there" if path.exists() else f"no such {word} file"
+    found = f"no {word} file there" if exists else f"no such {word} file"
     raise ConfigurationError(name_or_path or "''", found, f"a path, or a shipped name: {', '.join(files)}")

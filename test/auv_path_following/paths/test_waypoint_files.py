@@ -120,6 +120,21 @@ WRONG = {
         "item 1 without a position",
     ),
     "missing.csv": (None, "no such file"),
+    "digits.geojson": (
+        json.dumps({"type": "LineString", "coordinates": [[10**400, 1], [1, 1]]}),
+        "coordinates that are not numbers",
+    ),
+    "wide.csv": ("lat,lon\n1,2\n" + "1" * 200_000 + ",3\n", "not CSV (field larger than field limit"),
+    "digits.plan": (
+        json.dumps({"mission": {"items": [_item(16, (10**400, 1))]}}),
+        "item 1 without a position",
+    ),
+    "null.plan": (
+        json.dumps({"mission": {"items": [{"TransectStyleComplexItem": {"Items": None}}]}}),
+        "no waypoints",
+    ),
+    "deep.json": ("[" * 100_000, "not JSON"),
+    "pointer.csv": ("version https://git-lfs.github.com/spec/v1\noid sha256:0\n", "a Git LFS pointer"),
 }
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 from xml.etree import ElementTree
 
+from auv_msgs_py import user_files
 from auv_msgs_py.errors import ConfigurationError
 
 Point = tuple[float, float]
@@ -45,13 +46,7 @@ def read(path: Path) -> Waypoints:
     reader = _READERS.get(path.suffix.lower())
     if reader is None:
         raise ConfigurationError(str(path), f"the suffix '{path.suffix}'", f"one of {', '.join(_READERS)}")
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise ConfigurationError(str(path), "no such file", "a file with waypoints") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise ConfigurationError(str(path), f"a file that cannot be read ({error})", "a text file") from None
-    found = reader(path, text)
+    found = reader(path, user_files.read_text(path, "a file with waypoints"))
     for number, point in enumerate(found.points, start=1):
         if not all(map(math.isfinite, point)):
             raise ConfigurationError(str(path), f"point {number} is {point}", "finite numbers")
@@ -89,7 +84,7 @@ def _geojson(path: Path, text: str) -> Waypoints:
                     [_lat_lon(c) for c in (shapes[0][0] if kind == "Polygon" else shapes[0])], kind
                 )
         return Waypoints([_lat_lon(s["coordinates"]) for s in geometries if s.get("type") == "Point"], True)
-    except (KeyError, IndexError, TypeError, ValueError):
+    except (KeyError, IndexError, TypeError, ValueError, OverflowError):
         raise _wrong(
             path, "coordinates that are not numbers", "[longitude, latitude] as GeoJSON has it"
         ) from None
@@ -157,7 +152,7 @@ def _plan(path: Path, text: str) -> Waypoints:
                 )
             try:
                 points.append((float(item["params"][4]), float(item["params"][5])))
-            except (KeyError, IndexError, TypeError, ValueError):
+            except (KeyError, IndexError, TypeError, ValueError, OverflowError):
                 raise _wrong(path, f"item {number} without a position", "latitude and longitude") from None
         elif not isinstance(command, int) or command <= _LAST_NAVIGATION or command in _MOVING:
             raise _wrong(path, f"item {number} with command {command}", "waypoints only (commands 16 and 82)")
@@ -169,7 +164,8 @@ def _plan_items(items: list[Any]) -> Iterator[dict[str, Any]]:
     for item in items:
         if isinstance(item, dict) and "TransectStyleComplexItem" in item:
             inner = item["TransectStyleComplexItem"]
-            yield from _plan_items(inner.get("Items", []) if isinstance(inner, dict) else [])
+            held = inner.get("Items") if isinstance(inner, dict) else None
+            yield from _plan_items(held if isinstance(held, list) else [])
         elif isinstance(item, dict):
             yield item
 
@@ -180,7 +176,10 @@ def _csv(path: Path, text: str) -> Waypoints:
     if not lines:
         raise _wrong(path, "an empty file", expected)
     delimiter = next((mark for mark in ";\t" if mark in lines[0]), ",")
-    head, *rows = csv.reader(lines, delimiter=delimiter)
+    try:
+        head, *rows = csv.reader(lines, delimiter=delimiter)
+    except csv.Error as error:
+        raise _wrong(path, f"text that is not CSV ({error})", expected) from None
     names = [name.strip().lower().removesuffix("_deg").removesuffix("_m") for name in head]
     pairs = [
         (in_degrees, names.index(first), names.index(second))

@@ -6,8 +6,7 @@ import re
 from pathlib import Path
 from typing import Any
 
-import yaml
-
+from auv_msgs_py import yaml_file
 from auv_msgs_py.errors import ConfigurationError
 from auv_sim.recording.metadata import METADATA_FILE
 
@@ -50,10 +49,10 @@ def information_of(directory: Path, notes: list[str]) -> dict[str, Any]:
             notes.append(NO_METADATA)
         return {}
     try:
-        content = yaml.safe_load(file.read_text(encoding="utf-8"))["rosbag2_bagfile_information"]
+        content = yaml_file.parse(file)["rosbag2_bagfile_information"]
         if not isinstance(content, dict):
             raise TypeError
-    except (OSError, ValueError, yaml.YAMLError, KeyError, TypeError):
+    except (ConfigurationError, KeyError, TypeError):
         notes.append(f"{METADATA_FILE} is damaged")
         return {}
     return content

@@ -9,10 +9,10 @@ from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
-import yaml
 from rosbags.interfaces import Qos
 from rosbags.rosbag2.metadata import parse_qos
 
+from auv_msgs_py import yaml_file
 from auv_msgs_py.errors import ConfigurationError
 from auv_sim.recording.bag import Bag, RecordedTopic, read_bag
 from auv_sim.recording.bag_files import NO_METADATA
@@ -184,6 +184,6 @@ def _lost(bag: Bag, directory: Path) -> list[str]:
 
 def _offered(topic: RecordedTopic) -> list[Qos]:
     try:
-        return list(parse_qos(topic.qos)) if topic.qos else []
-    except (ValueError, KeyError, TypeError, yaml.YAMLError, AttributeError):
+        return list(parse_qos(yaml_file.parse_text(topic.qos, topic.name)))
+    except (ConfigurationError, ValueError, KeyError, TypeError, AttributeError):
         return []
