@@ -126,3 +126,11 @@ def test_own_names_replace_the_usual_ones():
     assert table.of_pose("odom", "sea", "hull") is Convention.NED_FRD
     with pytest.raises(MessageRefused):
         table.of_pose("odom", "map_ned", "hull")
+
+
+def test_ids_that_differ_in_every_message_do_not_fill_memory() -> None:
+    table = FrameTable(FrameIds())
+    for k in range(1000):
+        table.of_pose("odom", f"auv{k}/map", "base_link")
+        table.of_body("velocity_through_water", f"auv{k}/base_link")
+    assert len(table._known) <= 64 and len(table._known_body) <= 64

@@ -118,3 +118,14 @@ def test_a_parameter_that_cannot_be_used_is_named(
         make(namespace="/auv", parameter_overrides=overrides, use_global_arguments=False)
     assert expected in str(error.value)
     assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("at_first", [False, True])
+def test_a_node_keeps_the_clock_that_it_was_started_with(bench: Bench, at_first: bool) -> None:
+    node = bench.start(HeadingAutopilotNode, use_sim_time=at_first)
+    (result,) = node.set_parameters([Parameter("use_sim_time", value=not at_first)])
+    assert not result.successful
+    assert "parameter use_sim_time: found" in result.reason and "at the start only" in result.reason
+    assert node.get_clock().ros_time_is_active is at_first
+    (result,) = node.set_parameters([Parameter("use_sim_time", value=at_first)])
+    assert result.successful

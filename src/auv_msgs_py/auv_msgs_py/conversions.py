@@ -23,10 +23,26 @@ from auv_msgs_py.types import Current, Navigation, WaterVelocity
 MAP = "map"
 PATH_FRAME = "path_frd"
 _BILLION = 1_000_000_000
+#: The largest second that builtin_interfaces/msg/Time can hold.
+_LAST_SECOND = 2**31 - 1
+#: Twice around the Earth: a coordinate beyond is no position, and its square must not overflow, m.
+_FARTHEST = 1e8
 
 
 def nanoseconds(stamp: Time) -> int:
-    """A stamp as one number."""
+    """Return a stamp as one number, unchecked: for records. What is flown with goes through `stamp_of`."""
+    return int(stamp.sec) * _BILLION + int(stamp.nanosec)
+
+
+def stamp_of(stamp: Time, topic: str) -> int:
+    """Return the stamp of a message that came on `topic`, ns.
+
+    Raises:
+        MessageRefused: a negative time, a second beyond int32, or a nanosecond part of a second or more.
+    """
+    if not (0 <= stamp.sec <= _LAST_SECOND and 0 <= stamp.nanosec < _BILLION):
+        found = f"a stamp of {stamp.sec} s and {stamp.nanosec} ns"
+        raise MessageRefused(topic, found, "a time from 0 s on, with less than 1e9 ns")
     return int(stamp.sec) * _BILLION + int(stamp.nanosec)
 
 
@@ -39,13 +55,15 @@ def navigation_from(message: Odometry, frames: FrameTable, topic: str) -> Naviga
     """Pose and yaw rate, NED.
 
     Raises:
-        MessageRefused: unknown frames, a value that is not finite, or no unit quaternion.
+        MessageRefused: unknown frames, a value that is not finite, no place on Earth, or no unit quaternion.
     """
     convention = frames.of_pose(topic, message.header.frame_id, message.child_frame_id)
     pose = message.pose.pose
     x, y, q, rate = pose.position.x, pose.position.y, pose.orientation, message.twist.twist.angular.z
     if not math.isfinite(x + y + rate):
         raise MessageRefused(topic, f"x={x}, y={y}, yaw rate={rate}", "finite numbers")
+    if not (abs(x) < _FARTHEST and abs(y) < _FARTHEST):
+        raise MessageRefused(topic, f"x={x:g}, y={y:g}", f"coordinates within {_FARTHEST:g} m")
     norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w
     if not abs(norm - 1.0) < 0.02:
         raise MessageRefused(topic, f"a quaternion of norm {math.sqrt(abs(norm)):.3f}", "a unit quaternion")

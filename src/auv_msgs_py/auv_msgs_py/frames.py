@@ -52,8 +52,12 @@ class FrameIds:
     frd_body: list[str] = setting(factory=lambda: ["base_link_frd"], doc="body frames that are FRD")
 
 
+#: Largest number of cached ids: a publisher that prefixes each message differently must not fill memory.
+_CACHED = 64
+
+
 class FrameTable:
-    """Understands frame ids; remembers each id it has seen, so a lookup costs nothing.
+    """Resolve frame ids; accepted ids are cached, so that a lookup is one dictionary access.
 
     Args:
         ids: the accepted names.
@@ -84,7 +88,8 @@ class FrameTable:
                 f"a pair of {_names(self._world, self._body, Convention.ENU_FLU)} (ENU/FLU)"
                 f" or of {_names(self._world, self._body, Convention.NED_FRD)} (NED/FRD)",
             )
-        self._known[world, body] = of_world
+        if len(self._known) < _CACHED:
+            self._known[world, body] = of_world
         return of_world
 
     def of_body(self, topic: str, body: str) -> Convention:
@@ -99,7 +104,8 @@ class FrameTable:
         convention = self._body.get(_bare(body))
         if convention is None:
             raise MessageRefused(topic, f"frame_id '{body}'", f"one of {', '.join(self._body)}")
-        self._known_body[body] = convention
+        if len(self._known_body) < _CACHED:
+            self._known_body[body] = convention
         return convention
 
 

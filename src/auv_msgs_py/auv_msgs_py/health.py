@@ -23,6 +23,9 @@ _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?")
 #: News are told at once, or when so much has passed since the last report, s of wall time.
 _NEWS = 0.1
 
+#: Longest text of a report, characters.
+_LONGEST = 1000
+
 
 class Health:
     """Counts what was refused; publishes a status twice a second of wall time, and news at once.
@@ -137,9 +140,9 @@ class Health:
         status = DiagnosticStatus(
             level=level,
             name=self._node.get_fully_qualified_name(),
-            message=message,
+            message=message[:_LONGEST],
             hardware_id=self._node.get_name(),
-            values=[KeyValue(key=key, value=str(value)) for key, value in values.items()],
+            values=[KeyValue(key=key, value=str(value)[:_LONGEST]) for key, value in values.items()],
         )
         array = DiagnosticArray(status=[status])
         array.header.stamp = self._node.get_clock().now().to_msg()

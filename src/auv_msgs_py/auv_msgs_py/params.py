@@ -14,7 +14,8 @@ from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.settings import SettingInfo, leaves, nested, validated
 
 T = TypeVar("T")
-_BUILT_IN = ("use_sim_time", "start_type_description_service", "qos_overrides")
+_SIM_TIME = "use_sim_time"
+_BUILT_IN = (_SIM_TIME, "start_type_description_service", "qos_overrides")
 
 
 def declare(
@@ -72,6 +73,12 @@ def _accept_changes(
     pending: list[T] = [current]
 
     def check(parameters: list[Parameter]) -> SetParametersResult:
+        # Registered last, hence asked first: rclpy's own callback would switch the clock at once, and a node
+        # whose time jumps by decades takes every later odometry for an old one.
+        for parameter in parameters:
+            if parameter.name == _SIM_TIME and parameter.value != node.get_parameter(_SIM_TIME).value:
+                found = f"{node.get_name()}: parameter {_SIM_TIME}: found {parameter.value} at run time"
+                return SetParametersResult(successful=False, reason=f"{found}, expected it at the start only")
         # Always from what is set now: an earlier change may have been refused by somebody else.
         flat = {name: node.get_parameter(name).value for name in names}
         flat |= {parameter.name: parameter.value for parameter in parameters if parameter.name in names}

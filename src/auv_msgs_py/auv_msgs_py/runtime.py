@@ -1,40 +1,28 @@
-"""The base of every node, and the loop that runs it."""
+"""The base of every node. `run` has the loop that runs it."""
 
 from __future__ import annotations
 
-import gc
-import signal
-import sys
 import time
-from collections.abc import Callable, Sequence
-from typing import Any, TypeVar
+from collections.abc import Callable
+from typing import Any
 
-import rclpy
 from rclpy.clock import Clock, ClockType
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.signals import SignalHandlerOptions
-from rclpy.task import Future
 from rclpy.time import Time
 
 from auv_msgs_py import params, qos, topics
-from auv_msgs_py.conversions import nanoseconds
-from auv_msgs_py.errors import LockstepBroken, MessageRefused, SuiteError
+from auv_msgs_py.conversions import stamp_of
+from auv_msgs_py.errors import LockstepBroken, MessageRefused
 from auv_msgs_py.health import Health
 from auv_msgs_py.lockstep_gate import LockstepGate
+from auv_msgs_py.run import StopRequest, run_nodes, spin
 from auv_msgs_py.topics import Topic
-from auv_msgs_py.transport import WirePublisher, reader
+from auv_msgs_py.transport import WirePublisher, decoder, generated_decoder
 from auv_msgs_py.watch import ClockWatch, RateWatch
 
-try:
-    from rclpy.experimental import EventsExecutor
-except ImportError:  # an rclpy without it: slower, otherwise the same
-    EventsExecutor = SingleThreadedExecutor
-
-T = TypeVar("T")
-#: Exit code for input that cannot be used; 1 is for everything else that went wrong.
-EXIT_BAD_INPUT = 2
+#: A node's module needs its base and the loop: one import for both.
+__all__ = ["StopRequest", "SuiteNode", "run_nodes", "spin"]
 
 
 class SuiteNode(Node):  # type: ignore[misc]
@@ -97,19 +85,16 @@ class SuiteNode(Node):  # type: ignore[misc]
 
         A message that `wire` knows arrives as its light class, the same object each time: do not keep it.
         """
-        kind = qos.message_class(topic.type)
-        understand = reader(topic.type)
+        decode = decoder(topic)
         tells_time = topic is topics.ODOM and self.parameters.lockstep
-
         name, rates = topic.name, self._rates
 
-        def guarded(message: Any) -> None:
+        def guarded(data: bytes) -> None:
             rates.counts[name] += 1
             try:
-                if understand is not None:
-                    message = understand(message)
+                message = decode(data)
                 if tells_time:
-                    self.time_is(nanoseconds(message.header.stamp))
+                    self.time_is(stamp_of(message.header.stamp, name))
                 callback(message)
             except MessageRefused as error:
                 self.health.refuse(error)
@@ -117,7 +102,28 @@ class SuiteNode(Node):  # type: ignore[misc]
                 self.fail(str(error))
 
         profile = qos.requested(topic, self.parameters.lockstep)
-        self.create_subscription(kind, topic.name, guarded, profile, raw=understand is not None)
+        self.create_subscription(qos.message_class(topic.type), name, guarded, profile, raw=True)
+
+    def create_subscription(self, kind: Any, name: str, callback: Any, *arguments: Any, **named: Any) -> Any:
+        """As rclpy's; what comes on /clock is checked before rclpy sets the clock by it."""
+        if name == topics.CLOCK.name and not named.get("raw"):
+            return super().create_subscription(
+                kind, name, self._guarded_clock(callback), *arguments, raw=True, **named
+            )
+        return super().create_subscription(kind, name, callback, *arguments, **named)
+
+    def _guarded_clock(self, set_clock: Callable[[Any], None]) -> Callable[[bytes], None]:
+        decode = generated_decoder(topics.CLOCK)
+
+        def guarded(data: bytes) -> None:
+            try:
+                message = decode(data)
+                stamp_of(message.clock, topics.CLOCK.name)
+                set_clock(message)
+            except MessageRefused as error:
+                self.health.refuse(error)
+
+        return guarded
 
     def _look(self) -> None:
         """Free running: what no single message shows."""
@@ -207,84 +213,3 @@ class SuiteNode(Node):  # type: ignore[misc]
         self.health.publish()
         self.fault = text
         self.interrupt_spinning()
-
-
-#: How long nodes may go on after a stop was requested, s of wall time.
-_GRACE = 5.0
-
-
-class StopRequest:
-    """SIGINT and SIGTERM set a flag; ROS stays up, so that what is under way can be finished."""
-
-    def __init__(self) -> None:
-        self.requested = False
-        self._before = {
-            number: signal.signal(number, self._request) for number in (signal.SIGINT, signal.SIGTERM)
-        }
-
-    def withdraw(self) -> None:
-        """Give the signals back to who had them."""
-        for number, handler in self._before.items():
-            signal.signal(number, handler)
-
-    def _request(self, *_: object) -> None:
-        self.requested = True
-
-
-def spin(nodes: Sequence[SuiteNode], stop: StopRequest) -> int:
-    """Run nodes in this thread until a signal, a fault, or until one has finished; returns the exit code."""
-    executor = EventsExecutor()
-    for node in nodes:
-        executor.add_node(node)
-    gc.collect()
-    gc.freeze()  # what is there now stays: searching it for garbage again and again takes milliseconds
-    while not stop.requested and not any(node.fault or node.finished for node in nodes):
-        _spin_some(executor, nodes)
-    deadline = time.monotonic() + _GRACE
-    while any(node.busy() for node in nodes) and time.monotonic() < deadline:
-        executor.spin_once(timeout_sec=0.02)
-    for node in nodes:
-        if node.fault:
-            print(f"{node.get_fully_qualified_name()}: {node.fault}", file=sys.stderr)
-    return 1 if any(node.fault for node in nodes) else 0
-
-
-def _spin_some(executor: Any, nodes: Sequence[SuiteNode]) -> None:
-    """Handle everything that comes within a tenth of a second, or until a node asks for attention.
-
-    EventsExecutor.spin() and spin_once(None) deliver nothing in rclpy 7.1. spin_once() with a time returns
-    after every single message, which costs as much again as handling it; waiting for a future with a time
-    stays in C++ and lets Python see a signal soon enough.
-    """
-    attention = Future()
-
-    def interrupt() -> None:
-        if not attention.done():
-            attention.set_result(None)
-
-    for node in nodes:
-        node.interrupt_spinning = interrupt
-    executor.spin_until_future_complete(attention, timeout_sec=0.1)
-
-
-def run_nodes(factories: Sequence[Callable[[], SuiteNode]], args: Sequence[str] | None = None) -> int:
-    """The body of every executable: make the nodes, run them, leave nothing behind.
-
-    Returns:
-        0 after a signal or when a node has finished, 1 after a fault, 2 for input that cannot be used.
-    """
-    rclpy.init(args=list(args) if args is not None else None, signal_handler_options=SignalHandlerOptions.NO)
-    stop = StopRequest()
-    nodes: list[SuiteNode] = []
-    try:
-        for factory in factories:
-            nodes.append(factory())
-        return spin(nodes, stop)
-    except SuiteError as error:
-        print(error, file=sys.stderr)
-        return EXIT_BAD_INPUT
-    finally:
-        for node in nodes:
-            node.close()
-            node.destroy_node()
-        rclpy.try_shutdown()

@@ -9,6 +9,8 @@ from rclpy.publisher import Publisher
 from rclpy.serialization import deserialize_message
 
 from auv_msgs_py import qos, wire
+from auv_msgs_py.errors import MessageRefused
+from auv_msgs_py.topics import Topic
 
 
 class WirePublisher(Publisher):  # type: ignore[misc]
@@ -26,21 +28,37 @@ class WirePublisher(Publisher):  # type: ignore[misc]
             super().publish(message)
 
 
-def reader(type_name: str) -> Callable[[bytes], Any] | None:
-    """Turns what a raw subscription delivers into a message; None for a type that has no light class.
+def decoder(topic: Topic) -> Callable[[bytes], Any]:
+    """Return the function that turns the bytes of a raw subscription into a message.
 
-    The message is the same object each time. Bytes that `wire` does not understand become a generated one.
+    A type that `wire` has is returned as its light class, the same object each time; any other, and bytes
+    that `wire` does not understand, as the generated class. Subscriptions are raw because the middleware
+    drops bytes that it cannot decode without a count. The function raises `MessageRefused` for those.
     """
-    if type_name not in wire.LIGHT:
-        return None
-    light: wire.Message = wire.LIGHT[type_name]()
-    kind = qos.message_class(type_name)
+    generated = generated_decoder(topic)
+    if topic.type not in wire.LIGHT:
+        return generated
+    light: wire.Message = wire.LIGHT[topic.type]()
 
-    def read(data: bytes) -> Any:
+    def decode(data: bytes) -> Any:
         try:
             light.read(data)
         except wire.ForeignLayout:
-            return deserialize_message(data, kind)
+            return generated(data)
         return light
 
-    return read
+    return decode
+
+
+def generated_decoder(topic: Topic) -> Callable[[bytes], Any]:
+    """As `decoder`, but always a new message of the generated class."""
+    kind = qos.message_class(topic.type)
+
+    def decode(data: bytes) -> Any:
+        try:
+            return deserialize_message(data, kind)
+        except Exception:  # the middlewares raise what they like
+            found = f"{len(data)} bytes that do not decode"
+            raise MessageRefused(topic.name, found, topic.type) from None
+
+    return decode

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from auv_msgs_py import topics
-from auv_msgs_py.conversions import current_from, nanoseconds, water_velocity_from
+from auv_msgs_py.conversions import current_from, stamp_of, water_velocity_from
 from auv_msgs_py.errors import MessageRefused
 from auv_msgs_py.frames import FrameTable
 from auv_msgs_py.pairing import Pairing
@@ -115,7 +115,7 @@ class NavigationInput:
         if abs(water.ur) > self._fastest or abs(water.vr) > self._fastest:
             found = f"({water.ur:.3g}, {water.vr:.3g}) m/s"
             raise MessageRefused(topic, found, f"at most {self._fastest:.3g} m/s")
-        stamp = nanoseconds(message.header.stamp)
+        stamp = stamp_of(message.header.stamp, topic)
         self._in_order(topics.WATER_VELOCITY, stamp)
         self._water = water, stamp
         if self._lockstep and self._pairing.put(topic, water, stamp):
@@ -127,7 +127,7 @@ class NavigationInput:
         if abs(current.Vx) > self._fastest or abs(current.Vy) > self._fastest:
             found = f"({current.Vx:.3g}, {current.Vy:.3g}) m/s"
             raise MessageRefused(topic, found, f"at most {self._fastest:.3g} m/s")
-        stamp = nanoseconds(message.header.stamp)
+        stamp = stamp_of(message.header.stamp, topic)
         self._in_order(topics.CURRENT_ESTIMATE, stamp)
         self._current = current, stamp
         if self._lockstep and self._pairing.put(topic, current, stamp):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from auv_msgs_py import topics
-from auv_msgs_py.conversions import nanoseconds, navigation_from
+from auv_msgs_py.conversions import navigation_from, stamp_of
 from auv_msgs_py.errors import MessageRefused
 from auv_msgs_py.frames import FrameTable
 from auv_msgs_py.runtime import SuiteNode
@@ -93,7 +93,7 @@ class OdometryIntake:
         Raises:
             MessageRefused: it cannot be used.
         """
-        stamp = nanoseconds(message.header.stamp)
+        stamp = stamp_of(message.header.stamp, topics.ODOM.name)
         navigation = navigation_from(message, self._frames, topics.ODOM.name)
         # Whether a stamp that goes back is an old message or a clock that was set, its order tells.
         stepped = self._free and not self._guard.is_old(stamp) and self._stepped(stamp)

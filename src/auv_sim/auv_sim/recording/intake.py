@@ -21,6 +21,7 @@ from auv_sim.recording.bag_writer import Channel
 from auv_sim.recording.sequence_watch import SequenceWatch
 
 _CLOCK = struct.Struct("<4xiI")
+_BILLION = 1_000_000_000
 
 
 class Taken(NamedTuple):
@@ -113,21 +114,27 @@ class Timestamps:
     def begin(self, batch: list[Taken]) -> None:
         """What was sent before the clock's first word gets the time of that word."""
         first = next((taken for taken in batch if taken.order == 0), None)
-        self.now = _clock(first.data) if first is not None else 0
+        self.now = (_clock(first.data) or 0) if first is not None else 0
 
     def of(self, taken: Taken) -> tuple[int, int]:
         """(log time, publish time), ns; a /clock message moves the time."""
         if not self.simulated:
             return taken.received_ns, taken.sent_ns
         if taken.order == 0:
-            self.now = _clock(taken.data)
+            told = _clock(taken.data)
+            self.now = self.now if told is None else told
         now = self.now or 0
         return now, now
 
 
-def _clock(data: bytes) -> int:
+def _clock(data: bytes) -> int | None:
+    """Return the time of a /clock message, ns; None for bytes that hold none."""
+    if len(data) < _CLOCK.size:
+        return None
     seconds, nanoseconds = _CLOCK.unpack_from(data)
-    return int(seconds) * 1_000_000_000 + int(nanoseconds)
+    if seconds < 0 or nanoseconds >= _BILLION:
+        return None
+    return int(seconds) * _BILLION + int(nanoseconds)
 
 
 def drain(topics: list[PolledTopic]) -> list[Taken]:
