@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -28,23 +29,20 @@ NAMESPACE = "/colcon_test"
 PATIENCE = 30.0  # s, for a node to appear; it takes about one on an idle machine
 
 
+def colcon(base: Path, *words: str | Path) -> str:
+    """Run colcon in a workspace whose sources are this repository's; what it prints."""
+    command = [sys.executable, "-m", "colcon", "--log-base", base / "log", *words]
+    done = subprocess.run(command, cwd=base, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
 @pytest.fixture(scope="module")
 def install(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The install folder of a finished `colcon build`."""
     base = tmp_path_factory.mktemp("workspace")
-    command = [
-        sys.executable,
-        "-m",
-        "colcon",
-        "--log-base",
-        base / "log",
-        "build",
-        "--base-paths",
-        ROOT / "src",
-    ]
-    command += ["--build-base", base / "build", "--install-base", base / "install"]
-    done = subprocess.run(command, cwd=base, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
+    places = ("--build-base", base / "build", "--install-base", base / "install")
+    colcon(base, "build", "--base-paths", ROOT / "src", *places)
     return base / "install"
 
 
@@ -78,6 +76,18 @@ def test_executables_stand_where_ros2_run_looks(install: Path, package: str, exe
     assert os.access(install / package / "lib" / package / executable, os.X_OK)
     assert (install / package / "share/ament_index/resource_index/packages" / package).is_file()
     assert (install / package / "share" / package / "package.xml").is_file()
+
+
+def test_colcon_runs_the_tests_of_each_package(install: Path) -> None:
+    """One module of each: that the others pass is what this run is for."""
+    places = ("--build-base", install.parent / "build", "--install-base", install)
+    chosen = ("--pytest-args", "-k", "test_angles or test_los or test_turning", "-p", "no:cacheprovider")
+    sources = ("--base-paths", ROOT / "src", "--return-code-on-test-failure")
+    colcon(install.parent, "test", *sources, *places, *chosen)
+    listed = colcon(install.parent, "test-result", "--all", "--test-result-base", install.parent / "build")
+    counts = dict(re.findall(r"/(\w+)/pytest\.xml: (\d+) tests, 0 errors, 0 failures, 0 skipped", listed))
+    assert set(counts) == {"auv_msgs_py", "auv_path_following", "auv_sim"}, listed
+    assert "0" not in counts.values(), listed
 
 
 def test_shipped_files_are_installed_for_people_and_for_the_package(install: Path) -> None:

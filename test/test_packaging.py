@@ -18,9 +18,12 @@ from unittest import mock
 
 import pytest
 import setuptools
+import yaml
 from catkin_pkg.package import Package, parse_package
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
+
+from auv_msgs_py import topics
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGES = ("auv_msgs_py", "auv_path_following", "auv_sim")
@@ -38,6 +41,27 @@ EXECUTABLES = {
 }
 #: Import names that differ from the name to install.
 DISTRIBUTIONS = {"yaml": "PyYAML", "pydantic_core": "pydantic"}
+#: Import name -> rosdep key (rosdistro's rosdep/python.yaml), for what is not a ROS package.
+ROSDEP_KEYS = {
+    "hypothesis": "python3-hypothesis",
+    "matplotlib": "python3-matplotlib",
+    "numpy": "python3-numpy",
+    "pydantic": "python3-pydantic",
+    "pydantic_core": "python3-pydantic",
+    "pymap3d": "python3-pymap3d",
+    "pymavlink": "python3-pymavlink-pip",
+    "pytest": "python3-pytest",
+    "rich": "python3-rich",
+    "rosbags": "python3-rosbags-pip",
+    "scipy": "python3-scipy",
+    "yaml": "python3-yaml",
+}
+#: For these rosdep has no key. mcap brings zstandard; Pillow comes with matplotlib.
+WITHOUT_KEY = {"mcap", "zstandard"}
+#: The suite works without them, or says in one line how to install them.
+OPTIONAL = {"distributed", "numba", "pyarrow"}
+#: The message packages that auv_msgs_py finds by the names in its table of topics, and those of the services.
+BY_NAME = {topic.type.split("/")[0] for topic in (*topics.CONTRACT, topics.RECORDED_STEPS)} | {"std_srvs"}
 
 
 def manifest(name: str) -> Package:
@@ -71,6 +95,8 @@ def test_there_is_one_version(monkeypatch: pytest.MonkeyPatch) -> None:
     assert newest
     versions = {f"{name}/package.xml": manifest(name).version for name in PACKAGES}
     versions |= {f"{name}/setup.py": described(name, monkeypatch)["version"] for name in PACKAGES}
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    versions["CITATION.cff"] = cited["version"]
     assert versions == dict.fromkeys(versions, newest[1])
 
 
@@ -107,22 +133,82 @@ def test_every_module_is_packaged(name: str, monkeypatch: pytest.MonkeyPatch) ->
     assert {".".join(folder.parts) for folder in folders} == packaged
 
 
-@pytest.mark.parametrize("name", PACKAGES)
-def test_every_import_is_declared(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """ROS packages in package.xml; everything else in setup.py, what can be missing among its extras."""
+def imported(*folders: Path) -> set[str]:
+    """Top-level names that the Python files below some folders import, without the standard library's."""
     tops = set()
-    for path in (ROOT / "src" / name / name).rglob("*.py"):
+    for path in itertools.chain.from_iterable(folder.rglob("*.py") for folder in folders):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Import):
                 tops |= {alias.name.split(".")[0] for alias in node.names}
             elif isinstance(node, ast.ImportFrom):
                 tops.add(str(node.module).split(".")[0])
-    tops -= {name, *sys.stdlib_module_names}
-    in_manifest = {dependency.name for dependency in manifest(name).exec_depends}
+    return tops - set(sys.stdlib_module_names)
+
+
+def sources(name: str) -> set[str]:
+    return imported(ROOT / "src" / name / name) - {name}
+
+
+@pytest.mark.parametrize("name", PACKAGES)
+def test_the_manifest_names_what_is_imported_and_nothing_else(name: str) -> None:
+    """By rosdep key where there is one; ROS packages and the suite's own by their names."""
+    declared = {dependency.name for dependency in manifest(name).exec_depends}
+    used = sources(name) | (BY_NAME if name == "auv_msgs_py" else set())
+    assert declared == {ROSDEP_KEYS.get(top, top) for top in used - WITHOUT_KEY - OPTIONAL}
+
+
+@pytest.mark.parametrize("name", PACKAGES)
+def test_setup_names_what_pip_has_to_install(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Everything imported that is no ROS package; what can be missing stands among the extras."""
     setup = described(name, monkeypatch)
-    lines = [*setup["install_requires"], *itertools.chain(*setup.get("extras_require", {}).values())]
-    in_setup = {Requirement(line).name for line in lines}
-    assert {DISTRIBUTIONS.get(top, top) for top in tops} <= in_manifest | in_setup
+    required = {Requirement(line).name for line in setup["install_requires"]}
+    groups = setup["extras_require"]
+    assert {Requirement(line).name for line in groups.pop("test")} <= {"hypothesis", "pytest"}
+    extras = {Requirement(line).name for line in itertools.chain(*groups.values())}
+    ours = {top for top in sources(name) if top in {*ROSDEP_KEYS, *WITHOUT_KEY, *OPTIONAL, *PACKAGES}}
+    assert required == {DISTRIBUTIONS.get(top, top) for top in ours - OPTIONAL}
+    assert extras == ours & OPTIONAL
+
+
+def test_the_requirement_files_bring_what_the_packages_need() -> None:
+    needed = set().union(*(sources(name) for name in PACKAGES)) & {*ROSDEP_KEYS, *WITHOUT_KEY, *OPTIONAL}
+    listed = {
+        line
+        for name in ("ros", "tools", "batch", "cluster")
+        for line in (ROOT / "requirements" / f"{name}.txt").read_text(encoding="utf-8").splitlines()
+    }
+    assert {DISTRIBUTIONS.get(top, top) for top in needed} <= {line.split("==")[0] for line in listed}
+
+
+def test_the_readme_names_what_rosdep_cannot_install() -> None:
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    (line,) = re.findall(r"rosdep has no key for .*", readme)
+    assert set(re.findall(r"`(\w+)`", line)) == WITHOUT_KEY
+
+
+@pytest.mark.parametrize("name", PACKAGES)
+def test_the_manifest_names_what_the_tests_import(name: str) -> None:
+    package = manifest(name)
+    declared = {dependency.name for dependency in package.exec_depends + package.test_depends}
+    # The helpers of test/ serve all three packages, and pytest reads their sources in place.
+    tops = imported(ROOT / "test" / name) - {*PACKAGES, "node_bench", "bag_watch", "conftest"}
+    assert {ROSDEP_KEYS.get(top, top) for top in tops - WITHOUT_KEY - OPTIONAL - {"PIL"}} <= declared
+
+
+def test_an_old_pydantic_is_named_in_one_line(tmp_path: Path) -> None:
+    (tmp_path / "pydantic-1.10.14.dist-info").mkdir()
+    (tmp_path / "pydantic-1.10.14.dist-info" / "METADATA").write_text("Name: pydantic\nVersion: 1.10.14\n")
+    command = [
+        sys.executable,
+        "-c",
+        "import sys; sys.path.insert(0, sys.argv[1]); import auv_msgs_py",
+        tmp_path,
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr.strip() == (
+        "auv_msgs_py: found pydantic 1.10.14, expected 2 or newer: python3 -m pip install 'pydantic>=2'"
+    )
 
 
 def test_the_shipped_files_are_in_the_wheel(tmp_path: Path) -> None:

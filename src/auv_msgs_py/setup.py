@@ -28,5 +28,6 @@ setup(
     ],
     python_requires=">=3.11",
     install_requires=["numpy", "pydantic>=2", "PyYAML"],
+    extras_require={"test": ["hypothesis", "pytest"]},  # where colcon looks for pytest
     zip_safe=False,
 )

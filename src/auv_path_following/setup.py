@@ -38,6 +38,7 @@ setup(
     ],
     python_requires=">=3.11",
     install_requires=["auv_msgs_py", "numpy", "pydantic>=2", "pymap3d", "scipy"],
+    extras_require={"test": ["hypothesis", "pytest"]},  # where colcon looks for pytest
     zip_safe=False,
     entry_points={
         "console_scripts": [

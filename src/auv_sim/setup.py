@@ -33,7 +33,6 @@ setup(
         "matplotlib",
         "mcap",
         "numpy",
-        "pyarrow",
         "pydantic",
         "pymavlink",
         "PyYAML",
@@ -42,8 +41,14 @@ setup(
         "scipy",
         "zstandard",
     ],
-    # Without numba the batch engine is slow, without distributed a campaign stays on one machine.
-    extras_require={"batch": ["numba"], "cluster": ["distributed"]},
+    # Without numba the batch engine is slow; campaigns and Parquet exports need pyarrow; without distributed
+    # a campaign stays on one machine. colcon looks for pytest under "test".
+    extras_require={
+        "batch": ["numba"],
+        "campaign": ["pyarrow"],
+        "cluster": ["distributed"],
+        "test": ["hypothesis", "pytest"],
+    },
     zip_safe=False,
     entry_points={
         "console_scripts": [
