@@ -26,7 +26,7 @@ def show(flight: Flight, facts: list[TopicFacts], events: list[Event], console: 
     """One recording."""
     bag = flight.bag
     first, last = bag.span_ns
-    files = bag.files[0].name if len(bag.files) == 1 else f"{len(bag.files)} files"
+    files = next(iter(bag.files)).name if len(bag.files) == 1 else f"{len(bag.files)} files"
     console.print(f"[bold]{escape(str(bag.path))}[/bold]", soft_wrap=True)
     seconds = (last - first) * 1e-9
     console.print(

@@ -28,10 +28,10 @@ def run(arguments: argparse.Namespace) -> int:
     done = repair(arguments.bag, arguments.out, arguments.compression)
     for note in done.notes:
         print(f"was damaged: {note}")
-    if not done.notes and arguments.out is None:
+    if not done.notes and arguments.out is None and arguments.bag.is_dir():
         print(f"{done.directory}: whole already, {done.messages} messages")
         return 0
     print(f"{done.directory}: whole, {done.messages} messages")
     for file in done.kept:
-        print(f"{file}: kept, not everything in it could be read")
+        print(f"{file}: kept, it is damaged")
     return 0

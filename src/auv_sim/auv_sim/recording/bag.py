@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from mcap.records import Attachment, Channel, Metadata, Schema
+from zstandard import ZstdError
 
 from auv_msgs_py.errors import ConfigurationError
 from auv_sim.recording.bag_files import A_BAG, files_of, information_of, storage_of
 from auv_sim.recording.bag_writer import TEXTS
 from auv_sim.recording.mcap_scan import scan
 from auv_sim.recording.metadata import METADATA_FILE
+from auv_sim.recording.packed import SUFFIX as PACKED
+from auv_sim.recording.packed import unpack, unpack_message
 
 #: The metadata record in which rosbag2 repeats metadata.yaml.
 _REPEATED = "rosbag2"
@@ -63,7 +67,7 @@ class Bag:
 
     Attributes:
         path: what was asked for.
-        files: the storage files.
+        files: the storage files, with the number of messages in each.
         topics: by full name.
         notes: one line for each damage; empty when all is well.
         size: bytes of the files.
@@ -74,7 +78,7 @@ class Bag:
     """
 
     path: Path
-    files: list[Path] = field(default_factory=list)
+    files: dict[Path, int] = field(default_factory=dict)
     topics: dict[str, RecordedTopic] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
     size: int = 0
@@ -139,28 +143,60 @@ def read_bag(path: Path, wanted: Wanted = everything) -> Bag:
     bag = Bag(path)
     information = information_of(path, bag.notes) if path.is_dir() else {}
     files = files_of(path, information, bag.notes)
-    packed = information.get("compression_mode") or ""
     if not files:
         found = f"no {METADATA_FILE}" if path.is_dir() and not information else "no storage files"
         raise ConfigurationError(str(path), found, A_BAG)
-    if packed or any(file.suffix != ".mcap" for file in files):
-        from auv_sim.recording.foreign import read_foreign
-
-        read_foreign(bag, path, files, wanted)
-        return bag
     troubles: list[ConfigurationError] = []
     for file in files:
         try:
-            _read_file(bag, file, wanted)
+            _read_any(bag, file, wanted)
         except ConfigurationError as error:
             troubles.append(error)
             bag.notes.append(f"{file.name}: found {error.found}")
+        bag.files[file] = len(bag.order) - sum(bag.files.values())
+        bag.size += file.stat().st_size
     if len(troubles) == len(files):
         raise troubles[0]
+    if str(information.get("compression_mode")).lower() == "message":
+        _unpack_messages(bag)
     expected = information.get("message_count")
     if isinstance(expected, int) and expected > bag.count:
         bag.notes.append(f"{METADATA_FILE} tells of {expected} messages, {bag.count} are readable")
     return bag
+
+
+def _read_any(bag: Bag, file: Path, wanted: Wanted) -> None:
+    """Add one storage file, of whatever kind."""
+    # Not before they are needed: few recordings are of another kind, and `rosbags` takes its time.
+    if file.suffix == PACKED:
+        with tempfile.TemporaryDirectory(prefix="auv-bag-") as directory:
+            _read_any(bag, unpack(file, Path(directory)), wanted)
+    elif file.suffix == ".db3":
+        from auv_sim.recording.sqlite_bag import read_sqlite
+
+        read_sqlite(bag, file, wanted)
+    elif file.suffix == ".bag":
+        from auv_sim.recording.ros1_bag import read_ros1
+
+        read_ros1(bag, file, wanted)
+    else:
+        _read_mcap(bag, file, wanted)
+
+
+def _unpack_messages(bag: Bag) -> None:
+    """Replace every packed message by its content; one without any stays, and is counted in a note."""
+    unreadable = 0
+    for topic in bag.topics.values():
+        for k, data in enumerate(topic.messages):
+            if data is not None:
+                try:
+                    content = unpack_message(data)
+                except ZstdError:
+                    unreadable += 1
+                    continue
+                topic.messages[k], topic.sizes[k] = content, len(content)
+    if unreadable:
+        bag.notes.append(f"{unreadable} messages are not packed, though {METADATA_FILE} says so")
 
 
 def _alike(a: Channel, a_schema: Schema | None, b: Channel, b_schema: Schema | None) -> bool:
@@ -170,7 +206,7 @@ def _alike(a: Channel, a_schema: Schema | None, b: Channel, b_schema: Schema | N
     return a_schema is None or (a_schema.name, a_schema.encoding) == (b_schema.name, b_schema.encoding)  # type: ignore[union-attr]
 
 
-def _read_file(bag: Bag, file: Path, wanted: Wanted) -> None:
+def _read_mcap(bag: Bag, file: Path, wanted: Wanted) -> None:
     by_number: dict[int, RecordedTopic] = {}
     order: list[tuple[RecordedTopic, int]] = []
 
@@ -182,8 +218,6 @@ def _read_file(bag: Bag, file: Path, wanted: Wanted) -> None:
         topic.put(sequence, log_ns, publish_ns, data, True)
 
     result = scan(file, take)
-    bag.files.append(file)
-    bag.size += file.stat().st_size
     bag.notes += [f"{file.name}: {note}" for note in result.notes]
     bag.profile = result.profile
     for record in result.metadata:

@@ -15,7 +15,9 @@ A_BAG = "a rosbag2 directory with storage files and metadata.yaml"
 #: The note of a recording that lacks this file and nothing else.
 NO_METADATA = f"no {METADATA_FILE} (the recording was not closed)"
 #: Names of storage files; the first pattern that finds one decides.
-_PATTERNS = ("*.mcap", "*.db3", "*.bag")
+_PATTERNS = ("*.mcap", "*.db3", "*.mcap.zstd", "*.db3.zstd", "*.bag")
+#: Suffixes of what SQLite keeps beside a file: what is not in it yet, or not any more, and an index of that.
+_COMPANIONS = ("-wal", "-journal", "-shm")
 #: Up to this version names begin with the directory's own name.
 _WITH_DIRECTORY = 3
 #: Longer names are shortened in a note, characters.
@@ -35,7 +37,7 @@ def storage_of(path: Path) -> Path:
         path.is_dir()
         and inside.is_dir()
         and not (path / METADATA_FILE).exists()
-        and not any(path.glob("*.mcap"))
+        and not any(any(path.glob(pattern)) for pattern in _PATTERNS)
     ):
         return inside
     return path
@@ -45,7 +47,7 @@ def information_of(directory: Path, notes: list[str]) -> dict[str, Any]:
     """Read metadata.yaml; empty, with a note, where it is missing or damaged."""
     file = directory / METADATA_FILE
     if not file.exists():
-        if any(directory.glob("*.mcap")):
+        if any(any(directory.glob(pattern)) for pattern in _PATTERNS[:-1]):
             notes.append(NO_METADATA)
         return {}
     try:
@@ -86,6 +88,12 @@ def files_of(path: Path, information: dict[str, Any], notes: list[str]) -> list[
         if found:
             break
     return found
+
+
+def companions(file: Path) -> list[tuple[Path, str]]:
+    """Return what SQLite keeps beside a file until it is closed, with what it adds to the file's name."""
+    beside = [(file.with_name(file.name + suffix), suffix) for suffix in _COMPANIONS]
+    return [(path, suffix) for path, suffix in beside if path.is_file()]
 
 
 def _inside(directory: Path, name: str, version: object) -> Path | None:

@@ -35,14 +35,16 @@ class FileFacts(NamedTuple):
     size: int
 
 
-def information(topics: Sequence[TopicFacts], files: Sequence[FileFacts]) -> dict[str, Any]:
-    """Everything below the file's one key, in rosbag2's order."""
+def information(
+    topics: Sequence[TopicFacts], files: Sequence[FileFacts], storage: str = "mcap"
+) -> dict[str, Any]:
+    """Everything below the file's one key, in rosbag2's order; `storage` is rosbag2's name of the format."""
     held = [file for file in files if file.messages]
     first = min((file.first_ns for file in held), default=0)
     last = max((file.last_ns for file in held), default=0)
     return {
         "version": METADATA_VERSION,
-        "storage_identifier": "mcap",
+        "storage_identifier": storage,
         "duration": {"nanoseconds": last - first},
         "starting_time": {"nanoseconds_since_epoch": first},
         "message_count": sum(file.messages for file in files),

@@ -10,19 +10,21 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rosbags.interfaces import Qos
-from rosbags.rosbag2.metadata import parse_qos
+from rosbags.rosbag2.metadata import dump_qos_v9, parse_qos
 
 from auv_msgs_py import yaml_file
 from auv_msgs_py.errors import ConfigurationError
 from auv_sim.recording.bag import Bag, RecordedTopic, read_bag
-from auv_sim.recording.bag_files import NO_METADATA
+from auv_sim.recording.bag_files import NO_METADATA, companions
 from auv_sim.recording.bag_writer import TEXTS, BagWriter, Channel
 from auv_sim.recording.definitions import Definition
 from auv_sim.recording.mcap_scan import NOT_CLOSED, scan
-from auv_sim.recording.metadata import METADATA_FILE
+from auv_sim.recording.metadata import METADATA_FILE, FileFacts, TopicFacts, information, write
 
 #: What is added to the name of a file that was replaced.
 KEPT = ".damaged"
+#: Storage formats as rosbag2 names them, by the files' suffix.
+_STORAGE = {".mcap": "mcap", ".db3": "sqlite3"}
 #: So much is gathered before it is handed to the disk, bytes.
 HELD = 4_000_000
 
@@ -59,6 +61,9 @@ def repair(path: Path, out: Path | None = None, compression: str = "zstd") -> Re
     directory = bag.path if bag.path.is_dir() else bag.path.parent
     if out is None and not bag.notes and bag.path.is_dir():
         return Repaired(bag.path, bag.count, [], [])
+    storage = {_STORAGE.get(file.suffix) for file in bag.files}
+    if out is None and bag.notes == [NO_METADATA] and len(storage) == 1 and (name := storage.pop()):
+        return _described(bag, name)
     if out is not None:
         return _written(bag, out, compression)
     if bag.path.is_file():
@@ -76,6 +81,31 @@ def repair(path: Path, out: Path | None = None, compression: str = "zstd") -> Re
     return Repaired(directory, done.messages, done.notes, kept)
 
 
+def _described(bag: Bag, storage: str) -> Repaired:
+    """Write the metadata.yaml that whole files lack, and nothing else."""
+    files, begin = [], 0
+    for file, count in bag.files.items():
+        times = [topic.log_ns[k] for topic, k in bag.order[begin : begin + count]]
+        begin += count
+        first, last = min(times, default=0), max(times, default=0)
+        files.append(FileFacts(file.name, first, last, count, file.stat().st_size))
+    topics = [_facts(topic) for topic in bag.topics.values()]
+    try:
+        write(bag.path, information(topics, files, storage))
+    except OSError as error:
+        raise ConfigurationError(str(bag.path), f"{error.strerror}", "a place to write to") from None
+    return Repaired(bag.path, bag.count, bag.notes, [])
+
+
+def _facts(topic: RecordedTopic) -> TopicFacts:
+    encoding, type_hash = "cdr", ""
+    if topic.original is not None:
+        channel, _ = topic.original
+        encoding, type_hash = channel.message_encoding, channel.metadata.get("topic_type_hash", "")
+    qos = list(dump_qos_v9(_offered(topic)))
+    return TopicFacts(topic.name, topic.type, topic.count, qos, type_hash, encoding)
+
+
 def _replace(bag: Bag, directory: Path, done: Repaired) -> list[Path]:
     """Put the new files in the place of the old ones; a crash in between leaves both.
 
@@ -87,7 +117,12 @@ def _replace(bag: Bag, directory: Path, done: Repaired) -> list[Path]:
         place = directory / new.name
         if os.path.lexists(place) and place not in old_files:
             raise ConfigurationError(str(place), "something with this name", "--out DIRECTORY")
-    kept = [old.replace(_aside(old)) for old in old_files]
+    kept = []
+    for old in old_files:
+        aside = _aside(old)
+        kept.append(old.replace(aside))
+        # Under the name by which SQLite finds it.
+        kept += [path.replace(f"{aside}{suffix}") for path, suffix in companions(old)]
     for new in new_files:
         new.replace(directory / new.name)
     # Only what lacks nothing but its end is in the new one to the last byte.

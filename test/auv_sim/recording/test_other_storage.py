@@ -1,0 +1,296 @@
+"""SQLite and ROS 1 recordings, whole and damaged: every message that is there, a line for what is not."""
+
+from __future__ import annotations
+
+import shutil
+import sqlite3
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import zstandard
+from rosbags.highlevel import AnyReader
+from rosbags.rosbag1 import Writer as Ros1Writer
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
+from rosbags.typesys import Stores, get_typestore
+
+from auv_msgs_py.errors import ConfigurationError
+from auv_sim.bags import cli
+from auv_sim.recording import packed
+from auv_sim.recording.bag import Bag, read_bag
+from auv_sim.recording.bag_files import NO_METADATA
+from auv_sim.recording.definitions import typestore
+from auv_sim.recording.load import load
+from auv_sim.recording.sqlite_pages import rows_of
+
+FLOAT, STRING = "std_msgs/msg/Float64", "std_msgs/msg/String"
+NUMBERS = 2000
+
+
+def message(type_name: str, value: Any) -> bytes:
+    return bytes(typestore().serialize_cdr(typestore().types[type_name](value), type_name))
+
+
+def record(directory: Path, mode: CompressionMode | None = None) -> Path:
+    """Numbers, and a text longer than a page beside each fiftieth; returns the storage file."""
+    writer = Writer(directory, version=9, storage_plugin=StoragePlugin.SQLITE3)
+    if mode is not None:
+        writer.set_compression(mode, CompressionFormat.ZSTD)
+    with writer:
+        numbers = writer.add_connection("/a", FLOAT, typestore=typestore())
+        texts = writer.add_connection("/b", STRING, typestore=typestore())
+        for k in range(NUMBERS):
+            writer.write(numbers, 10**9 + k, message(FLOAT, float(k)))
+            if k % 50 == 0:
+                writer.write(texts, 10**9 + k, message(STRING, f"{k:05d}" * 2000))
+    return next(directory.glob("*.db3*"))
+
+
+TOTAL = NUMBERS + NUMBERS // 50
+
+
+def contents(bag: Bag) -> set[tuple[str, int, bytes | None]]:
+    return {
+        (topic.name, at, data)
+        for topic in bag.topics.values()
+        for at, data in zip(topic.log_ns, topic.messages, strict=True)
+    }
+
+
+def everything() -> set[tuple[str, int, bytes | None]]:
+    texts = {("/b", 10**9 + k, message(STRING, f"{k:05d}" * 2000)) for k in range(0, NUMBERS, 50)}
+    return texts | {("/a", 10**9 + k, message(FLOAT, float(k))) for k in range(NUMBERS)}
+
+
+@pytest.mark.parametrize("mode", [None, CompressionMode.FILE, CompressionMode.MESSAGE])
+def test_a_whole_recording_is_read_whole(tmp_path: Path, mode: CompressionMode | None) -> None:
+    record(tmp_path / "bag", mode)
+    bag = read_bag(tmp_path / "bag")
+    assert bag.notes == []
+    assert contents(bag) == everything()
+    assert [(topic.name, topic.type) for topic in bag.topics.values()] == [("/a", FLOAT), ("/b", STRING)]
+
+
+def test_the_database_counts_where_metadata_offers_another_qos(tmp_path: Path) -> None:
+    """A reader that looks for topics by name and QoS finds no message here and reports a whole recording."""
+    record(tmp_path / "bag")
+    file = tmp_path / "bag" / "metadata.yaml"
+    text = file.read_text()
+    changed = text.replace("offered_qos_profiles: []", "offered_qos_profiles:\n      - depth: 7")
+    assert changed != text
+    file.write_text(changed)
+    bag = read_bag(tmp_path / "bag")
+    assert bag.count == TOTAL
+    assert bag.notes == []
+
+
+def test_a_directory_without_metadata_is_read_and_completed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = record(tmp_path / "bag")
+    (tmp_path / "bag" / "metadata.yaml").unlink()
+    before = file.read_bytes()
+    bag = read_bag(tmp_path / "bag")
+    assert bag.notes == [NO_METADATA]
+    assert bag.count == TOTAL
+    assert cli.main(["repair", str(tmp_path / "bag")]) == 0
+    assert f"whole, {TOTAL} messages" in capsys.readouterr().out
+    assert file.read_bytes() == before
+    assert read_bag(tmp_path / "bag").notes == []
+    with AnyReader([tmp_path / "bag"]) as reader:
+        assert sum(1 for _ in reader.messages()) == TOTAL
+
+
+def killed(directory: Path) -> Path:
+    """A recording whose last hundred messages stand in the -wal only, as a kill leaves it."""
+    file = record(directory / "whole")
+    connection = sqlite3.connect(file)
+    connection.execute("PRAGMA journal_mode = WAL")
+    connection.execute("PRAGMA wal_autocheckpoint = 0")
+    insert = "INSERT INTO messages (topic_id, timestamp, data) VALUES (1, ?, ?)"
+    connection.executemany(insert, [(2 * 10**9 + k, message(FLOAT, -float(k))) for k in range(100)])
+    connection.commit()
+    shutil.copytree(directory / "whole", directory / "bag")
+    connection.close()
+    (directory / "bag" / "whole.db3-shm").unlink()
+    return directory / "bag" / "whole.db3"
+
+
+def test_what_is_in_the_wal_is_read_and_the_files_stay(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = killed(tmp_path)
+    before = {path.name: path.read_bytes() for path in file.parent.iterdir()}
+    assert set(before) == {"whole.db3", "whole.db3-wal", "metadata.yaml"}
+    bag = read_bag(file.parent)
+    assert bag.count == TOTAL + 100
+    assert bag.notes == ["whole.db3: whole.db3-wal lies beside it (the recording was not closed): read too"]
+    assert {path.name: path.read_bytes() for path in file.parent.iterdir()} == before
+    assert cli.main(["repair", str(file.parent)]) == 0
+    out = capsys.readouterr().out
+    assert "whole already" not in out
+    assert f"whole, {TOTAL + 100} messages" in out
+    kept = file.with_name("whole.db3.damaged")
+    assert kept.read_bytes() == before["whole.db3"]
+    assert kept.with_name("whole.db3.damaged-wal").read_bytes() == before["whole.db3-wal"]
+    assert read_bag(file.parent).count == TOTAL + 100
+    assert read_bag(file.parent).notes == []
+
+
+@pytest.mark.parametrize("share", [0.99, 0.5, 0.1])
+def test_of_a_file_cut_off_every_whole_row_is_read(tmp_path: Path, share: float) -> None:
+    """Rows lie in the file in their order: that share of them is there, save the last page's."""
+    file = record(tmp_path / "bag")
+    data = file.read_bytes()
+    file.write_bytes(data[: int(share * len(data))])
+    bag = read_bag(tmp_path / "bag")
+    assert share * TOTAL - 120 < bag.count < share * TOTAL + 10
+    assert contents(bag) <= everything()
+    assert any("malformed" in note for note in bag.notes)
+
+
+def test_one_page_of_zeros_takes_its_own_rows_only(tmp_path: Path) -> None:
+    file = record(tmp_path / "bag")
+    data = bytearray(file.read_bytes())
+    middle = len(data) // 2 // 4096 * 4096
+    data[middle : middle + 4096] = bytes(4096)
+    file.write_bytes(data)
+    bag = read_bag(tmp_path / "bag")
+    assert TOTAL - 200 < bag.count < TOTAL
+    assert contents(bag) <= everything()
+
+
+def test_an_inner_page_of_zeros_takes_no_rows(tmp_path: Path) -> None:
+    """The page that leads to all others is gone; the rows lie in theirs."""
+    file = record(tmp_path / "bag")
+    with sqlite3.connect(file) as connection:
+        (root,) = connection.execute("SELECT rootpage FROM sqlite_master WHERE name = 'messages'").fetchone()
+    connection.close()
+    data = bytearray(file.read_bytes())
+    data[(root - 1) * 4096 : root * 4096] = bytes(4096)
+    file.write_bytes(data)
+    bag = read_bag(tmp_path / "bag")
+    assert contents(bag) == everything()
+    assert bag.notes == [
+        f"bag.db3: database disk image is malformed; 0 messages are readable, {TOTAL} more page by page"
+    ]
+
+
+@pytest.mark.parametrize("page_size", [512, 4096, 65536])
+def test_pages_of_every_size_are_understood(tmp_path: Path, page_size: int) -> None:
+    file = tmp_path / "a.db3"
+    connection = sqlite3.connect(file)
+    connection.execute(f"PRAGMA page_size = {page_size}")
+    connection.execute(
+        "CREATE TABLE messages (id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, data BLOB)"
+    )
+    rows = [(k, k % 300, 2**k % 2**61, bytes(k * 37)) for k in range(1, 400)]
+    connection.executemany("INSERT INTO messages VALUES (?, ?, ?, ?)", rows)
+    connection.commit()
+    connection.close()
+    assert sorted(rows_of(file)) == rows
+
+
+HOSTILE = {
+    "a view that never ends": (
+        "DROP TABLE messages; CREATE VIEW messages AS "
+        "WITH RECURSIVE a(id) AS (SELECT 1 UNION ALL SELECT id FROM a) "
+        "SELECT id, 1 AS topic_id, 1 AS timestamp, x'00' AS data FROM a",
+        "no table messages",
+    ),
+    "no topics": ("DROP TABLE topics", "no table topics"),
+}
+
+
+@pytest.mark.parametrize("case", HOSTILE)
+def test_a_database_of_another_kind_gets_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], case: str
+) -> None:
+    script, says = HOSTILE[case]
+    file = record(tmp_path / "bag")
+    connection = sqlite3.connect(file)
+    connection.executescript(script)
+    connection.close()
+    assert cli.main(["inspect", str(file.parent)]) == 2
+    err = capsys.readouterr().err
+    assert says in err and err.count("\n") == 1
+
+
+def test_rows_of_other_values_are_counted(tmp_path: Path) -> None:
+    file = record(tmp_path / "bag")
+    with sqlite3.connect(file) as connection:
+        connection.execute("UPDATE messages SET timestamp = 'noon' WHERE id = 5")
+        connection.execute("UPDATE messages SET timestamp = -1 WHERE id = 6")
+        connection.execute("UPDATE messages SET data = 7 WHERE id = 7")
+        connection.execute("UPDATE messages SET topic_id = 99 WHERE id = 8")
+    connection.close()
+    bag = read_bag(tmp_path / "bag")
+    assert bag.count == TOTAL - 4
+    assert "bag.db3: 4 rows are no messages: left out" in bag.notes
+
+
+def test_a_packed_file_that_grows_without_measure_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(packed, "SMALL", 100_000)
+    file = tmp_path / "bag_0.mcap.zstd"
+    file.write_bytes(zstandard.ZstdCompressor().compress(bytes(50_000_000)))
+    with pytest.raises(ConfigurationError, match=r"more than .* bytes in"):
+        read_bag(file)
+
+
+def ros1(file: Path) -> None:
+    """Half a second of odometry going east, its header with `seq`, and a type with fewer fields in ROS 1."""
+    store = get_typestore(Stores.ROS1_NOETIC)
+    kinds = store.types
+    with Ros1Writer(file) as writer:
+        odometry = writer.add_connection("/auv/odom", "nav_msgs/msg/Odometry", typestore=store)
+        ranges = writer.add_connection("/auv/altitude", "sensor_msgs/msg/Range", typestore=store)
+        for k in range(50):
+            stamp = kinds["builtin_interfaces/msg/Time"](100, k * 10_000_000)
+            header = kinds["std_msgs/msg/Header"](7 + k, stamp, "map")
+            point = kinds["geometry_msgs/msg/Point"](0.5 * k, 2.0, 0.0)
+            pose = kinds["geometry_msgs/msg/Pose"](
+                point, kinds["geometry_msgs/msg/Quaternion"](0.0, 0.0, 0.0, 1.0)
+            )
+            zero = kinds["geometry_msgs/msg/Vector3"](0.0, 0.0, 0.0)
+            twist = kinds["geometry_msgs/msg/Twist"](zero, zero)
+            sent = kinds["nav_msgs/msg/Odometry"](
+                header, "base_link",
+                kinds["geometry_msgs/msg/PoseWithCovariance"](pose, np.zeros(36)),
+                kinds["geometry_msgs/msg/TwistWithCovariance"](twist, np.zeros(36)),
+            )  # fmt: skip
+            at = 100 * 10**9 + k * 10_000_000
+            writer.write(odometry, at, store.serialize_ros1(sent, "nav_msgs/msg/Odometry"))
+            seen = kinds["sensor_msgs/msg/Range"](header, 0, 0.1, 0.2, 50.0, 4.5)
+            writer.write(ranges, at, store.serialize_ros1(seen, "sensor_msgs/msg/Range"))
+
+
+def test_a_ros1_bag_with_headers_is_read(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "dive.bag"
+    ros1(file)
+    run = load(file)
+    assert run.steps == 50
+    np.testing.assert_array_equal(run.y, 0.5 * np.arange(50))  # ENU x is east
+    np.testing.assert_array_equal(run.x, np.full(50, 2.0))
+    np.testing.assert_allclose(run.t, 100 + 0.01 * np.arange(50), atol=1e-9)
+    bag = read_bag(file)
+    assert bag.notes == []
+    (seen,) = (topic for topic in bag.topics.values() if topic.name == "/auv/altitude")
+    decoded = typestore().deserialize_cdr(seen.messages[3] or b"", "sensor_msgs/msg/Range")
+    assert decoded.header.frame_id == "map"
+    assert decoded.range == pytest.approx(4.5)
+    assert cli.main(["repair", str(file)]) == 0
+    assert "whole, 100 messages" in capsys.readouterr().out
+    assert contents(read_bag(tmp_path / "dive")) == contents(bag)
+    assert load(tmp_path / "dive").steps == 50
+
+
+def test_of_a_ros1_bag_cut_off_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "dive.bag"
+    ros1(file)
+    file.write_bytes(file.read_bytes()[:3000])
+    assert cli.main(["inspect", str(file)]) == 2
+    err = capsys.readouterr().err
+    assert "a recording that cannot be read" in err and err.count("\n") == 1
