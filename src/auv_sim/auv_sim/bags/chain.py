@@ -79,7 +79,9 @@ def answers(
     timeout = parameters[topics.GUIDANCE].water_velocity_timeout
     steps = list(_steps(bag, namespace, lockstep, timeout))
     if not steps:
-        raise ConfigurationError(str(bag.path), "no odometry", f"messages on {topics.ODOM.name}")
+        raise ConfigurationError(
+            str(bag.path), "no odometry", f"messages on {topics.ODOM.name}, or --odometry"
+        )
     log_ns = np.array([step.log_ns for step in steps], np.int64)
     recorded = {name: _column(bag, name, namespace, log_ns, lockstep) for name in Answer._fields}
     running = _running(bag, namespace, recorded[topics.DESIRED_THRUST.name])

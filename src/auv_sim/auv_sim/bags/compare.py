@@ -14,6 +14,7 @@ from rich.table import Table
 from auv_msgs_py import yaml_file
 from auv_msgs_py.errors import ConfigurationError
 from auv_sim.analysis.metrics import MissionSummary
+from auv_sim.bags.arguments import add_choice
 from auv_sim.bags.compare_picture import draw
 from auv_sim.bags.flight import PARAMS, Flight, configuration, flight_of
 from auv_sim.command_line import console as terminal
@@ -40,6 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--mission", metavar="FILE", help="the mission that was flown, where a recording does not tell"
     )
+    add_choice(parser)
     parser.add_argument(
         "--png", type=target, metavar="FILE", default=Path("compare.png"), help="default: compare.png"
     )
@@ -52,7 +54,9 @@ def run(arguments: argparse.Namespace) -> int:
         raise ConfigurationError("compare", "one recording", "two or more")
     flights = []
     for path in arguments.bag:
-        flight = flight_of(read_bag(path), arguments.mission)
+        flight = flight_of(
+            read_bag(path, odometry=arguments.odometry), arguments.mission, arguments.namespace
+        )
         if flight.summary is None:
             raise ConfigurationError(
                 str(path), flight.notes[0] if flight.notes else "no mission", "a flown mission"

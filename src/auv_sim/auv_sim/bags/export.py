@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from auv_msgs_py.errors import ConfigurationError
 from auv_sim.analysis.run import Run
+from auv_sim.bags.arguments import add_choice
 from auv_sim.command_line import target
 from auv_sim.recording.bag import read_bag
 from auv_sim.recording.load import run_of
@@ -30,12 +31,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--out", type=target, metavar="FILE", help="*.csv or *.parquet (default: beside the recording, CSV)"
     )
     parser.add_argument("--rate", type=float, metavar="HZ", help="resample to so many rows a second instead")
-    parser.add_argument("--namespace", metavar="NAME", help="which vehicle, where there are several")
+    add_choice(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Write the table and say where."""
-    bag = read_bag(arguments.bag)
+    bag = read_bag(arguments.bag, odometry=arguments.odometry)
     for note in bag.notes:
         print(f"damaged: {note}")
     flown = run_of(bag, arguments.namespace)

@@ -66,9 +66,12 @@ def flight_of(bag: Bag, mission: str | None = None, namespace: str | None = None
     notes: list[str] = []
     run = None
     try:
+        odometry = bag.find(topics.ODOM.name, namespace)
         run = run_of(bag, namespace)
+        if odometry is not None and odometry.name.rsplit("/", 1)[-1] != topics.ODOM.name:
+            notes.append(f"odometry taken from {odometry.name}")
     except ConfigurationError as error:
-        if "several topics" in error.found:
+        if "several topics" in error.found or error.where == "--odometry":
             raise
         notes.append(f"no mission figures: {_without_place(error, bag)}")
     flown = hull = believed = None

@@ -16,6 +16,7 @@ from rich.console import Console
 
 from auv_msgs_py.errors import ConfigurationError
 from auv_sim.bags import inspect_tables
+from auv_sim.bags.arguments import add_choice
 from auv_sim.bags.events import Event, events_of
 from auv_sim.bags.flight import Flight, flight_of
 from auv_sim.bags.topic_facts import TopicFacts, facts_of
@@ -37,7 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--mission", metavar="FILE", help="the mission that was flown, where the recording does not tell"
     )
-    parser.add_argument("--namespace", metavar="NAME", help="which vehicle, where there are several")
+    add_choice(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -46,7 +47,7 @@ def run(arguments: argparse.Namespace) -> int:
     console = terminal()
     if len(bags) > 1:
         return _many(bags, arguments, console)
-    bag = read_bag(bags[0], _wanted)
+    bag = read_bag(bags[0], _wanted, arguments.odometry)
     flight = flight_of(bag, arguments.mission, arguments.namespace)
     facts, events = facts_of(bag), events_of(flight)
     if arguments.json:
@@ -83,7 +84,8 @@ def _many(bags: list[Path], arguments: argparse.Namespace, console: Console) -> 
     rows: list[tuple[Path, Flight | None, str]] = []
     for path in bags:
         try:
-            flight = flight_of(read_bag(path, _wanted), arguments.mission, arguments.namespace)
+            bag = read_bag(path, _wanted, arguments.odometry)
+            flight = flight_of(bag, arguments.mission, arguments.namespace)
             rows.append((path, flight, "; ".join(flight.bag.notes)))
         except ConfigurationError as error:
             rows.append((path, None, f"found {error.found}, expected {error.expected}"))

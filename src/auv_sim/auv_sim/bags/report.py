@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from auv_msgs_py.errors import ConfigurationError
+from auv_sim.bags.arguments import add_choice
 from auv_sim.bags.events import events_of
 from auv_sim.bags.flight import Flight, flight_of
 from auv_sim.bags.report_data import page_data
@@ -29,12 +30,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--mission", metavar="FILE", help="the mission that was flown, where the recording does not tell"
     )
-    parser.add_argument("--namespace", metavar="NAME", help="which vehicle, where there are several")
+    add_choice(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Write the page and the pictures."""
-    bag = read_bag(arguments.bag)
+    bag = read_bag(arguments.bag, odometry=arguments.odometry)
     for note in bag.notes:
         print(f"damaged: {note}")
     flight = flight_of(bag, arguments.mission, arguments.namespace)

@@ -21,15 +21,16 @@ from auv_msgs_py import params_file, topics, yaml_file
 from auv_msgs_py.errors import ConfigurationError
 from auv_path_following import config_files, vehicle
 from auv_path_following.paths import mission_file
+from auv_sim.bags.arguments import add_choice
 from auv_sim.bags.chain import Answers, answers
 from auv_sim.bags.flight import MISSION, PARAMS, configuration, known_hull
 from auv_sim.command_line import console as terminal
 from auv_sim.command_line import target
 from auv_sim.parameters import SUITE
 from auv_sim.recording.bag import read_bag
-from auv_sim.recording.load import USED
+from auv_sim.recording.load import is_used
 
-_NEEDED = {topic.name for topic in (*USED, topics.MISSION_STATE, topics.DESIRED_THRUST)}
+_FURTHER = {topics.MISSION_STATE.name, topics.DESIRED_THRUST.name}
 _DEGREES = (topics.RUDDER_CMD.name, topics.DESIRED_YAW.name, topics.DESIRED_YAW_RATE.name)
 _UNITS = {
     topics.RUDDER_CMD.name: "°", topics.THRUST_CMD.name: "N", topics.DESIRED_YAW.name: "°",
@@ -45,7 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--mission", metavar="FILE", help="another mission than the recorded one")
     parser.add_argument("--vehicle", metavar="FILE", help="another hull than the nodes were told")
-    parser.add_argument("--namespace", metavar="NAME", help="which vehicle, where there are several")
+    add_choice(parser)
     parser.add_argument("--png", type=target, metavar="FILE", help="draw recorded and new commands")
     parser.add_argument("--csv", type=target, metavar="FILE", help="write recorded and new commands")
     parser.add_argument("--json", action="store_true", help="for programs")
@@ -53,7 +54,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """0 when every command is the same bit for bit, else 1; with --params (--mission, --vehicle) always 0."""
-    found = rerun(arguments.bag, arguments.params, arguments.mission, arguments.vehicle, arguments.namespace)
+    found = rerun(
+        arguments.bag, arguments.params, arguments.mission, arguments.vehicle, arguments.namespace,
+        arguments.odometry,
+    )  # fmt: skip
     if not np.isfinite(found.recorded[topics.RUDDER_CMD.name]).any():
         raise ConfigurationError(str(arguments.bag), "no commands", f"messages on {topics.RUDDER_CMD.name}")
     figures = {name: _figures(found, name) for name in found.new}
@@ -80,6 +84,7 @@ def rerun(
     mission: str | None = None,
     hull: str | None = None,
     namespace: str | None = None,
+    odometry: str | None = None,
 ) -> Answers:
     """What the chain would have answered.
 
@@ -87,11 +92,12 @@ def rerun(
         path: the recording; its configuration is in it or beside it.
         params, mission, hull: files that replace the recorded configuration.
         namespace: which vehicle's topics.
+        odometry: which topic, where it has another name than the contract's.
 
     Raises:
         ConfigurationError: a file cannot be used, or the recording lacks something.
     """
-    bag = read_bag(path, lambda name, _: name.rsplit("/", 1)[-1] in _NEEDED)
+    bag = read_bag(path, _is_needed, odometry)
     with configuration(bag) as directory:
         parameters = _parameters(directory / PARAMS, params)
         chosen = {}
@@ -109,6 +115,10 @@ def rerun(
         known = vehicle.load(str(chosen["vehicles"]))
         flown = mission_file.load(str(chosen["missions"]), known)
         return answers(bag, parameters, flown, known, namespace)
+
+
+def _is_needed(name: str, type_name: str) -> bool:
+    return is_used(name, type_name) or name.rsplit("/", 1)[-1] in _FURTHER
 
 
 def _parameters(recorded: Path, new: str | None) -> dict[str, Any]:

@@ -10,16 +10,12 @@ from pathlib import Path
 from mcap.records import Attachment, Channel, Metadata, Schema
 from zstandard import ZstdError
 
+from auv_msgs_py import topics
 from auv_msgs_py.errors import ConfigurationError
 from auv_sim.recording.bag_files import A_BAG, files_of, information_of, storage_of
-from auv_sim.recording.bag_writer import TEXTS
-from auv_sim.recording.mcap_scan import scan
 from auv_sim.recording.metadata import METADATA_FILE
 from auv_sim.recording.packed import SUFFIX as PACKED
 from auv_sim.recording.packed import unpack, unpack_message
-
-#: The metadata record in which rosbag2 repeats metadata.yaml.
-_REPEATED = "rosbag2"
 
 
 @dataclass
@@ -67,6 +63,7 @@ class Bag:
 
     Attributes:
         path: what was asked for.
+        odometry: full name of the topic that counts as the vehicle's odometry, where one was chosen.
         files: the storage files, with the number of messages in each.
         topics: by full name.
         notes: one line for each damage; empty when all is well.
@@ -86,6 +83,7 @@ class Bag:
     records: list[Metadata | Attachment] = field(default_factory=list)
     profile: str = "ros2"
     order: list[tuple[RecordedTopic, int]] = field(default_factory=list)
+    odometry: str | None = None
 
     @property
     def count(self) -> int:
@@ -99,15 +97,18 @@ class Bag:
         return (min(map(min, held)), max(map(max, held))) if held else (0, 0)
 
     def find(self, name: str, namespace: str | None = None) -> RecordedTopic | None:
-        """The topic whose name ends in `name`, of one vehicle.
+        """The topic whose name ends in `name`, of one vehicle; for odometry see `_find_odometry`.
 
         Raises:
             ConfigurationError: several vehicles have it and none is chosen.
         """
-        found = [topic for topic in self.topics.values() if topic.name.rsplit("/", 1)[-1] == name]
-        if namespace is not None:
-            wanted = f"/{namespace.strip('/')}/{name}".replace("//", "/")
-            found = [topic for topic in found if topic.name == wanted]
+        found = [
+            topic
+            for topic in self.topics.values()
+            if topic.name.rsplit("/", 1)[-1] == name and _is_of(topic, namespace, name)
+        ]
+        if name == topics.ODOM.name and (self.odometry is not None or not found):
+            return self._find_odometry(namespace)
         if len(found) > 1:
             listed = " and ".join(sorted(topic.name for topic in found))
             raise ConfigurationError(
@@ -115,9 +116,41 @@ class Bag:
             )
         return found[0] if found else None
 
+    def _find_odometry(self, namespace: str | None) -> RecordedTopic | None:
+        """The odometry that was asked for, else the only one of its type; a simulator's truth is none.
+
+        Raises:
+            ConfigurationError: none has the name that was asked for, or none was and there are several.
+        """
+        kind, truth = topics.ODOM.type, topics.TRUE_ODOM.name
+        there = sorted(
+            topic.name
+            for topic in self.topics.values()
+            if topic.type == kind and topic.name.rsplit("/", 1)[-1] != truth and _is_of(topic, namespace)
+        )
+        listed = " and ".join(there)
+        if self.odometry is not None:
+            asked = self.topics.get("/" + self.odometry.strip("/"))
+            if asked is None or asked.type != kind:
+                expected = f"one of {listed}" if there else f"a topic of type {kind}"
+                raise ConfigurationError("--odometry", self.odometry, expected)
+            return asked
+        if len(there) > 1:
+            found = f"no topic {topics.ODOM.name}, but {listed}"
+            raise ConfigurationError(str(self.path), found, "--odometry with one of them")
+        return self.topics[there[0]] if there else None
+
     def in_order(self) -> Iterator[tuple[RecordedTopic, int]]:
         """Every message by log time; messages of one time stay in the order of the file."""
         yield from sorted(self.order, key=lambda entry: entry[0].log_ns[entry[1]])
+
+
+def _is_of(topic: RecordedTopic, namespace: str | None, name: str | None = None) -> bool:
+    """Whether a topic is of a vehicle: directly in its namespace if a name is given, else anywhere below."""
+    if namespace is None:
+        return True
+    above = f"/{namespace.strip('/')}/".replace("//", "/")
+    return topic.name.startswith(above) if name is None else topic.name == above + name
 
 
 #: Asked for each topic: name and type; whether its messages are wanted, or only their sizes.
@@ -129,18 +162,19 @@ def everything(_: str, __: str) -> bool:
     return True
 
 
-def read_bag(path: Path, wanted: Wanted = everything) -> Bag:
+def read_bag(path: Path, wanted: Wanted = everything, odometry: str | None = None) -> Bag:
     """Read a recording, with everything that is readable in a damaged one.
 
     Args:
         path: a rosbag2 directory, a run directory with one in it, or a storage file.
         wanted: which topics' messages to keep.
+        odometry: full name of the topic to take for the vehicle's odometry.
 
     Raises:
         ConfigurationError: there is no recording, or nothing of it can be read.
     """
     path = storage_of(path)
-    bag = Bag(path)
+    bag = Bag(path, odometry=odometry)
     information = information_of(path, bag.notes) if path.is_dir() else {}
     files = files_of(path, information, bag.notes)
     if not files:
@@ -180,7 +214,9 @@ def _read_any(bag: Bag, file: Path, wanted: Wanted) -> None:
 
         read_ros1(bag, file, wanted)
     else:
-        _read_mcap(bag, file, wanted)
+        from auv_sim.recording.mcap_bag import read_mcap
+
+        read_mcap(bag, file, wanted)
 
 
 def _unpack_messages(bag: Bag) -> None:
@@ -197,65 +233,3 @@ def _unpack_messages(bag: Bag) -> None:
                 topic.messages[k], topic.sizes[k] = content, len(content)
     if unreadable:
         bag.notes.append(f"{unreadable} messages are not packed, though {METADATA_FILE} says so")
-
-
-def _alike(a: Channel, a_schema: Schema | None, b: Channel, b_schema: Schema | None) -> bool:
-    """Whether two channels of one name hold the same kind of message."""
-    if a.message_encoding != b.message_encoding or (a_schema is None) != (b_schema is None):
-        return False
-    return a_schema is None or (a_schema.name, a_schema.encoding) == (b_schema.name, b_schema.encoding)  # type: ignore[union-attr]
-
-
-def _read_mcap(bag: Bag, file: Path, wanted: Wanted) -> None:
-    by_number: dict[int, RecordedTopic] = {}
-    order: list[tuple[RecordedTopic, int]] = []
-
-    def take(channel: int, sequence: int, log_ns: int, publish_ns: int, data: bytes) -> None:
-        topic = by_number.get(channel)
-        if topic is None:
-            topic = by_number[channel] = RecordedTopic("", "")
-        order.append((topic, topic.count))
-        topic.put(sequence, log_ns, publish_ns, data, True)
-
-    result = scan(file, take)
-    bag.notes += [f"{file.name}: {note}" for note in result.notes]
-    bag.profile = result.profile
-    for record in result.metadata:
-        if record.name == TEXTS:
-            bag.texts |= record.metadata
-        elif record.name != _REPEATED and record not in bag.records:
-            bag.records.append(record)  # once: a recorder repeats what it says in every file
-    bag.records += result.attachments
-    renumbered: dict[int, tuple[RecordedTopic, int]] = {}
-    for number, channel in result.channels.items():
-        schema = result.schemas.get(channel.schema_id)
-        here = by_number.setdefault(number, RecordedTopic("", ""))
-        type_name = schema.name if schema else ""
-        topic = bag.topics.get(channel.topic)
-        if topic is None:
-            topic = bag.topics[channel.topic] = RecordedTopic(channel.topic, type_name)
-            topic.qos = channel.metadata.get("offered_qos_profiles", "")
-            topic.original = channel, schema
-            if schema:
-                topic.definition = schema.data.decode("utf-8", "replace")
-                topic.encoding = schema.encoding
-        elif topic.original is not None and not _alike(*topic.original, channel, schema):
-            if here.count:
-                said = f"{here.count} messages of a second type '{type_name}' on {channel.topic} left out"
-                bag.notes.append(f"{file.name}: {said}")
-            continue
-        renumbered[id(here)] = topic, topic.count
-        keep = wanted(channel.topic, topic.type)
-        topic.log_ns += here.log_ns
-        topic.publish_ns += here.publish_ns
-        topic.sequence += here.sequence
-        topic.sizes += here.sizes
-        topic.messages += here.messages if keep else [None] * here.count
-    nameless = [t for number, t in by_number.items() if number not in result.channels]
-    if nameless:
-        number = sum(topic.count for topic in nameless)
-        bag.notes.append(f"{file.name}: {number} messages belong to no known topic")
-    for here, k in order:
-        if id(here) in renumbered:
-            topic, offset = renumbered[id(here)]
-            bag.order.append((topic, offset + k))

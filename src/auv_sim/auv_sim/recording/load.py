@@ -59,11 +59,12 @@ def load(bag: Path, namespace: str | None = None, frame_ids: FrameIds | None = N
         ConfigurationError: not a readable recording, no odometry, topics of several vehicles, a topic
             of another type, or frame ids that are unknown or change.
     """
-    return run_of(read_bag(bag, _is_used), namespace, frame_ids)
+    return run_of(read_bag(bag, is_used), namespace, frame_ids)
 
 
-def _is_used(name: str, _: str) -> bool:
-    return name.rsplit("/", 1)[-1] in {topic.name for topic in USED}
+def is_used(name: str, type_name: str) -> bool:
+    """Whether a `Run` takes something from a topic, which may be odometry of any name."""
+    return type_name == topics.ODOM.type or name.rsplit("/", 1)[-1] in {topic.name for topic in USED}
 
 
 def run_of(bag: Bag, namespace: str | None = None, frame_ids: FrameIds | None = None) -> Run:
@@ -81,7 +82,8 @@ def run_of(bag: Bag, namespace: str | None = None, frame_ids: FrameIds | None = 
             log_ns = np.array(found.log_ns, np.int64)[rows]
             recorded[topic] = _Recorded(log_ns, _decoded(topic, messages, bag.path))
     if topics.ODOM not in recorded:
-        raise ConfigurationError(str(bag.path), "no odometry", f"messages on {topics.ODOM.name}")
+        expected = f"messages on {topics.ODOM.name}, or of type {topics.ODOM.type} on one other topic"
+        raise ConfigurationError(str(bag.path), "no odometry", expected)
     table = FrameTable(frame_ids or FrameIds())
     try:
         return _assemble(recorded, table, bag.path)
