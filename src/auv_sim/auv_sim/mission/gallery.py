@@ -45,9 +45,8 @@ class Flight(NamedTuple):
     summary: dict[str, Any]
 
 
-@command("gallery", "interrupted; what was flown is kept, start it again to go on")
-def main(argv: Sequence[str] | None = None) -> int:
-    """Fly what is not yet there, draw, renew the table; 0 done, 1 failed, 2 bad input, 130 interrupted."""
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
     p = Parser(prog="gallery.py", description=__doc__, allow_abbrev=False)
     p.add_argument(
         "--page",
@@ -69,7 +68,13 @@ def main(argv: Sequence[str] | None = None) -> int:
         " flown again (default: %(default)s)",
     )
     p.add_argument("--params", default="robust", help="gains (default: %(default)s)")
-    _renew(p.parse_args(argv))
+    return p
+
+
+@command("gallery", "interrupted; what was flown is kept, start it again to go on")
+def main(argv: Sequence[str] | None = None) -> int:
+    """Fly what is not yet there, draw, renew the table; 0 done, 1 failed, 2 bad input, 130 interrupted."""
+    _renew(parser().parse_args(argv))
     return EXIT_DONE
 
 

@@ -222,6 +222,18 @@ def make(options: Options, directory: Path) -> Plan:
     return Plan(options, mission, hull, parameters, sources, verdicts, believed, emulator)
 
 
+def scenario(options: Options) -> Scenario:
+    """The flight that the launcher would fly, for `closed_loop.fly`; nothing is written.
+
+    Args:
+        options: as for the launcher, with its defaults.
+
+    Raises:
+        ConfigurationError: one line with the place, what was found and what was expected.
+    """
+    return make(options, Path("runs")).scenario()
+
+
 def _sea(options: Options, parameters: dict[str, Any], sources: dict[str, Path]) -> Pair:
     """Tell the simulator its sea, asked for or of the parameter file; returns its mean current, m/s, NED."""
     name = options.sea if options.sea is not None else parameters[topics.PLANT].sea

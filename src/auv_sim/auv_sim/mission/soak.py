@@ -90,9 +90,8 @@ def growth(rows: Sequence[tuple[float, dict[str, int]]]) -> list[Growth]:
     return found
 
 
-@command("soak")
-def main(argv: Sequence[str] | None = None) -> int:
-    """Returns 0 when nothing grew or was lost, 1 when something did, 2 for bad input, 130 interrupted."""
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
     p = Parser(
         prog="soak.py",
         description="Fly a looped survey for an hour of mission time and watch.",
@@ -107,7 +106,13 @@ def main(argv: Sequence[str] | None = None) -> int:
         help="largest growth, kB per 1000 steps (default 20)",
     )
     p.add_argument("--out", type=Path, metavar="DIR", help="run directory (default: runs/soak-DATE)")
-    return _soak(p.parse_args(argv))
+    return p
+
+
+@command("soak")
+def main(argv: Sequence[str] | None = None) -> int:
+    """Returns 0 when nothing grew or was lost, 1 when something did, 2 for bad input, 130 interrupted."""
+    return _soak(parser().parse_args(argv))
 
 
 def _soak(arguments: argparse.Namespace) -> int:

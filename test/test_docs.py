@@ -1,0 +1,260 @@
+"""Every command and every listing of README, docs/ and CONTRIBUTING.md is one that works.
+
+A command is parsed by its own parser, with placeholders filled in. What takes seconds is then run, shortened;
+what takes longer names the test that runs it.
+"""
+
+from __future__ import annotations
+
+import importlib
+import re
+import shlex
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from auv_msgs_py import yaml_file
+from auv_msgs_py.settings import flattened, nested, validated
+from auv_path_following import config_files
+from auv_path_following.paths import mission_file
+from auv_sim.bags import cli as bag_cli
+from auv_sim.batch import engine
+from auv_sim.campaign.plan import StudyPlan
+from auv_sim.mission import cli as mission_cli
+from auv_sim.parameters import SUITE, FaultRelayParameters
+from auv_sim.planning import cli as plan_cli
+from auv_sim.plant import sea
+from conftest import SHORT_MISSION
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGES = (
+    "README.md",
+    "CONTRIBUTING.md",
+    *(f"docs/{page.name}" for page in sorted((ROOT / "docs").glob("*.md"))),
+)
+#: Script -> the module with its parser.
+PARSERS = {
+    "bag": "auv_sim.bags.cli",
+    "benchmark": "auv_sim.benchmark.cli",
+    "campaign": "auv_sim.mission.campaign",
+    "check_vehicle": "auv_sim.drivers.check_vehicle",
+    "fault_matrix": "auv_sim.faults.cli",
+    "gallery": "auv_sim.mission.gallery",
+    "mission": "auv_sim.mission.cli",
+    "plan": "auv_sim.planning.cli",
+    "reproduce_paper": "auv_sim.reproduction.cli",
+    "sea_trials": "auv_sim.mission.sea_trials",
+    "soak": "auv_sim.mission.soak",
+}
+#: What the shell and other programs' commands begin with: they are no commands of this suite.
+FOREIGN = (
+    "cd",
+    "mkdir",
+    "source",
+    "pip",
+    "rosdep",
+    "sudo",
+    "python3 -m",
+    "SHARE=",
+    "ros2 service",
+    "ros2 param",
+)
+#: Options that name a file, and the folder of config/ that ships such files.
+FILES: dict[str, config_files.Kind] = {
+    "mission": "missions",
+    "vehicle": "vehicles",
+    "params": "params",
+    "sea": "seas",
+}
+NODES = SUITE | {"fault_relay": FaultRelayParameters}
+
+
+class Line(NamedTuple):
+    """A command as a page prints it, without its comment."""
+
+    page: str
+    text: str
+
+    def __str__(self) -> str:
+        return f"{self.page}: {self.text}"
+
+
+def lines() -> Iterator[Line]:
+    """Indented lines that begin as a command does."""
+    for page in PAGES:
+        for text in (ROOT / page).read_text(encoding="utf-8").splitlines():
+            found = re.match(r"    ((?:python3|ros2|pip|cd|mkdir|source|rosdep|sudo|SHARE=)\b.*)", text)
+            if found:
+                yield Line(
+                    page, shlex.join(shlex.split(found[1], comments=True)) if "#" in found[1] else found[1]
+                )
+
+
+LINES = sorted(set(lines()))
+
+
+def words_of(line: Line, run: object = "runs/example") -> list[str]:
+    """The arguments of a script, with something in place of MISSION, RUN and the like."""
+    stands_for = {
+        "MISSION": "survey_wgs84", "RUN": str(run), "runs/...": str(run), "NEW.yaml": "rough",
+        "path.kml": "/dev/null", "my_study": "currents", "...": str(run),
+    }  # fmt: skip
+    return [stands_for.get(word, word) for word in shlex.split(line.text)[2:]]
+
+
+def script_of(line: Line) -> str:
+    found = re.match(r"python3 scripts/(\w+)\.py", line.text)
+    return found[1] if found else ""
+
+
+def chosen(script: str) -> list[Line]:
+    return [line for line in LINES if script_of(line) == script]
+
+
+def test_there_is_nothing_that_no_test_looks_at() -> None:
+    rest = [line for line in LINES if not line.text.startswith(FOREIGN)]
+    others = [
+        line for line in rest if script_of(line) not in PARSERS and not line.text.startswith("ros2 run")
+    ]
+    assert {line.text for line in others} == {
+        "python3 scripts/test.py",
+        "python3 scripts/test.py -k fermat -x",
+        "python3 my_driver.py --ros-args -r __ns:=/auv",  # test_driver_doc.py
+    }
+
+
+@pytest.mark.parametrize("line", [line for line in LINES if script_of(line) in PARSERS], ids=str)
+def test_a_command_of_scripts_is_understood(line: Line) -> None:
+    module = importlib.import_module(PARSERS[script_of(line)])
+    words = words_of(line)
+    if "--help" in words:
+        with pytest.raises(SystemExit) as ended:
+            module.parser().parse_args(words)
+        assert ended.value.code == 0
+        return
+    parsed = vars(module.parser().parse_args(words))
+    for option, kind in FILES.items():
+        if isinstance(parsed.get(option), str):
+            assert config_files.find(kind, parsed[option]).is_file()
+
+
+@pytest.mark.parametrize("line", [line for line in LINES if line.text.startswith("ros2 run")], ids=str)
+def test_a_node_that_ros2_runs_has_these_parameters(line: Line) -> None:
+    _, _, package, node, *rest = shlex.split(line.text)
+    if package == "my_driver":
+        return
+    source = (ROOT / "src" / package / "setup.py").read_text(encoding="utf-8")
+    assert f'"{node} = ' in source
+    given = dict(word.split(":=") for word in rest if ":=" in word and not word.startswith("__"))
+    given.pop("use_sim_time", None)
+    if node not in NODES:
+        assert not given
+        return
+    known = flattened(NODES[node]())
+    typed = {name: type(known[name])(value) for name, value in given.items()}
+    validated(NODES[node], nested(typed), str(line))
+    for word in rest:
+        if word.startswith("$SHARE/"):
+            assert (ROOT / word.removeprefix("$SHARE/")).is_file()
+
+
+def test_the_nodes_that_are_started_by_hand_follow_the_simulator() -> None:
+    """The simulator's clock starts at 1 s: a node on wall time would refuse all of its stamps."""
+    started = [line.text for line in LINES if line.page == "README.md" and line.text.startswith("ros2 run")]
+    assert len(started) == 5
+    assert all("use_sim_time:=true" in text or "remus_plant" in text for text in started)
+
+
+def shortened(line: Line, directory: Path) -> list[str]:
+    """A flight of half a minute, in one process, of what a page flies for longer."""
+    words = words_of(line)
+    if "--mission" not in words:
+        words += ["--mission", str(SHORT_MISSION)]
+    if "--speed" in words:
+        words[words.index("--speed") + 1] = "20"
+    return [*words, "--composed", "--quiet", "--out", str(directory)]
+
+
+def flown_here(line: Line) -> bool:
+    """Not those for a vehicle that is not there (test_foreign_vehicle.py, test_mavlink_driver.py)."""
+    elsewhere = {"--no-sim", "--vehicle-driver", "--help", "MISSION"}
+    return line.page == "README.md" and not elsewhere & set(shlex.split(line.text))
+
+
+@pytest.mark.parametrize("line", [line for line in chosen("mission") if flown_here(line)], ids=str)
+def test_a_mission_flies(line: Line, tmp_path: Path, domain: int) -> None:
+    program = [
+        sys.executable,
+        "-m",
+        mission_cli.__name__.removesuffix(".cli"),
+        *shortened(line, tmp_path / "run"),
+    ]
+    done = subprocess.run(program, capture_output=True, text=True, check=False, timeout=120)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("line", chosen("plan"), ids=str)
+def test_a_plan_is_drawn(line: Line, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    words = ["path.kml" if word == "/dev/null" else word for word in words_of(line)]
+    assert plan_cli.main(words) == 0
+    assert list(tmp_path.glob("*.png"))
+
+
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A run directory."""
+    run = tmp_path_factory.mktemp("docs") / "run"
+    words = ["--mission", str(SHORT_MISSION), "--composed", "--quiet", "--out", str(run)]
+    subprocess.run([sys.executable, "-m", "auv_sim.mission", *words], check=True, timeout=120)
+    return run
+
+
+@pytest.mark.parametrize("line", [line for line in chosen("bag") if "replay" not in line.text], ids=str)
+def test_a_bag_is_looked_into(line: Line, recorded: Path) -> None:
+    """replay takes as long as the flight: test_recorder_process.py runs it."""
+    assert bag_cli.main(words_of(line, recorded)) == 0
+
+
+def listings(page: str, language: str) -> list[str]:
+    text = (ROOT / page).read_text(encoding="utf-8")
+    return re.findall(rf"^```{language}\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
+
+
+def test_the_readmes_python_flies_what_the_launcher_flies() -> None:
+    (code,) = listings("README.md", "python")
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    duration, distance = map(float, re.findall(r"[\d.]+", done.stdout))
+    assert 600.0 < duration < 700.0
+    assert distance < 1.0
+
+
+def test_the_study_of_the_page_flies(tmp_path: Path) -> None:
+    (text,) = listings("docs/campaigns.md", "yaml")
+    (tmp_path / "my_study.yaml").write_text(text, encoding="utf-8")
+    plan = StudyPlan(tmp_path / "my_study.yaml")
+    scenarios = [plan.scenario(run) for run in range(12)]
+    x0, y0, chi0 = scenarios[0].path.start_pose
+    beside = [-np.sin(chi0) * (s.initial.x - x0) + np.cos(chi0) * (s.initial.y - y0) for s in scenarios]  # type: ignore[union-attr]
+    assert max(np.abs(beside)) > 1.0, "every start lies on the path's course"
+    assert engine.fly(scenarios).finite.all()
+
+
+def test_the_sea_of_the_page_is_a_sea(tmp_path: Path) -> None:
+    (text,) = listings("docs/sea.md", "yaml")
+    (tmp_path / "late.yaml").write_text(text, encoding="utf-8")
+    assert sea.load(str(tmp_path / "late.yaml")).rudder.dead_time == 0.2
+
+
+def test_the_first_mission_of_the_page_is_one(tmp_path: Path) -> None:
+    page = (ROOT / "docs/missions.md").read_text(encoding="utf-8")
+    (block,) = re.findall(r"## A first one\n\n((?:    .*\n)+)", page)
+    file = tmp_path / "first.yaml"
+    file.write_text(re.sub(r"(?m)^    ", "", block), encoding="utf-8")
+    assert mission_file.load(str(file)).path.length > 250.0
+    assert yaml_file.parse(file)["name"] == "harbour round"
