@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from auv_path_following.paths import mission_file
 from auv_sim.mission import plan
 from auv_sim.mission.cli import main
 from auv_sim.mission.launcher import domain_of
@@ -206,6 +207,31 @@ def test_a_vehicles_ros_domain_is_the_shells(
     if named is not None:
         monkeypatch.setenv("ROS_DOMAIN_ID", named)
     assert domain_of(plan.make(Options(no_sim=True), tmp_path)) == number
+
+
+def test_a_plan_is_flown_and_leaves_a_mission_file_that_flies_the_same(
+    tmp_path: Path, domain: int, capsys: pytest.CaptureFixture[str]
+) -> None:
+    places = [(59.9, 10.6), (59.9002, 10.6)]
+    items = [{"command": 16, "frame": 3, "params": [0, 0, 0, 0, *place, -5]} for place in places]
+    (tmp_path / "pier.plan").write_text(json.dumps({"fileType": "Plan", "mission": {"items": items}}))
+    run = tmp_path / "run"
+    asked = [
+        "--mission",
+        str(tmp_path / "pier.plan"),
+        "--out",
+        str(run),
+        "--domain",
+        str(domain),
+        "--composed",
+    ]
+    assert main(asked) == 0
+    said = capsys.readouterr().out
+    assert "notice pier.plan is no mission file; assumed: straight legs" in said
+    assert "notice pier.plan: altitudes (-5 m) not taken" in said
+    flown = mission_file.load(str(run / "config" / "mission.yaml"))
+    assert flown.path.length == pytest.approx(22.3, abs=0.1)
+    assert flown.speed == 1.5
 
 
 def test_a_name_is_no_markup(

@@ -79,6 +79,24 @@ def test_a_name_is_no_markup(tmp_path, capsys):
     assert "[bold].png" in out and "a [b] c.yaml" in out
 
 
+def test_what_a_waypoint_file_holds_beyond_the_path_gets_a_line_each(tmp_path, capsys):
+    rows = ("0\t1\t0\t16\t0\t0\t0\t0\t59.9\t10.6\t0\t1", "1\t0\t3\t16\t60\t0\t0\t0\t59.9\t10.6\t-5\t1",
+            "2\t0\t3\t16\t0\t0\t0\t0\t59.901\t10.6\t-5\t1",
+            "3\t0\t3\t20\t0\t0\t0\t0\t0\t0\t0\t1")  # fmt: skip
+    (tmp_path / "a.waypoints").write_text("\n".join(["QGC WPL 110", *rows]))
+    route = "waypoints: {file: a.waypoints, smoothing: {kind: linear}}\n"
+    origin = "origin: {latitude_deg: 59.9, longitude_deg: 10.6}\n"
+    (tmp_path / "m.yaml").write_text(f"version: 1\nname: a\nframe: wgs84\nspeed: 1\n{origin}{route}")
+    assert cli.main([str(tmp_path / "m.yaml"), "--out", str(tmp_path / "plan.png")]) == 0
+    lines = [line.split(maxsplit=1) for line in capsys.readouterr().out.splitlines()]
+    assert [line[1] for line in lines if line and line[0] == "notice"] == [
+        "a.waypoints: hold of 60 s (item 1) not taken",
+        "a.waypoints: return to launch (item 3) not taken",
+        "a.waypoints: altitudes (-5 m) not taken: paths are planar",
+        "a.waypoints: home position (item 0) not taken",
+    ]
+
+
 def _to_fly(capsys):
     (line,) = (line for line in capsys.readouterr().out.splitlines() if line.startswith("Fly it:"))
     words = shlex.split(line.split(":", 1)[1])

@@ -4,22 +4,24 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import shutil
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import pydantic
 
 from auv_msgs_py import yaml_file
 from auv_msgs_py.errors import ConfigurationError
-from auv_msgs_py.settings import setting, settings
+from auv_msgs_py.settings import setting, settings, validated
 from auv_path_following import config_files, vehicle
 from auv_path_following.guidance.limits import LimitsConfig
-from auv_path_following.paths import smoothing
+from auv_path_following.paths import bare_file, file_offers, smoothing
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.geodesy import Origin
 from auv_path_following.paths.reverse import reversed_path
 from auv_path_following.paths.route_specs import (
     FigureOfEightSpec,
+    GeofenceFile,
     LoiterSpec,
     Route,
     SpiralSpec,
@@ -68,6 +70,8 @@ class Mission:
         limits: what ends it early; the parameters may ask for less.
         geofence: corners (north, east), m, of the area that must not be left; empty for none.
         files: waypoint files that belong to it, in its own folder or below.
+        notices: what of those files is not flown, one line each.
+        assumed: the mission file that was assumed around a bare waypoint file; None where `source` is one.
     """
 
     name: str
@@ -83,10 +87,29 @@ class Mission:
     files: tuple[Path, ...] = ()
     limits: LimitsConfig = _NO_LIMITS
     geofence: tuple[Point, ...] = ()
+    notices: tuple[str, ...] = ()
+    assumed: dict[str, Any] | None = None
+
+    def copy_to(self, directory: Path) -> Path:
+        """Write `mission.yaml` and the files that belong to it; returns the mission file."""
+        target = directory / "mission.yaml"
+        if self.assumed is None:
+            shutil.copyfile(self.source, target)
+        else:
+            yaml_file.dump(self.assumed, target)
+        for file in self.files:
+            copy = directory / file.relative_to(self.source.parent)
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(file, copy)
+        return target
 
 
 _Version = Annotated[Literal[1], pydantic.BeforeValidator(no_boolean)]
 _Count = Annotated[int, pydantic.Field(ge=1, le=10000)]
+_Geofence = Annotated[
+    Annotated[tuple[Point, ...], pydantic.Tag("(corners)")] | Annotated[GeofenceFile, pydantic.Tag("(file)")],
+    pydantic.Discriminator(lambda value: "(file)" if isinstance(value, dict | GeofenceFile) else "(corners)"),
+]
 _ROUTES = ("segments", "waypoints", "survey", "spiral", "figure_of_eight", "loiter")
 
 
@@ -107,7 +130,9 @@ class MissionSpec:
     )
     switching: MissionSwitching = setting(factory=MissionSwitching, doc="circles of acceptance")
     limits: LimitsConfig = setting(factory=LimitsConfig, doc="what ends the mission early")
-    geofence: tuple[Point, ...] | None = setting(None, "corners of the area that must not be left")
+    geofence: _Geofence | None = setting(
+        None, "area that must not be left: its corners, or {file, feature} of a waypoint file"
+    )
     reverse: bool = setting(False, "follow the path from its end to its start")
     repeat: _Count = setting(1, "follow a closed path so many times")
     segments: tuple[SegmentSpec, ...] | None = setting(None, "the subpaths, in order")
@@ -120,10 +145,16 @@ class MissionSpec:
     @pydantic.model_validator(mode="after")
     def _fits(self) -> MissionSpec:
         exactly_one(self, _ROUTES, "kinds of route")
-        exactly_one(self, ("thrust", "speed"), "of thrust and speed")
+        if not self.reads_file or (self.thrust, self.speed) != (None, None):
+            exactly_one(self, ("thrust", "speed"), "of thrust and speed")
         if self.frame == "wgs84" and self.origin is None:
             raise unfit("frame wgs84 without origin", "origin: {latitude_deg: ..., longitude_deg: ...}")
         return self
+
+    @property
+    def reads_file(self) -> bool:
+        """Whether the route comes from a waypoint file, which may bring a speed."""
+        return any(route is not None and route.file is not None for route in (self.waypoints, self.survey))
 
     def build(self, site: Site) -> Route:
         """The subpaths, once and forwards."""
@@ -140,7 +171,7 @@ class MissionSpec:
 
 
 def load(name_or_path: str, hull: Vehicle | None = None) -> Mission:
-    """Read a mission file.
+    """Read a mission file, or a waypoint file with a mission assumed around it.
 
     Args:
         name_or_path: a path, or a shipped name such as ``paper_composite``.
@@ -150,25 +181,32 @@ def load(name_or_path: str, hull: Vehicle | None = None) -> Mission:
         ConfigurationError: one line with file and key, what was found and what was expected.
     """
     source = config_files.find("missions", name_or_path)
-    spec = yaml_file.load(source, MissionSpec)
+    assumed = bare_file.assumed(source) if bare_file.is_bare(source) else None
+    if assumed is None:
+        spec = yaml_file.load(source, MissionSpec)
+    else:
+        spec = validated(MissionSpec, assumed, str(source))
     site = Site(spec.frame, spec.origin, source.parent)
     try:
         route = spec.build(site)
         path, once = _path(spec, route)
+        speed = file_offers.speed(site, spec.thrust, spec.speed)
         geofence = _geofence(spec, site)
+        if assumed is not None:
+            site.notices.insert(0, bare_file.notice(assumed, source, speed))
     except ConfigurationError as error:
-        raise ConfigurationError(f"{source}: {error.where}", error.found, error.expected) from None
-    if spec.thrust is not None:
-        thrust = spec.thrust
-    else:
-        thrust = (hull or vehicle.load(DEFAULT_VEHICLE)).thrust_at(spec.speed or 0.0)
+        where = error.where.removeprefix(f"waypoints.file: {source.name}: ") if assumed else error.where
+        raise ConfigurationError(f"{source}: {where}", error.found, error.expected) from None
+    thrust = spec.thrust
+    if thrust is None:
+        thrust = (hull or vehicle.load(DEFAULT_VEHICLE)).thrust_at(speed or 0.0)
     return Mission(
         name=spec.name,
         path=path,
         thrust=thrust,
         source=source,
         description=spec.description,
-        speed=spec.speed,
+        speed=speed,
         switching=spec.switching,
         origin=spec.origin,
         waypoints=tuple(route.waypoints),
@@ -176,16 +214,24 @@ def load(name_or_path: str, hull: Vehicle | None = None) -> Mission:
         files=tuple(site.files),
         limits=spec.limits,
         geofence=geofence,
+        notices=tuple(site.notices),
+        assumed=assumed,
     )
 
 
 def _geofence(spec: MissionSpec, site: Site) -> tuple[Point, ...]:
     if spec.geofence is None:
-        return ()
-    if len(spec.geofence) < 3:
-        raise ConfigurationError("geofence", f"{len(spec.geofence)} corner(s)", "at least three")
-    with within("geofence", joined=""):
-        return tuple(site.points(spec.geofence))
+        return tuple(file_offers.geofence(site))
+    if isinstance(spec.geofence, GeofenceFile):
+        with within("geofence"):
+            corners = spec.geofence.build(site)
+    else:
+        with within("geofence", joined=""):
+            corners = site.points(spec.geofence)
+        file_offers.leave_geofence(site)
+    if len(corners) < 3:
+        raise ConfigurationError("geofence", f"{len(corners)} corner(s)", "at least three")
+    return tuple(corners)
 
 
 def _path(spec: MissionSpec, route: Route) -> tuple[CompositePath, int]:

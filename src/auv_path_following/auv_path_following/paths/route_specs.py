@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import math
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Annotated, NamedTuple
 
 import pydantic
@@ -23,21 +26,57 @@ class Route(NamedTuple):
     waypoints: list[Pair]
 
 
+@contextmanager
+def _named_as_in(file: str | None) -> Iterator[None]:
+    """Say `file: NAME: point 3` where an error says `points[2]`, if the points come from a file."""
+    try:
+        yield
+    except ConfigurationError as error:
+        if file is None:
+            raise
+        where, found = (
+            re.sub(r"\bpoints\[(\d+)\]", lambda m: f"point {int(m[1]) + 1}", text)
+            for text in (error.where, error.found)
+        )
+        if where in ("points", "polygon"):
+            where = f"file: {file}"
+        elif where.startswith("point "):
+            where = f"file: {file}: {where}"
+        raise ConfigurationError(where, found, error.expected) from None
+
+
+@settings
+class GeofenceFile:
+    """`geofence` from a file: a plan's inclusion fence, or a polygon."""
+
+    file: str = setting(doc="a waypoint file beside the mission file")
+    feature: str | None = setting(None, "name of the fence or polygon to take")
+
+    def build(self, site: Site) -> list[Pair]:
+        """The corners (north, east), m."""
+        return site.read(self.file, "geofence", self.feature).points
+
+
 @settings
 class WaypointsSpec:
     """`waypoints`: points to pass, and how to go round their corners."""
 
     points: tuple[Pair, ...] | None = setting(None, "the waypoints")
-    file: str | None = setting(
-        None, "in place of points: .geojson, .kml, .csv or .plan beside the mission file"
-    )
+    file: str | None = setting(None, "in place of points: a waypoint file beside the mission file")
+    feature: str | None = setting(None, "with file: name of the line or polygon to take")
     smoothing: Smoothing = setting(doc="how corners are rounded")
-    closed: bool = setting(False, "go on from the last waypoint to the first one")
+    closed: bool | None = setting(
+        None, "go on from the last waypoint to the first one (default: only round the outline of a polygon)"
+    )
 
     def build(self, site: Site) -> Route:
         """The subpaths along the waypoints."""
-        points = site.given(self.points, self.file, "points")
-        return Route(smooth(points, self.smoothing, self.closed), points)
+        points, outline = site.given(self.points, self.file, self.feature, "points", "waypoints")
+        closed = outline if self.closed is None else self.closed
+        if outline and not closed:
+            site.note(f"{self.file}: the last side of the outline is not followed (closed: false)")
+        with _named_as_in(self.file):
+            return Route(smooth(points, self.smoothing, closed), points)
 
 
 @settings
@@ -45,9 +84,8 @@ class SurveySpec:
     """`survey`: a lawnmower pattern over a polygon."""
 
     polygon: tuple[Pair, ...] | None = setting(None, "the polygon's corners, in order")
-    file: str | None = setting(
-        None, "in place of polygon: .geojson, .kml, .csv or .plan beside the mission file"
-    )
+    file: str | None = setting(None, "in place of polygon: a waypoint file beside the mission file")
+    feature: str | None = setting(None, "with file: name of the polygon to take")
     spacing: float | None = setting(None, "largest distance between legs", unit="m", gt=0.0)
     swath: float | None = setting(None, "in place of spacing: width that the sensor sees", unit="m", gt=0.0)
     overlap: float = setting(0.0, "with swath: share of it that the next leg sees again", ge=0.0, le=0.95)
@@ -66,9 +104,10 @@ class SurveySpec:
 
     def build(self, site: Site) -> Route:
         """The survey's legs and turns."""
-        polygon = site.given(self.polygon, self.file, "polygon")
+        polygon, _ = site.given(self.polygon, self.file, self.feature, "polygon", "survey")
         spacing = self.spacing if self.spacing is not None else (self.swath or 0.0) * (1.0 - self.overlap)
-        legs = survey.legs(polygon, spacing, math.radians(self.heading_deg), self.run_out)
+        with _named_as_in(self.file):
+            legs = survey.legs(polygon, spacing, math.radians(self.heading_deg), self.run_out)
         try:
             segments = survey.path(legs, self.smoothing)
         except ConfigurationError as error:

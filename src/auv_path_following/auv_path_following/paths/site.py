@@ -3,18 +3,31 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
-from typing import Literal
+from typing import Literal, NamedTuple
 
-from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.errors import ConfigurationError, printable
 from auv_path_following.paths import geodesy, waypoint_files
 from auv_path_following.paths.geodesy import FARTHEST, Origin
+from auv_path_following.paths.waypoint_files import Content, Use
 
 Point = tuple[float, float]
 Frame = Literal["ned", "enu", "wgs84"]
+
+
+class Given(NamedTuple):
+    """Points of a mission file or of a waypoint file.
+
+    Attributes:
+        points: (north, east), m.
+        outline: whether they are the outline of a polygon, which has no end.
+    """
+
+    points: list[Point]
+    outline: bool
 
 
 @dataclass(frozen=True)
@@ -25,13 +38,15 @@ class Site:
         frame: `ned` [north, east] m, `enu` [east, north] m, or `wgs84` [latitude, longitude] deg.
         origin: of the plane; required for degrees.
         folder: of the mission file.
-        files: waypoint files that were read so far.
+        files: waypoint files that were read so far, and what they hold.
+        notices: what was not taken of them, one line each.
     """
 
     frame: Frame
     origin: Origin | None
     folder: Path
-    files: list[Path] = field(default_factory=list)
+    files: dict[Path, Content] = field(default_factory=dict)
+    notices: list[str] = field(default_factory=list)
 
     def points(self, pairs: Sequence[Point]) -> list[Point]:
         """Pairs as they stand in the file -> (north, east), m.
@@ -47,7 +62,7 @@ class Site:
             if abs(latitude) > 90.0 or abs(longitude) > 180.0:
                 found = f"[{latitude:g}, {longitude:g}]"
                 raise ConfigurationError(f"[{number}]", found, "[latitude, longitude] in degrees")
-        return self._placed(pairs)
+        return self._placed(pairs, lambda k: f"[{k}]")
 
     def point(self, pair: Point) -> Point:
         """One pair -> (north, east), m."""
@@ -56,47 +71,55 @@ class Site:
         except ConfigurationError as error:
             raise ConfigurationError("", error.found, error.expected) from None
 
-    def _placed(self, pairs: Sequence[Point]) -> list[Point]:
+    def _placed(self, pairs: Sequence[Point], place: Callable[[int], str]) -> list[Point]:
         if self.origin is None:
             raise ConfigurationError(
                 "origin", "nothing", "latitude_deg and longitude_deg, since points are in degrees"
             )
         if not pairs:
             return []
-        latitude, longitude = zip(*pairs, strict=True)
-        north, east = geodesy.to_ned(self.origin, latitude, longitude)
+        north, east = geodesy.to_ned(self.origin, *zip(*pairs, strict=True))
         placed = list(zip(north.tolist(), east.tolist(), strict=True))
         for number, (x, y) in enumerate(placed):
             if math.hypot(x, y) > FARTHEST:
-                place = f"[{pairs[number][0]:g}, {pairs[number][1]:g}]"
-                found = f"{place}, {math.hypot(x, y) / 1e3:.0f} km from the origin"
+                latitude, longitude = pairs[number]
+                found = f"[{latitude:g}, {longitude:g}], {math.hypot(x, y) / 1e3:.0f} km from the origin"
                 expected = f"[latitude, longitude] within {FARTHEST / 1e3:g} km"
-                raise ConfigurationError(f"[{number}]", found, expected)
+                raise ConfigurationError(place(number), found, expected)
         return placed
 
-    def read(self, name: str) -> list[Point]:
-        """The points of a waypoint file in the mission file's folder -> (north, east), m.
+    def read(self, name: str, use: Use, feature: str | None = None) -> Given:
+        """What a waypoint file in the mission file's folder holds for `use`, placed.
 
         Raises:
-            ConfigurationError: it is elsewhere, missing, or not understood.
+            ConfigurationError: it is elsewhere, missing, not understood, or does not fit; names the feature.
         """
         relative = PurePosixPath(name)
         if relative.is_absolute() or ".." in relative.parts:
             expected = "one in the mission file's own folder, so that the two stay together"
             raise ConfigurationError("file", repr(name), expected)
         path = self.folder / relative
-        found = waypoint_files.read(path)
-        if path not in self.files:
-            self.files.append(path)
-        if not found.in_degrees:
-            return found.points
-        try:
-            return self._placed(found.points)
-        except ConfigurationError as error:
-            where = error.where if error.where == "origin" else f"{path.name}: point {error.where}"
-            raise ConfigurationError(where, error.found, error.expected) from None
+        with within("file", joined=": "):
+            if path not in self.files:
+                self.files[path] = waypoint_files.read(path, name)
+            content = self.files[path]
+            with within(name, joined=": "):
+                taken = waypoint_files.choose(content, use, feature)
+                points = taken.points
+                if content.in_degrees:
+                    points = self._placed(points, lambda k: f"point {k + 1}")
+        self.note(*(f"{name}: {notice}" for notice in taken.notices))
+        return Given(points, taken.outline)
 
-    def given(self, pairs: Sequence[Point] | None, file: str | None, key: str) -> list[Point]:
+    def note(self, *notices: str) -> None:
+        """Add notices; each is kept once, as a line that is safe to print."""
+        for notice in map(printable, notices):
+            if notice not in self.notices:
+                self.notices.append(notice)
+
+    def given(
+        self, pairs: Sequence[Point] | None, file: str | None, feature: str | None, key: str, use: Use
+    ) -> Given:
         """The points of a key or of the file that stands in its place.
 
         Raises:
@@ -106,9 +129,11 @@ class Site:
             found = f"neither {key} nor file" if file is None else f"both {key} and file"
             raise ConfigurationError("", found, "one of them")
         if file is not None:
-            return self.read(file)
+            return self.read(file, use, feature)
+        if feature is not None:
+            raise ConfigurationError("feature", f"{feature!r} without file", "both")
         with within(key, joined=""):
-            return self.points(pairs or ())
+            return Given(self.points(pairs or ()), False)
 
 
 @contextmanager
@@ -117,7 +142,7 @@ def within(key: str, joined: str = ".") -> Iterator[None]:
     try:
         yield
     except ConfigurationError as error:
-        if error.where == "origin" or ": " in error.where:  # a place of its own
+        if error.where == "origin":  # a place of its own
             raise
         parts = [key, error.where] if error.where not in ("", key) else [key]
         separator = "" if error.where.startswith("[") else joined

@@ -75,11 +75,7 @@ def write_files(plan: StudyPlan, number: int, directory: Path) -> None:
     mission = plan.mission(str(values.get("mission", plan.study.mission)))
     told = plan.parameters(str(values.get("params", plan.study.params)))
     directory.mkdir(parents=True)
-    shutil.copyfile(mission.source, directory / "mission.yaml")
-    for file in mission.files:
-        copy = directory / file.relative_to(mission.source.parent)
-        copy.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(file, copy)
+    mission.copy_to(directory)
     yaml_file.dump(_written(scenario.vehicle), directory / "vehicle.yaml")
     yaml_file.dump(_written(scenario.controller_vehicle), directory / "believed.yaml")
     plant: dict[str, Any] = {"step": scenario.step, "seed": scenario.seed}

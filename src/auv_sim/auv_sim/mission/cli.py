@@ -172,6 +172,8 @@ def _fly(options: Options) -> int:
     for level, verdicts in (("refused", resolved.verdicts.refusals), ("warning", resolved.verdicts.warnings)):
         for verdict in verdicts:
             console.print(f"[yellow]{level}[/yellow] {escape(str(verdict))}", highlight=False, soft_wrap=True)
+    for notice in resolved.verdicts.notices:
+        console.print(f"[cyan]notice[/cyan] {escape(notice)}", highlight=False, soft_wrap=True)
     with Progress(path, console, options.quiet) as progress:
         outcome = launcher.fly(resolved, directory, domain, progress)
     if outcome.state != "complete":

@@ -129,16 +129,11 @@ class Plan:
             The parameter file for the nodes.
         """
         directory.mkdir(parents=True)
-        here: dict[str, Path] = {}
-        for kind in ("mission", "vehicle", "believed", "sea"):
-            if kind not in self.sources:
-                continue
-            here[kind] = directory / f"{kind}.yaml"
-            shutil.copyfile(self.sources[kind], here[kind])
-        for file in self.mission.files:
-            copy = directory / file.relative_to(self.mission.source.parent)
-            copy.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(file, copy)
+        here = {"mission": self.mission.copy_to(directory)}
+        for kind in ("vehicle", "believed", "sea"):
+            if kind in self.sources:
+                here[kind] = directory / f"{kind}.yaml"
+                shutil.copyfile(self.sources[kind], here[kind])
         told = {}
         for name, settings in self.parameters.items():
             its = {k: str(here[k]) for k in here if hasattr(settings, k)}

@@ -63,6 +63,7 @@ class Verdicts:
 
     Attributes:
         refusals, warnings: the verdicts of each level, most important first.
+        notices: what of the mission's waypoint files is not flown, one line each.
         turn: the vehicle's tightest turn.
         speed: through the water, straight ahead, m/s.
         duration: of the whole mission at that speed, in the current, s; infinite where it makes no way.
@@ -73,6 +74,7 @@ class Verdicts:
     turn: SteadyTurn
     speed: float
     duration: float
+    notices: tuple[str, ...] = ()
 
 
 def check(
@@ -106,13 +108,10 @@ def check(
         *_circles(mission, switching or SwitchingConfig(), lookahead or PathFollowerConfig().lookahead),
         *_crossings(mission),
     ]
-    return Verdicts(
-        tuple(verdict for verdict in found if verdict.level == "refused"),
-        tuple(verdict for verdict in found if verdict.level == "warning"),
-        turn,
-        speed,
-        survey.duration,
+    refusals, warnings = (
+        tuple(verdict for verdict in found if verdict.level == level) for level in ("refused", "warning")
     )
+    return Verdicts(refusals, warnings, turn, speed, survey.duration, mission.notices)
 
 
 def refusal(mission: Mission, verdicts: Verdicts, advice: str) -> ConfigurationError:

@@ -141,6 +141,8 @@ def _tell(console: Console, mission: Mission, hull: Vehicle, verdicts: Verdicts)
         console.print(f"[bold red]refused[/bold red]  {escape(str(verdict))}")
     for verdict in verdicts.warnings:
         console.print(f"[yellow]warning[/yellow]  {escape(str(verdict))}")
+    for notice in verdicts.notices:
+        console.print(f"[cyan]notice[/cyan]   {escape(notice)}")
     if not verdicts.refusals and not verdicts.warnings:
         console.print("[green]nothing to say against it[/green]")
     console.print()

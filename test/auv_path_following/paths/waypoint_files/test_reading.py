@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import zipfile
 
 import pytest
 
@@ -26,6 +27,22 @@ def _tuples(places) -> str:
 
 def _item(command: int, place=(0.0, 0.0), frame=3) -> dict:
     return {"type": "SimpleItem", "command": command, "frame": frame, "params": [0, 0, 0, None, *place, 0]}
+
+
+def _gpx(body: str) -> str:
+    return f'<?xml version="1.0"?><gpx version="1.1" xmlns="http://www.topografix.com/GPX/1/1">{body}</gpx>'
+
+
+def _gpx_points(kind: str) -> str:
+    return "".join(f'<{kind} lat="{lat}" lon="{lon}"><name>a</name></{kind}>' for lat, lon in PLACES)
+
+
+def _wpl(items) -> str:
+    rows = (
+        f"{index}\t0\t{frame}\t{command}\t0\t0\t0\t0\t{lat}\t{lon}\t0\t1\n"
+        for index, (frame, command, (lat, lon)) in enumerate(items)
+    )
+    return "QGC WPL 110\n# of a ground station\n\n" + "".join(rows)
 
 
 SURVEY = {
@@ -63,6 +80,22 @@ GOOD = {
     "frames.plan": json.dumps(
         {"mission": {"items": [_item(16, p, f) for p, f in zip(PLACES, (0, 6, 11), strict=True)]}}
     ),
+    "old.plan": json.dumps(
+        {"mission": {"items": [{"command": 16, "coordinate": [*place, 5.0]} for place in PLACES]}}
+    ),
+    "plan.json": json.dumps(
+        {"fileType": "Plan", "mission": {"items": [_item(16, place) for place in PLACES]}}
+    ),
+    "route.gpx": _gpx(f"<rte>{_gpx_points('rtept')}</rte>"),
+    "track.gpx": _gpx(f"<trk><trkseg>{_gpx_points('trkpt')}</trkseg></trk>"),
+    "points.gpx": _gpx(_gpx_points("wpt")),
+    "home.waypoints": _wpl([(0, 16, (1.0, 2.0)), *((3, 16, place) for place in PLACES)]),
+    "first.txt": _wpl([(3, 16, place) for place in PLACES]),
+    "track.kml": _kml(
+        '<Placemark><gx:Track xmlns:gx="http://www.google.com/kml/ext/2.2">'
+        + "".join(f"<when>2026-01-01</when><gx:coord>{lon} {lat} 0</gx:coord>" for lat, lon in PLACES)
+        + "</gx:Track></Placemark>"
+    ),
     "survey.plan": json.dumps({"mission": {"items": [_item(82, PLACES[0]), SURVEY]}}),
 }
 
@@ -70,25 +103,45 @@ GOOD = {
 @pytest.mark.parametrize("name", GOOD)
 def test_every_format_gives_the_same_places(tmp_path, name):
     (tmp_path / name).write_text(GOOD[name], encoding="utf-8")
-    found = waypoint_files.read(tmp_path / name)
-    assert found.in_degrees
-    assert found.points == PLACES
+    content = waypoint_files.read(tmp_path / name)
+    assert content.in_degrees
+    assert waypoint_files.choose(content, "waypoints").points == PLACES
 
 
-def test_metres_are_told_from_degrees(tmp_path):
+def test_a_kmz_gives_the_same_places(tmp_path):
+    with zipfile.ZipFile(tmp_path / "a.kmz", "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("images/pin.png", b"PNG")
+        archive.writestr("doc.kml", GOOD["line.kml"])
+    assert waypoint_files.choose(waypoint_files.read(tmp_path / "a.kmz"), "waypoints").points == PLACES
+
+
+def test_columns_of_metres_are_metres(tmp_path):
     (tmp_path / "a.csv").write_text("east,north\n1,2\n3,4\n", encoding="utf-8")
-    assert waypoint_files.read(tmp_path / "a.csv") == ([(2.0, 1.0), (4.0, 3.0)], False)
+    content = waypoint_files.read(tmp_path / "a.csv")
+    assert not content.in_degrees
+    assert waypoint_files.choose(content, "waypoints").points == [(2.0, 1.0), (4.0, 3.0)]
 
 
 WRONG = {
-    "a.gpx": ("", "suffix '.gpx', expected one of .geojson"),
+    "a.shp": ("", "suffix '.shp', expected one of .geojson"),
+    "a.gpx": ("<gpx><wpt lat='1'/></gpx>", "a position that is not a number"),
+    "kml.gpx": ("<kml/>", "XML with the root <kml>, expected GPX"),
+    "bomb.gpx": (
+        '<?xml version="1.0"?><!DOCTYPE x [<!ENTITY a "aaaa">]><gpx/>',
+        "a document type",
+    ),
+    "a.kmz": ("PK no archive", "an archive that cannot be read"),
+    "a.waypoints": ("1\t2\n", "expected QGC WPL 110"),
+    "short.waypoints": ("QGC WPL 110\n0\t1\t0\t16\n", "line 2: found"),
     "a.geojson": ("{", "not JSON"),
     "list.geojson": ("[]", "a list, expected GeoJSON"),
-    "empty.geojson": ("{}", "no waypoints"),
-    "two.geojson": (
-        json.dumps({"geometries": [{"type": "LineString", "coordinates": LON_LAT}] * 2}),
-        "2 of type",
+    "empty.geojson": ("{}", "an empty geometry"),
+    "esri.json": (json.dumps({"features": [{"geometry": {"paths": [LON_LAT]}}]}), "a geometry of type None"),
+    "utm.geojson": (
+        json.dumps({"type": "Point", "coordinates": [1, 2], "crs": {"properties": {"name": "EPSG:25832"}}}),
+        "EPSG:4326 new.geojson",
     ),
+    "digits.geojson": ('{"type": "Point", "coordinates": [1' + 400 * "0" + ", 1]}", "hundreds of digits"),
     "text.geojson": (json.dumps({"type": "LineString", "coordinates": [["a", "b"]]}), "not numbers"),
     "swapped.geojson": (json.dumps({"type": "Point", "coordinates": [10.0, 163.0]}), "latitude 163"),
     "a.kml": ("<kml>", "not XML"),
@@ -96,43 +149,12 @@ WRONG = {
     "text.kml": (_kml("<Point><coordinates>here</coordinates></Point>"), "not numbers"),
     "empty.csv": ("", "an empty file"),
     "head.csv": ("x,y\n1,2\n", "the header 'x,y'"),
-    "both.csv": ("north,east,lat,lon\n1,2,3,4\n", "the header"),
-    "text.csv": ("north,east\n1,2\n3\n", "'3' as point 2"),
-    "nan.csv": ("north,east\n1,nan\n", "point 1 is"),
+    "both.csv": ("north,east,lat,lon\n1,2,3,4\n", "with both pairs of columns"),
+    "text.csv": ("north,east\n1,2\n3\n", "point 2: found '3'"),
+    "nan.csv": ("north,east\n1,nan\n", "point 1: found (1.0, nan)"),
     "a.plan": ("{}", "no mission.items"),
-    **{
-        f"jump_{command}.plan": (
-            json.dumps({"mission": {"items": [_item(16, PLACES[0]), _item(command, frame=2)]}}),
-            f"item 2 with command {command}",
-        )
-        for command in (177, 601, 192, 115)
-    },
-    **{
-        f"frame_{frame}.plan": (
-            json.dumps({"mission": {"items": [_item(16, PLACES[0]), _item(82, (40.0, 25.0), frame)]}}),
-            f"item 2 in frame {frame}",
-        )
-        for frame in (1, 2, 4, 7, 8, True, "3")
-    },
-    "land.plan": (json.dumps({"mission": {"items": [_item(21)]}}), "item 1 with command 21"),
-    "place.plan": (
-        json.dumps({"mission": {"items": [{"command": 16, "params": []}]}}),
-        "item 1 without a position",
-    ),
     "missing.csv": (None, "no such file"),
-    "digits.geojson": (
-        json.dumps({"type": "LineString", "coordinates": [[10**400, 1], [1, 1]]}),
-        "coordinates that are not numbers",
-    ),
     "wide.csv": ("lat,lon\n1,2\n" + "1" * 200_000 + ",3\n", "not CSV (field larger than field limit"),
-    "digits.plan": (
-        json.dumps({"mission": {"items": [_item(16, (10**400, 1))]}}),
-        "item 1 without a position",
-    ),
-    "null.plan": (
-        json.dumps({"mission": {"items": [{"TransectStyleComplexItem": {"Items": None}}]}}),
-        "no waypoints",
-    ),
     "deep.json": ("[" * 100_000, "not JSON"),
     "pointer.csv": ("version https://git-lfs.github.com/spec/v1\noid sha256:0\n", "a Git LFS pointer"),
 }

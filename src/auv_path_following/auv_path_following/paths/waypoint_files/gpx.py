@@ -1,0 +1,43 @@
+"""GPX: routes, tracks and waypoints."""
+
+from __future__ import annotations
+
+from xml.etree.ElementTree import Element
+
+from auv_msgs_py.errors import ConfigurationError
+from auv_path_following.paths.waypoint_files.content import Content, shape, shown
+from auv_path_following.paths.waypoint_files.xml_tree import local, parse, text_of
+
+
+def read(data: bytes) -> Content:
+    """Read every route and segment of a track as a line, every waypoint as a point.
+
+    Raises:
+        ConfigurationError: it is not GPX, or a position is wrong.
+    """
+    content = Content()
+    for element in parse(data, "GPX", "gpx"):
+        name = text_of(element, "name")
+        match local(element):
+            case "rte":
+                places = [_place(point, name) for point in element.findall("{*}rtept")]
+                content.shapes.append(shape("line", name or "route", places))
+            case "trk":
+                for segment in element.findall("{*}trkseg"):
+                    places = [_place(point, name) for point in segment.findall("{*}trkpt")]
+                    content.shapes.append(shape("line", name or "track", places))
+            case "wpt":
+                content.shapes.append(shape("point", name, [_place(element, name)]))
+    content.shapes = [found for found in content.shapes if found.points]
+    return content
+
+
+def _place(point: Element, name: str) -> list[float]:
+    """[latitude, longitude, height]."""
+    try:
+        height = text_of(point, "ele")
+        place = [float(point.attrib["lat"]), float(point.attrib["lon"])]
+        return [*place, float(height)] if height else place
+    except (KeyError, ValueError) as error:
+        where = shown(name) if name else ""
+        raise ConfigurationError(where, f"a position that is not a number ({error})", "lat and lon") from None

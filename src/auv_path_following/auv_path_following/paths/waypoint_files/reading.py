@@ -1,0 +1,69 @@
+"""Opens a waypoint file, chooses the reader by the suffix, and checks what came out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+from auv_msgs_py import user_files
+from auv_msgs_py.errors import ConfigurationError
+from auv_path_following.paths.waypoint_files import geojson, gpx, kml, plan, table, wpl
+from auv_path_following.paths.waypoint_files.content import Content, shown
+
+#: Points of one file at most; a path through so many is built in some ten seconds.
+_MOST_POINTS = 100_000
+
+_READERS: dict[str, Callable[[bytes], Content]] = {
+    ".geojson": geojson.read,
+    ".json": geojson.read,
+    ".kml": kml.read,
+    ".kmz": kml.read_zipped,
+    ".gpx": gpx.read,
+    ".csv": table.read,
+    ".plan": plan.read,
+    ".waypoints": wpl.read,
+    ".txt": wpl.read,
+}
+SUFFIXES = tuple(_READERS)
+
+
+def read(path: Path, called: str | None = None) -> Content:
+    """Read a waypoint file; the suffix decides on the format.
+
+    Args:
+        path: the file.
+        called: what messages call it; the path if None.
+
+    Raises:
+        ConfigurationError: one line with the file, what was found and what was expected.
+    """
+    name = called or str(path)
+    reader = _READERS.get(path.suffix.lower())
+    if reader is None:
+        raise ConfigurationError(name, f"the suffix '{path.suffix}'", f"one of {', '.join(_READERS)}")
+    try:
+        content = reader(user_files.read_bytes(path, "a file with waypoints"))
+        _check(content)
+    except ConfigurationError as error:
+        inner = error.where.removeprefix(str(path))
+        where = f"{name}: {inner}" if inner else name
+        raise ConfigurationError(where, error.found, error.expected) from None
+    return content
+
+
+def _check(content: Content) -> None:
+    shapes = [*content.shapes, *content.areas, *content.fences]
+    if (count := sum(len(shape.points) for shape in shapes)) > _MOST_POINTS:
+        raise ConfigurationError("", f"{count} points", f"at most {_MOST_POINTS}")
+    single = 0
+    for shape in shapes:
+        for number, point in enumerate(shape.points, start=1):
+            single += shape.kind == "point"
+            where = f"point {single if shape.kind == 'point' else number}"
+            where += f" of {shown(shape.name)}" if shape.name else ""
+            if not all(map(math.isfinite, point)):
+                raise ConfigurationError(where, f"{point}", "finite numbers")
+            if content.in_degrees and (abs(point[0]) > 90.0 or abs(point[1]) > 180.0):
+                found = f"latitude {point[0]:g}, longitude {point[1]:g}"
+                raise ConfigurationError(where, found, "degrees, at most 90 and 180")
