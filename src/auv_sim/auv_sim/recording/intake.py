@@ -9,6 +9,7 @@ each message was sent and received is told by the middleware, not by a clock tha
 from __future__ import annotations
 
 import struct
+from bisect import bisect_right
 from typing import Any, NamedTuple
 
 from rclpy.node import Node
@@ -21,6 +22,10 @@ from auv_sim.recording.bag_writer import Channel
 from auv_sim.recording.sequence_watch import SequenceWatch
 
 _CLOCK = struct.Struct("<4xiI")
+#: At least so many times of /clock are remembered, for messages that come late.
+_REMEMBERED = 10_000
+#: A message sent this long before the newest /clock is a latched one, or the machine's clock was set, ns.
+_LONG_AGO = 10 * 1_000_000_000
 _BILLION = 1_000_000_000
 
 
@@ -110,6 +115,9 @@ class Timestamps:
         self.simulated = simulated
         #: Simulated time, ns; None before the first /clock.
         self.now: int | None = None
+        # When each /clock was sent, in that order, and what it said, ns.
+        self._sent: list[int] = []
+        self._said: list[int] = []
 
     def begin(self, batch: list[Taken]) -> None:
         """What was sent before the clock's first word gets the time of that word."""
@@ -117,14 +125,34 @@ class Timestamps:
         self.now = (_clock(first.data) or 0) if first is not None else 0
 
     def of(self, taken: Taken) -> tuple[int, int]:
-        """(log time, publish time), ns; a /clock message moves the time."""
+        """(log time, publish time), ns; a /clock message moves the time.
+
+        A topic is emptied a moment before /clock is. What is sent in between comes with the next batch, when
+        newer times have been read: it gets the time of the /clock before it, not the newest.
+        """
         if not self.simulated:
             return taken.received_ns, taken.sent_ns
         if taken.order == 0:
             told = _clock(taken.data)
-            self.now = self.now if told is None else told
-        now = self.now or 0
+            if told is not None:
+                self.now = told
+                self._remember(taken.sent_ns, told)
+        now = self._at(taken.sent_ns)
         return now, now
+
+    def _remember(self, sent_ns: int, told: int) -> None:
+        if self._sent and sent_ns < self._sent[-1]:  # the machine's clock was set back
+            self._sent, self._said = [], []
+        self._sent.append(sent_ns)
+        self._said.append(told)
+        if len(self._sent) > 2 * _REMEMBERED:
+            del self._sent[:-_REMEMBERED], self._said[:-_REMEMBERED]
+
+    def _at(self, sent_ns: int) -> int:
+        """Simulated time when a message was sent; for one of long ago, the newest time."""
+        if not self._sent or sent_ns >= self._sent[-1] or sent_ns < self._sent[-1] - _LONG_AGO:
+            return self.now or 0
+        return self._said[max(bisect_right(self._sent, sent_ns) - 1, 0)]
 
 
 def _clock(data: bytes) -> int | None:
