@@ -76,7 +76,10 @@ class PlantParameters(NodeParameters):
 class RecorderParameters(NodeParameters):
     """recorder. It records the wire contract and whatever else `topics`, `regex` or `all_topics` name."""
 
-    directory: str = setting("bag", "the rosbag2 directory to write; it must not exist yet")
+    directory: str = setting(
+        "",
+        "the rosbag2 directory to write; it must not exist yet; empty for bag-DATE-TIME where it was started",
+    )
     contract: bool = setting(True, "record the wire contract, /rosout and /parameter_events from the start")
     topics: str = setting("", "further topics: names, separated by blanks")
     regex: str = setting("", "further topics: those whose full name matches")
@@ -89,6 +92,9 @@ class RecorderParameters(NodeParameters):
     max_size: int = setting(0, "begin a new file after so many MB; 0 for never", ge=0, le=1_000_000)
     max_duration: float = setting(
         0.0, "begin a new file after so much recorded time; 0 for never", unit="s", ge=0.0, le=1e6
+    )
+    min_free_space: int = setting(
+        200, "close the recording when so many MB are left on its disk; 0 for never", ge=0, le=1_000_000
     )
 
 

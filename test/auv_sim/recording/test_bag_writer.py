@@ -14,6 +14,7 @@ from rosbags.highlevel import AnyReader
 from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
 
 from auv_msgs_py.errors import ConfigurationError
+from auv_sim.recording.bag import read_bag
 from auv_sim.recording.bag_writer import BagWriter, typestore
 
 INFINITE = QosTime(9223372036, 854775807)
@@ -199,3 +200,40 @@ def test_what_is_refused(tmp_path: Path) -> None:
     assert not (tmp_path / "other").exists()
     writer.close()
     assert (tmp_path / "bag" / "metadata.yaml").read_bytes() == before
+
+
+def test_further_files_begin_with_what_is_latched(tmp_path: Path) -> None:
+    """A state per publisher, under its own number and time; readers of all files get it once."""
+    with BagWriter(tmp_path / "bag", max_duration_ns=100) as writer:
+        rudder = writer.add_topic("/rudder_cmd", FLOAT, [RELIABLE])
+        latched = RELIABLE._replace(durability=QosDurability.TRANSIENT_LOCAL)
+        state = writer.add_topic("/mission_state", STRING, [latched, latched])
+        state.latched = 2
+        for k in range(3):
+            writer.write(state, 1_000 + k, 900 + k, text(f"state {k}"), k + 1)
+        for k in range(100):
+            writer.write(rudder, 1_010 + 10 * k, 910 + 10 * k, number(0.5 * k), k + 1)
+            writer.flush()
+    files = sorted((tmp_path / "bag").glob("*.mcap"), key=lambda file: int(file.stem.rsplit("_", 1)[1]))
+    assert len(files) > 3
+    counted = 0
+    for file in files:
+        with file.open("rb") as stream:
+            reader = make_reader(stream)
+            found = [(c.topic, m.sequence, m.publish_time, m.data) for _, c, m in reader.iter_messages()]
+            summary = reader.get_summary()
+        assert summary is not None and summary.statistics is not None
+        counted += summary.statistics.message_count
+        newest = [("/mission_state", k + 1, 900 + k, text(f"state {k}")) for k in (1, 2)]
+        assert [entry for entry in found if entry[0] == "/mission_state"][-2:] == newest
+    bag = read_bag(tmp_path / "bag")
+    assert {name: topic.count for name, topic in bag.topics.items()} == {
+        "/rudder_cmd": 100,
+        "/mission_state": 3,
+    }
+    assert len(bag.order) == 103
+    assert bag.notes == []
+    information = yaml.safe_load((tmp_path / "bag" / "metadata.yaml").read_text())
+    information = information["rosbag2_bagfile_information"]
+    assert information["message_count"] == counted == 103 + 2 * (len(files) - 1)
+    assert sum(topic["message_count"] for topic in information["topics_with_message_count"]) == counted

@@ -20,6 +20,7 @@ from auv_msgs_py.runtime import SuiteNode, run_nodes
 from auv_sim.parameters import RecorderParameters
 from auv_sim.recording.bag_writer import BagWriter, texts_below
 from auv_sim.recording.intake import Taken, Timestamps, drain
+from auv_sim.recording.room import room_lacking
 from auv_sim.recording.selection import Selection
 
 #: Asked for before anything else; only granted to those who may.
@@ -40,8 +41,8 @@ class RecorderNode(SuiteNode):
     def __init__(self, **arguments: Any) -> None:
         super().__init__(topics.RECORDER, RecorderParameters, **arguments)
         p: RecorderParameters = self.parameters
-        directory = Path(p.directory)
-        if directory.exists():
+        directory = Path(p.directory or time.strftime("bag-%Y%m%d-%H%M%S"))
+        if os.path.lexists(directory):
             raise ConfigurationError(
                 f"{self.get_name()}: parameter directory", f"{directory}, which exists", "a new one"
             )
@@ -52,6 +53,9 @@ class RecorderNode(SuiteNode):
                 raise ConfigurationError(
                     f"{self.get_name()}: parameter {name}", str(error), "a regular expression"
                 ) from None
+        if short := room_lacking(directory, p.min_free_space):
+            found, expected = short
+            raise ConfigurationError(f"{self.get_name()}: parameter min_free_space", found, expected)
         size, duration = p.max_size * 1_000_000, round(p.max_duration * 1e9)
         self.writer = BagWriter(
             directory, p.compression, max_size=size, max_duration_ns=duration, texts=_configuration(directory)
@@ -77,7 +81,7 @@ class RecorderNode(SuiteNode):
     def report(self) -> dict[str, Any]:
         lost = self.lost
         return {
-            "directory": self.parameters.directory,
+            "directory": str(self.writer.directory),
             "messages": sum(self.writer.counts.values()),
             "size [MB]": f"{self.writer.size / 1e6:.1f}",
             "dropped": sum(lost.values()) + self.writer.given_up,
@@ -133,10 +137,17 @@ class RecorderNode(SuiteNode):
             self._progress.publish(UInt64(data=steps))
 
     def _flush(self) -> None:
-        if self.writer.flush():
+        if self.writer.closed:
+            return
+        if short := room_lacking(self.writer.directory, self.parameters.min_free_space):
+            self.writer.close()
+            text = f"the recording was closed: {short[0]}, expected {short[1]}"
+            self.get_logger().error(text)
+        elif self.writer.flush():
             self.health.error("disk", "")
             return
-        text = f"cannot write {self.writer.trouble}"
+        else:
+            text = f"cannot write {self.writer.trouble}"
         if self.parameters.lockstep:
             self.fail(text)
         given_up = f", {self.writer.given_up} messages given up" if self.writer.given_up else ""

@@ -71,6 +71,7 @@ class Bag:
         texts: what the recorder put into the bag by name (the configuration that was flown).
         records: what else MCAP files hold, metadata and attachments of others than our recorder.
         profile: what MCAP files say of themselves.
+        repeated: messages that a further file begins with and that an earlier one has; they are left out.
         order: (topic, number of the message in it) for every message, in the order of the files.
     """
 
@@ -84,6 +85,7 @@ class Bag:
     profile: str = "ros2"
     order: list[tuple[RecordedTopic, int]] = field(default_factory=list)
     odometry: str | None = None
+    repeated: int = 0
 
     @property
     def count(self) -> int:
@@ -194,8 +196,9 @@ def read_bag(path: Path, wanted: Wanted = everything, odometry: str | None = Non
     if str(information.get("compression_mode")).lower() == "message":
         _unpack_messages(bag)
     expected = information.get("message_count")
-    if isinstance(expected, int) and expected > bag.count:
-        bag.notes.append(f"{METADATA_FILE} tells of {expected} messages, {bag.count} are readable")
+    if isinstance(expected, int) and expected > bag.count + bag.repeated:
+        readable = bag.count + bag.repeated
+        bag.notes.append(f"{METADATA_FILE} lists {expected} messages, {readable} are readable")
     return bag
 
 

@@ -14,14 +14,12 @@ from rosbags.rosbag2.metadata import dump_qos_v9
 
 from auv_msgs_py.errors import ConfigurationError
 from auv_sim.recording import metadata
+from auv_sim.recording.channel import Channel
 from auv_sim.recording.definitions import Definition, definition, typestore
 from auv_sim.recording.mcap_file import Compression, McapFile
 from auv_sim.recording.metadata import METADATA_FILE, FileFacts, TopicFacts
 
 __all__ = ["METADATA_FILE", "BagWriter", "Channel", "typestore"]
-
-#: What describes a topic in another file.
-Original = tuple[records.Channel, records.Schema | None]
 
 #: Name of the MCAP metadata record that holds the texts kept in a file.
 TEXTS = "auv_sim.texts"
@@ -39,20 +37,6 @@ def texts_below(directory: Path) -> dict[str, str]:
             with contextlib.suppress(UnicodeDecodeError):
                 texts[file.relative_to(directory).as_posix()] = file.read_text(encoding="utf-8")
     return texts
-
-
-class Channel:
-    """Handle of one recorded topic; `count` is the number of messages written to it."""
-
-    __slots__ = ("count", "name", "number", "original", "qos", "type")
-
-    def __init__(self, name: str, type_name: str, qos: list[Any], original: Original | None = None) -> None:
-        self.name = name
-        self.type = type_name
-        self.qos = qos
-        self.original = original  # as another file has it
-        self.count = 0
-        self.number = 0  # in the present file; 0 until something is written
 
 
 class BagWriter:
@@ -100,7 +84,7 @@ class BagWriter:
         self._definitions = definitions if definitions is not None else {}
         self._channels: dict[str, Channel] = {}
         self._files: list[FileFacts] = []
-        self._closed = False
+        self._closed = self._whole = False
         #: Messages given up because the disk had no room for them.
         self.given_up = 0
         try:
@@ -224,7 +208,8 @@ class BagWriter:
         else:
             known, _ = channel.original
             type_hash, encoding = known.metadata.get("topic_type_hash", ""), known.message_encoding
-        return TopicFacts(channel.name, channel.type, channel.count, channel.qos, type_hash, encoding)
+        messages = channel.count + channel.repeated
+        return TopicFacts(channel.name, channel.type, messages, channel.qos, type_hash, encoding)
 
     def write(
         self, channel: Channel, log_time_ns: int, publish_time_ns: int, cdr: bytes, sequence: int = 0
@@ -238,9 +223,11 @@ class BagWriter:
             cdr: the serialised message with its four bytes of CDR header; never looked into.
             sequence: the publisher's number of it.
         """
-        if self._file.journal.pending > PENDING_LIMIT:
+        if self._closed or self._file.journal.pending > PENDING_LIMIT:
             self.given_up += 1
             return
+        if channel.latched:
+            channel.keep(sequence, publish_time_ns, cdr)
         self._file.add(channel.number or self._announce(channel), sequence, log_time_ns, publish_time_ns, cdr)
         channel.count += 1
 
@@ -254,7 +241,16 @@ class BagWriter:
         if file.messages and (full or long):
             self._finish_file()
             self._file = self._open()
+            self._repeat(file.last_ns)
         return True
+
+    def _repeat(self, log_time_ns: int) -> None:
+        """Begin a further file with the latched messages, so that it can be understood without the others."""
+        for channel in self._channels.values():
+            for sequence, publish_time_ns, cdr in channel.kept:
+                number = channel.number or self._announce(channel)
+                self._file.add(number, sequence, log_time_ns, publish_time_ns, cdr)
+                channel.repeated += 1
 
     def _finish_file(self) -> bool:
         file = self._file
@@ -275,16 +271,18 @@ class BagWriter:
         Returns:
             Whether the recording is whole. A disk without room leaves it unfinished, but readable.
         """
-        if self._closed:
-            return True
-        self._closed = True
-        whole = self._finish_file()
-        if whole:
-            try:
-                metadata.write(self.directory, self._information())
-            except OSError:
-                return False
-        return whole
+        if not self._closed:
+            self._closed = True
+            if self._finish_file():
+                with contextlib.suppress(OSError):
+                    metadata.write(self.directory, self._information())
+                    self._whole = True
+        return self._whole
+
+    @property
+    def closed(self) -> bool:
+        """Whether `close` was called: what is written after that is given up and counted."""
+        return self._closed
 
     def _information(self) -> dict[str, Any]:
         return metadata.information([self._facts(c) for c in self._channels.values()], self._files)

@@ -12,6 +12,8 @@ from auv_sim.recording.mcap_scan import scan
 
 #: The metadata record in which rosbag2 repeats metadata.yaml.
 _REPEATED = "rosbag2"
+#: More publishers of one latched topic there are not.
+_LATCHED = 100
 
 
 def read_mcap(bag: Bag, file: Path, wanted: Wanted) -> None:
@@ -39,7 +41,7 @@ def read_mcap(bag: Bag, file: Path, wanted: Wanted) -> None:
         elif record.name != _REPEATED and record not in bag.records:
             bag.records.append(record)  # once: a recorder repeats what it says in every file
     bag.records += result.attachments
-    renumbered: dict[int, tuple[RecordedTopic, int]] = {}
+    renumbered: dict[int, tuple[RecordedTopic, int, int]] = {}
     for number, channel in result.channels.items():
         schema = result.schemas.get(channel.schema_id)
         here = by_number.setdefault(number, RecordedTopic("", ""))
@@ -57,21 +59,42 @@ def read_mcap(bag: Bag, file: Path, wanted: Wanted) -> None:
                 said = f"{here.count} messages of a second type '{type_name}' on {channel.topic} left out"
                 bag.notes.append(f"{file.name}: {said}")
             continue
-        renumbered[id(here)] = topic, topic.count
+        repeated = _repeats(topic, here)
+        bag.repeated += repeated
+        renumbered[id(here)] = topic, topic.count - repeated, repeated
         keep = wanted(channel.topic, topic.type)
-        topic.log_ns += here.log_ns
-        topic.publish_ns += here.publish_ns
-        topic.sequence += here.sequence
-        topic.sizes += here.sizes
-        topic.messages += here.messages if keep else [None] * here.count
+        topic.log_ns += here.log_ns[repeated:]
+        topic.publish_ns += here.publish_ns[repeated:]
+        topic.sequence += here.sequence[repeated:]
+        topic.sizes += here.sizes[repeated:]
+        topic.messages += here.messages[repeated:] if keep else [None] * (here.count - repeated)
     nameless = [t for number, t in by_number.items() if number not in result.channels]
     if nameless:
         number = sum(topic.count for topic in nameless)
         bag.notes.append(f"{file.name}: {number} messages belong to no known topic")
     for here, k in order:
         if id(here) in renumbered:
-            topic, offset = renumbered[id(here)]
-            bag.order.append((topic, offset + k))
+            topic, offset, repeated = renumbered[id(here)]
+            if k >= repeated:
+                bag.order.append((topic, offset + k))
+
+
+def _repeats(topic: RecordedTopic, here: RecordedTopic) -> int:
+    """How many messages of a further file are the last ones of the files before it, said again.
+
+    A recorder begins each file with what is latched, under the numbers and times that it was published with.
+    """
+    if "transient_local" not in topic.qos:
+        return 0
+    known = set(
+        zip(topic.sequence[-_LATCHED:], topic.publish_ns[-_LATCHED:], topic.sizes[-_LATCHED:], strict=True)
+    )
+    repeated = 0
+    for message in zip(here.sequence, here.publish_ns, here.sizes, strict=True):
+        if message not in known:
+            break
+        repeated += 1
+    return repeated
 
 
 def _alike(a: Channel, a_schema: Schema | None, b: Channel, b_schema: Schema | None) -> bool:

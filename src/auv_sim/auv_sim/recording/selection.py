@@ -6,7 +6,7 @@ import re
 from typing import Any
 
 from rclpy.node import Node
-from rclpy.qos import QoSProfile
+from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from auv_msgs_py import qos, topics
 from auv_msgs_py.errors import ConfigurationError
@@ -17,8 +17,9 @@ from auv_sim.recording.intake import PolledTopic
 from auv_sim.recording.qos_records import matching, qos_record
 
 #: ROS's own topics that belong to every record.
+LOG = Topic("/rosout", "rcl_interfaces/msg/Log", "every node", latched=True)
 ROS_OWN = (
-    Topic("/rosout", "rcl_interfaces/msg/Log", "every node", latched=True),
+    LOG,
     Topic("/parameter_events", "rcl_interfaces/msg/ParameterEvent", "every node"),
 )
 
@@ -60,6 +61,7 @@ class Selection:
         reliable = lockstep or topic.latched or topic.publisher != topics.PLANT
         wanted = qos.requested(topic, reliable, qos.RECORDER_DEPTH)
         self._follow(name, topic.type, [qos.offered(topic)], wanted, lockstep)
+        self.topics[-1].channel.latched = int(topic.latched and topic is not LOG)
 
     def _follow(self, name: str, type_name: str, offers: list[Any], wanted: Any, fixed: bool) -> None:
         channel = self._writer.add_topic(name, type_name, [qos_record(offer) for offer in offers])
@@ -79,6 +81,8 @@ class Selection:
                     topic.resubscribe(wanted)
             elif topic.known:
                 topic.publishers = self._node.count_publishers(topic.name)
+                if topic.channel.latched:
+                    topic.channel.latched = max(1, topic.publishers)
         if not self._seeks:
             return []
         followed = {topic.name for topic in self.topics}
@@ -113,6 +117,9 @@ class Selection:
         # Discovery does not tell a history's depth. Where the contract does, it knows more.
         promised = self._promised.get(topic.name)
         told = [promised if promised and _kind(offer) == _kind(promised) else offer for offer in offers]
+        # Log lines are transient local too, and no state that a further file has to begin with.
+        if offers and topic.name != LOG.name and _is_latched(offers):
+            topic.channel.latched = topic.publishers
         if told:
             self._writer.set_qos(topic.channel, [qos_record(offer) for offer in told])
 
@@ -123,6 +130,10 @@ class Selection:
         """Leave all topics."""
         for topic in self.topics:
             topic.close()
+
+
+def _is_latched(offers: list[Any]) -> bool:
+    return bool(matching(offers, 1).durability == DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 def _kind(profile: Any) -> tuple[Any, Any]:

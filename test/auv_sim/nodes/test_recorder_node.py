@@ -1,0 +1,102 @@
+"""The recorder in this process: room on the disk, its default directory, what further files begin with."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+from typing import Any
+
+import pytest
+from std_msgs.msg import String
+
+from auv_msgs_py import qos, topics
+from auv_msgs_py.errors import ConfigurationError
+from auv_sim.nodes.recorder_node import RecorderNode
+from auv_sim.recording import room
+from auv_sim.recording.bag import read_bag
+from node_bench import Bench
+
+
+class Disk:
+    """What is free on it, MB."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, free: int) -> None:
+        self.free = free
+        usage = shutil.disk_usage("/")
+        monkeypatch.setattr(room.shutil, "disk_usage", lambda _: usage._replace(free=self.free * 1_000_000))
+
+
+def test_a_recording_is_closed_before_the_disk_is_full(
+    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    disk = Disk(monkeypatch, 201)
+    node: Any = bench.start(RecorderNode, directory=str(tmp_path / "bag"))
+    state = bench.node.create_publisher(String, "mission_state", qos.offered(topics.MISSION_STATE))
+    bench.until(lambda: state.get_subscription_count() > 0)
+    state.publish(String(data="running"))
+    bench.until(lambda: node.writer.counts["/auv/mission_state"] == 1)
+    disk.free = 199
+    bench.until(lambda: node.writer.closed)
+    node.health.publish()
+    bench.until(lambda: bench.diagnosed("the recording was closed: 199 MB free"))
+    assert not node.fault  # a vehicle flies on without its recorder
+    bag = read_bag(tmp_path / "bag")
+    assert bag.notes == []
+    assert bag.topics["/auv/mission_state"].count == 1
+    state.publish(String(data="complete"))
+    bench.until(lambda: node.writer.given_up > 0)
+    assert read_bag(tmp_path / "bag").notes == []
+
+
+def test_in_lockstep_it_ends_the_mission(
+    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    disk = Disk(monkeypatch, 201)
+    steps = topics.RECORDED_STEPS
+    bench.node.create_subscription(qos.message_class(steps.type), steps.name, print, 1)
+    node: Any = bench.start(RecorderNode, directory=str(tmp_path / "bag"), lockstep=True)
+    disk.free = 100
+    bench.until(lambda: bool(node.fault))
+    assert "100 MB free" in node.fault
+    assert "expected at least 200 MB" in node.fault
+
+
+@pytest.mark.parametrize(("least", "refused"), [(200, True), (50, False), (0, False)])
+def test_a_disk_without_room_is_refused_at_the_start(
+    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, least: int, refused: bool
+) -> None:
+    Disk(monkeypatch, 100)
+    settings = {"directory": str(tmp_path / "new" / "bag"), "min_free_space": least}
+    if refused:
+        with pytest.raises(ConfigurationError, match=r"found 100 MB free for .*, expected at least 200 MB"):
+            bench.start(RecorderNode, **settings)
+        assert not (tmp_path / "new").exists()
+    else:
+        bench.start(RecorderNode, **settings)
+
+
+def test_the_default_directory_is_a_new_one_each_time(
+    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "bag").mkdir()
+    node: Any = bench.start(RecorderNode)
+    name = node.writer.directory.name
+    assert name.startswith("bag-20")
+    assert [path.name for path in tmp_path.iterdir() if path.name != "bag"] == [name]
+
+
+def test_each_file_begins_with_what_is_latched(bench: Bench, tmp_path: Path) -> None:
+    node: Any = bench.start(RecorderNode, directory=str(tmp_path / "bag"), max_duration=0.3, flush_period=0.1)
+    state = bench.node.create_publisher(String, "mission_state", qos.offered(topics.MISSION_STATE))
+    bench.until(lambda: state.get_subscription_count() > 0)
+    state.publish(String(data="running"))
+    bench.until(lambda: len(list((tmp_path / "bag").glob("*.mcap"))) > 2)
+    node.writer.close()
+    files = sorted((tmp_path / "bag").glob("*.mcap"))
+    for file in files:
+        topic = read_bag(file).topics[f"/auv/{topics.MISSION_STATE.name}"]
+        assert [b"running" in (message or b"") for message in topic.messages] == [True]
+    bag = read_bag(tmp_path / "bag")
+    assert bag.topics[f"/auv/{topics.MISSION_STATE.name}"].count == 1
+    assert bag.notes == []
