@@ -17,6 +17,11 @@ def printable(text: str) -> str:
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
 
 
+def printable_lines(text: str) -> str:
+    """Return text as `printable` does, with its line ends."""
+    return "\n".join(map(printable, text.split("\n")))
+
+
 def shortened(text: str, longest: int = _LONGEST) -> str:
     """Leave out the middle of a text that is longer than `longest` characters."""
     if len(text) <= longest:
@@ -26,10 +31,10 @@ def shortened(text: str, longest: int = _LONGEST) -> str:
 
 
 class SuiteError(Exception):
-    """Base of every error that is the fault of an input, never of the suite; prints as one safe line."""
+    """Base of every error that is the fault of an input, never of the suite; safe to print."""
 
     def __str__(self) -> str:
-        return printable(super().__str__())
+        return printable_lines(super().__str__())
 
 
 class ConfigurationError(SuiteError):
@@ -42,7 +47,7 @@ class ConfigurationError(SuiteError):
     """
 
     def __init__(self, where: str, found: str, expected: str) -> None:
-        super().__init__(f"{shortened(where)}: found {shortened(found)}, expected {expected}")
+        super().__init__(printable(f"{shortened(where)}: found {shortened(found)}, expected {expected}"))
         self.where = where
         self.found = found
         self.expected = expected
@@ -58,7 +63,7 @@ class MessageRefused(SuiteError):
     """
 
     def __init__(self, topic: str, found: str, expected: str) -> None:
-        super().__init__(f"{shortened(topic)}: found {shortened(found)}, expected {expected}")
+        super().__init__(printable(f"{shortened(topic)}: found {shortened(found)}, expected {expected}"))
         self.topic = topic
         self.found = found
         self.expected = expected

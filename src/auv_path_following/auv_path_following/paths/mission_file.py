@@ -29,14 +29,14 @@ from auv_path_following.paths.route_specs import (
     WaypointsSpec,
 )
 from auv_path_following.paths.segment_specs import SegmentSpec, exactly_one, no_boolean, unfit
-from auv_path_following.paths.site import Frame, Point, Site, within
+from auv_path_following.paths.site import Frame, Point, Site, check_size, within
 from auv_path_following.vehicle import Vehicle
 
 #: Gap allowed at the joints of segments that somebody has typed in, m.
 TOLERANCE = 1e-3
 DEFAULT_VEHICLE = "remus100"
 #: More subpaths than this are taken for a mistake.
-_MOST_SUBPATHS = 1_000_000
+_MOST_SUBPATHS = 100_000
 
 
 @settings
@@ -188,12 +188,17 @@ def load(name_or_path: str, hull: Vehicle | None = None) -> Mission:
         spec = validated(MissionSpec, assumed, str(source))
     site = Site(spec.frame, spec.origin, source.parent)
     try:
+        check_size(spec)
         route = spec.build(site)
         path, once = _path(spec, route)
         speed = file_offers.speed(site, spec.thrust, spec.speed)
         geofence = _geofence(spec, site)
         if assumed is not None:
             site.notices.insert(0, bare_file.notice(assumed, source, speed))
+    except ArithmeticError as error:
+        kind = exactly_one(spec, _ROUTES, "kinds of route")
+        found = f"numbers that no path can be computed from ({error})"
+        raise ConfigurationError(f"{source}: {kind}", found, "lengths in metres, angles in degrees") from None
     except ConfigurationError as error:
         where = error.where.removeprefix(f"waypoints.file: {source.name}: ") if assumed else error.where
         raise ConfigurationError(f"{source}: {where}", error.found, error.expected) from None

@@ -171,7 +171,7 @@ class LoiterSpec:
 
     centre: Pair = setting(doc="centre")
     radius: float = setting(doc="radius", unit="m", gt=0.0)
-    turns: Annotated[int, pydantic.Field(ge=1, le=10000)] = setting(1, "how many turns")
+    turns: Annotated[int, pydantic.Field(ge=1, le=1000)] = setting(1, "how many turns")
     bearing_deg: float = setting(0.0, "bearing of the start, seen from the centre", unit="deg")
     turn: Turn = setting(1, "1 to starboard, -1 to port")
 

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from auv_msgs_py.errors import ConfigurationError, printable
 from auv_path_following.paths import geodesy, waypoint_files
 from auv_path_following.paths.geodesy import FARTHEST, Origin
 from auv_path_following.paths.waypoint_files import Content, Use
+from auv_path_following.paths.waypoint_files.reading import MOST_POINTS
 
 Point = tuple[float, float]
 Frame = Literal["ned", "enu", "wgs84"]
+
+#: Any larger number in a mission is taken for a mistake; a northing of UTM is smaller. m, deg, s, N.
+LARGEST = 1e7
 
 
 class Given(NamedTuple):
@@ -108,6 +113,8 @@ class Site:
                 points = taken.points
                 if content.in_degrees:
                     points = self._placed(points, lambda k: f"point {k + 1}")
+                else:
+                    _check_metres(points)
         self.note(*(f"{name}: {notice}" for notice in taken.notices))
         return Given(points, taken.outline)
 
@@ -133,7 +140,28 @@ class Site:
         if feature is not None:
             raise ConfigurationError("feature", f"{feature!r} without file", "both")
         with within(key, joined=""):
+            if len(pairs or ()) > MOST_POINTS:
+                raise ConfigurationError("", f"{len(pairs or ())} points", f"at most {MOST_POINTS}")
             return Given(self.points(pairs or ()), False)
+
+
+def check_size(item: Any, place: str = "") -> None:
+    """Refuse a number that no mission has, wherever it stands in the file."""
+    if dataclasses.is_dataclass(item):
+        for field in dataclasses.fields(item):
+            check_size(getattr(item, field.name), f"{place}.{field.name}" if place else field.name)
+    elif isinstance(item, tuple):
+        for number, part in enumerate(item):
+            check_size(part, f"{place}[{number}]")
+    elif isinstance(item, (int, float)) and abs(item) > LARGEST:
+        raise ConfigurationError(place, f"{item:g}", f"at most {LARGEST:g}")
+
+
+def _check_metres(points: Sequence[Point]) -> None:
+    for number, point in enumerate(points, start=1):
+        if max(map(abs, point)) > LARGEST:
+            found = f"north {point[0]:g}, east {point[1]:g}"
+            raise ConfigurationError(f"point {number}", found, f"metres, at most {LARGEST:g}")
 
 
 @contextmanager

@@ -17,7 +17,7 @@ from auv_path_following.paths.smoothing import Smoothing, smooth
 Point = tuple[float, float]
 Leg = tuple[Point, Point]
 
-MOST_LEGS = 100_000
+MOST_LEGS = 20_000
 
 
 def legs(polygon: Sequence[Point], spacing: float, chi: float, run_out: float = 0.0) -> list[Leg]:

@@ -19,6 +19,8 @@ _ERROR = 0.02
 #: Crossings this near to the end of a piece are its neighbour's, as a share of the piece.
 _END = 1e-9
 _ROWS = 256
+#: Comparisons of pieces after which the search ends: a circle flown a thousand times has far more pairs.
+_MOST_COMPARISONS = 20_000_000
 
 
 class Crossing(NamedTuple):
@@ -33,13 +35,19 @@ class Crossing(NamedTuple):
 def crossings(segments: Sequence[Segment], most: int = 1000) -> list[Crossing]:
     """The points in which subpaths cross each other or themselves; running along each other is no crossing.
 
+    The search is bounded: on a path with very many subpaths in one place it ends before the last pair.
+
     Args:
         segments: the subpaths in order, each once.
         most: stop after so many.
     """
     outlines = [np.column_stack(polygon(segment, _ERROR)) for segment in segments]
     found: list[Crossing] = []
+    comparisons = 0
     for i, j in _neighbours(outlines):
+        comparisons += len(outlines[i]) * len(outlines[j])
+        if comparisons > _MOST_COMPARISONS:
+            break
         for x, y in _between(outlines[i], outlines[j], i == j):
             found.append(Crossing(i + 1, j + 1, x, y))
             if len(found) >= most:
