@@ -58,6 +58,7 @@ setup(
             "check_vehicle = auv_sim.drivers.check_vehicle:main",
             "mavlink_driver = auv_sim.drivers.mavlink_driver:main",
             "mavlink_emulator = auv_sim.drivers.emulator:main",
+            "mavlink_strangers = auv_sim.faults.strangers:main",
         ]
     },
 )

@@ -19,6 +19,25 @@ class MavlinkDriverParameters(NodeParameters):
         "remus100", "vehicle file, or the name of a shipped one: what full deflection means"
     )
     vehicle_system: int = setting(1, "MAVLink system id of the vehicle", ge=1, le=255)
+    vehicle_component: int = setting(
+        1,
+        "MAVLink component id of the vehicle's autopilot; what others say of its motion is ignored",
+        ge=1,
+        le=255,
+    )
+    peer: str = setting(
+        "", "HOST or HOST:PORT that alone can be the vehicle, with udpin; empty: the first that speaks as it"
+    )
+    peer_timeout: float = setting(
+        5.0,
+        "silence of the vehicle after which another address can take its place",
+        unit="s",
+        gt=0.0,
+        le=3600.0,
+    )
+    signing_key: str = setting(
+        "", "file with the key of MAVLink 2 signing, mode 0600: unsigned messages are refused; empty: none"
+    )
     system: int = setting(
         255,
         "our MAVLink system id; most autopilots obey only the one that their parameters name",

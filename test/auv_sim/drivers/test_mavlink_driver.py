@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 from pymavlink.dialects.v20 import common as mavlink
 from std_msgs.msg import Float64, String
 
@@ -17,9 +18,10 @@ from auv_msgs_py import topics
 from auv_msgs_py.conversions import nanoseconds
 from auv_msgs_py.frames import yaw_of_quaternion
 from auv_msgs_py.runtime import SuiteNode
+from auv_path_following import config_files
 from auv_sim.drivers.mavlink_driver import MavlinkDriverNode
 from auv_sim.drivers.mavlink_link import MavlinkLink
-from auv_sim.drivers.mavlink_mapping import water_track
+from auv_sim.drivers.mavlink_mapping import WATER_LOG, water_track
 from auv_sim.mission.cli import main
 from auv_sim.mission.vehicle_driver import free_port
 from node_bench import Bench
@@ -41,14 +43,17 @@ class Vehicle:
         position = [north, 20.0, 0.0, 2.0, 0.5, 0.0]
         self.link.send(mavlink.MAVLink_local_position_ned_message(boot_ms, *position))
 
+    def log(self, boot_us: int, ur: float, vr: float, component: int = WATER_LOG) -> None:
+        self.link.send_bytes(self.link.pack(water_track(boot_us, ur, vr), component))
+
     def commands(self) -> list[Any]:
         found: list[Any] = []
-        while datagram := self.link.receive(0.0):
+        while (datagram := self.link.receive(0.0)) is not None:
             found += [m for m in self.link.messages(datagram) if m.get_type() == "MANUAL_CONTROL"]
         return found
 
     def stranger_heard(self) -> bool:
-        return self.stranger.receive(0.0) != b""
+        return self.stranger.receive(0.0) is not None
 
 
 @pytest.fixture
@@ -77,7 +82,7 @@ def test_what_the_vehicle_measures_arrives_in_the_contracts_frames(
 ) -> None:
     vehicle, node = vehicle_and_driver
     vehicle.measure(5_000)
-    vehicle.link.send(water_track(5_000_000, 1.8, 0.3))
+    vehicle.log(5_000_000, 1.8, 0.3)
     vehicle.link.send(mavlink.MAVLink_servo_output_raw_message(5_000_000, 0, 1100, *[1500] * 7))
     bench.until(lambda: bench.received["odom"] and bench.received["rudder_state"])
     (odometry,), (water,) = bench.received["odom"], bench.received["velocity_through_water"]
@@ -220,21 +225,29 @@ def test_strangers_and_impossible_values_are_left_out(
     vehicle, node = vehicle_and_driver
     vehicle.stranger.send(mavlink.MAVLink_attitude_message(99_000, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0))
     vehicle.measure(5_000, yaw=math.nan)
-    vehicle.link.send(water_track(5_000_000, math.nan, 0.0))
+    vehicle.log(5_000_000, math.nan, 0.0)
     vehicle.measure(5_050)
     bench.until(lambda: bench.received["odom"] and node.health.refused["ODOMETRY"])
     assert len(bench.received["odom"]) == 1
     assert bench.received["velocity_through_water"] == []
 
 
-def test_a_mission_is_flown_through_the_driver(short_mission: Path, tmp_path: Path, domain: int) -> None:
-    run = tmp_path / "run"
+def test_a_mission_is_flown_through_the_driver_with_signatures(
+    short_mission: Path, tmp_path: Path, domain: int
+) -> None:
+    run, key, params = tmp_path / "run", tmp_path / "key", tmp_path / "signed.yaml"
+    key.write_text(bytes(range(32)).hex())
+    key.chmod(0o600)
+    signed = {"/**/mavlink_driver": {"ros__parameters": {"signing_key": str(key)}}}
+    params.write_text(config_files.find("params", "robust").read_text() + yaml.safe_dump(signed))
     asked = ["--mission", str(short_mission), "--vehicle-driver", "mavlink", "--speed", "20", "--quiet"]
-    assert main([*asked, "--out", str(run), "--domain", str(domain)]) == 0
+    assert main([*asked, "--params", str(params), "--out", str(run), "--domain", str(domain)]) == 0
     summary = json.loads((run / "summary.json").read_text())
     assert summary["outcome"] == "complete"
     assert summary["largest_distance"] < 0.5
-    assert {"mavlink_driver.log", "vehicle_emulator.log"} <= {path.name for path in (run / "log").iterdir()}
+    logs = {path.name: path.read_text() for path in (run / "log").iterdir()}
+    assert {"mavlink_driver.log", "vehicle_emulator.log"} <= set(logs)
+    assert "Invalid signature" not in logs["mavlink_driver.log"]
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ from pymavlink.dialects.v20 import common as mavlink
 
 from auv_msgs_py.errors import ConfigurationError
 from auv_sim.drivers.mavlink_link import MavlinkLink, parse_address
+from auv_sim.drivers.mavlink_peer import Configured, Peer
 from auv_sim.mission.vehicle_driver import free_port
 
 
@@ -30,7 +31,9 @@ def links() -> Iterator[tuple[MavlinkLink, MavlinkLink]]:
 def received(link: MavlinkLink, count: int) -> list[object]:
     messages: list[object] = []
     for _ in range(count):
-        messages += link.messages(link.receive(5.0))
+        datagram = link.receive(5.0)
+        assert datagram is not None
+        messages += link.messages(datagram)
     return messages
 
 
@@ -44,26 +47,72 @@ def test_who_waits_answers_to_where_it_was_spoken_to(links: tuple[MavlinkLink, M
     assert (message.time_boot_ms, message.get_srcSystem(), message.get_srcComponent()) == (3, 255, 191)
 
 
-def test_only_a_message_of_the_vehicle_makes_somebody_the_one_who_is_spoken_to() -> None:
-    port = free_port()
-    driver = MavlinkLink(f"udpin:127.0.0.1:{port}", 255, 191, peer_system=1)
-    vehicle, station = (MavlinkLink(f"udpout:127.0.0.1:{port}", system, 1) for system in (1, 254))
+def test_who_speaks_as_the_vehicle_first_keeps_its_place_and_its_commands() -> None:
+    port, now = free_port(), [100.0]
+    peer = Peer(system=1, patience=5.0)
+    driver = MavlinkLink(f"udpin:127.0.0.1:{port}", 255, 191, peer=peer, clock=lambda: now[0])
+    vehicle, forger, station = (MavlinkLink(f"udpout:127.0.0.1:{port}", system, 1) for system in (1, 1, 254))
     try:
         station.send_bytes(b"not MAVLink at all")
         station.send(attitude(1))
-        received(driver, 2)
+        assert received(driver, 2) == []
         driver.send(attitude(2))
-        assert station.receive(0.1) == b""
+        assert station.receive(0.1) is None
+        assert peer.others == {(254, 1)}
         vehicle.send(attitude(3))
-        for data in (b"again", station.pack(attitude(4)), station.pack(attitude(5))):
-            station.send_bytes(data)
-        assert [m.time_boot_ms for m in received(driver, 4)] == [3, 4, 5]
+        for data in (b"again", forger.pack(attitude(4)), station.pack(attitude(5)), b""):
+            forger.send_bytes(data)
+        assert [m.time_boot_ms for m in received(driver, 5)] == [3]
         driver.send(attitude(6))
         assert [m.time_boot_ms for m in received(vehicle, 1)] == [6]
-        assert station.receive(0.1) == b""
+        assert forger.receive(0.1) is None
+        assert (peer.changes, peer.strangers) == (0, 6)
+        now[0] += 5.1  # the vehicle is silent: its program was started anew, say, on another port
+        forger.send(attitude(7))
+        assert [m.time_boot_ms for m in received(driver, 1)] == [7]
+        driver.send(attitude(8))
+        assert [m.time_boot_ms for m in received(forger, 1)] == [8]
+        assert vehicle.receive(0.1) is None
+        assert peer.changes == 1
+        vehicle.send(attitude(9))
+        assert received(driver, 1) == []
     finally:
-        for link in (driver, vehicle, station):
+        for link in (driver, vehicle, forger, station):
             link.close()
+
+
+def test_a_configured_peer_is_the_only_one() -> None:
+    port = free_port()
+    elsewhere = MavlinkLink(
+        f"udpin:127.0.0.1:{port}", 255, 191, peer=Peer(1, 5.0, Configured("127.0.0.2", "p"))
+    )
+    vehicle = MavlinkLink(f"udpout:127.0.0.1:{port}", 1, 1)
+    try:
+        vehicle.send(attitude(1))
+        assert received(elsewhere, 1) == []
+        assert elsewhere.peer.address is None
+        assert elsewhere.peer.strangers == 1
+    finally:
+        elsewhere.close()
+        vehicle.close()
+
+
+@pytest.mark.parametrize(
+    "poison",
+    [
+        bytes.fromhex("fdff0000000101200000"),  # promises 255 bytes
+        b"\xfd" * 60_000,
+        b"",
+        bytes(range(256)),
+    ],
+)
+def test_no_datagram_outlives_itself(links: tuple[MavlinkLink, MavlinkLink], poison: bytes) -> None:
+    driver, vehicle = links
+    for k in range(5):
+        vehicle.send_bytes(poison)
+        vehicle.send(attitude(k))
+    assert [m.time_boot_ms for m in received(driver, 10)] == [0, 1, 2, 3, 4]
+    assert driver.damaged == 5
 
 
 def test_lost_messages_are_counted_for_each_component(links: tuple[MavlinkLink, MavlinkLink]) -> None:
@@ -88,7 +137,7 @@ def test_damage_is_counted_and_what_follows_is_read(links: tuple[MavlinkLink, Ma
 
 def test_silence_is_no_error(links: tuple[MavlinkLink, MavlinkLink]) -> None:
     driver, vehicle = links
-    assert driver.receive(0.0) == b""
+    assert driver.receive(0.0) is None
     driver.close()
     for _ in range(3):
         vehicle.send(attitude(1))  # the system tells the sender that nobody listens there

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from auv_sim.drivers.vehicle_time import FollowedClock, OffsetEstimate
+from auv_sim.drivers.vehicle_time import ComponentTime, FollowedClock, OffsetEstimate
 
 MS, SECOND = 1_000_000, 1_000_000_000
 #: ROS time at the vehicle's boot.
@@ -144,3 +144,46 @@ def test_a_vehicle_that_stood_still_is_followed_again() -> None:
     assert clock.now == now == clock.stamp(7 * SECOND + 20 * MS)
     assert clock.heard(100 * MS, 10_001 * MS)
     assert clock.stamp(100 * MS) == clock.now == now
+
+
+def log_and_autopilot(ahead: int, delay: int = 60 * MS) -> tuple[ComponentTime, int]:
+    """A log whose clock is `ahead` of the autopilot's; its time, and the error of its last stamp (ns)."""
+    autopilot = OffsetEstimate()
+    log = ComponentTime(autopilot)
+    now = boot = 0
+    for boot in range(0, 5 * SECOND, 50 * MS):
+        autopilot.heard(boot, boot + BOOT_AT + 20 * MS)
+        autopilot.exchanged(boot + BOOT_AT, boot + 20 * MS, boot + BOOT_AT + 40 * MS)
+        now = boot + BOOT_AT + delay
+        log.heard(boot + ahead, now)
+    assert log.settled
+    return log, log.stamp(boot + ahead) - (boot + BOOT_AT)
+
+
+def test_a_log_on_the_autopilots_clock_is_stamped_as_well_as_the_autopilot() -> None:
+    assert abs(log_and_autopilot(0)[1]) <= 1 * MS
+
+
+@pytest.mark.parametrize("ahead", [-3 * SECOND, 3 * SECOND, -200 * MS, 1_790_000_000 * SECOND])
+def test_a_log_with_a_clock_of_its_own_is_late_by_its_delay_at_most(ahead: int) -> None:
+    log, error = log_and_autopilot(ahead)
+    assert 0 <= error <= 60 * MS
+    assert log.restarts == 0
+
+
+def test_a_log_is_not_believed_before_the_autopilot_has_settled_again() -> None:
+    autopilot = OffsetEstimate()
+    log = ComponentTime(autopilot)
+    for boot in range(0, 5 * SECOND, 50 * MS):
+        autopilot.heard(boot, boot + BOOT_AT)
+        log.heard(boot, boot + BOOT_AT)
+    assert log.settled
+    later = 5 * SECOND  # the autopilot is started anew, the log is not
+    autopilot.heard(0, later + BOOT_AT)
+    log.heard(later, later + BOOT_AT)
+    assert not log.settled
+    for boot in range(50 * MS, 2 * SECOND, 50 * MS):
+        autopilot.heard(boot, later + boot + BOOT_AT)
+        log.heard(later + boot, later + boot + BOOT_AT)
+    assert log.settled
+    assert abs(log.stamp(later) - later - BOOT_AT) <= 1 * MS

@@ -30,6 +30,7 @@ from auv_sim.drivers.mavlink_mapping import (
     pulse_of_rudder,
     water_track,
 )
+from auv_sim.drivers.mavlink_signing import load_key
 from auv_sim.parameters import CRUISE
 from auv_sim.plant.remus import PlantState, RemusPlant
 
@@ -59,6 +60,8 @@ CHANNELS = {
     "servo": Channel(100, 30.0, 10.0),
     "heartbeat": Channel(1000, 20.0, 5.0),
 }
+#: Signatures have to rise on each line, and these messages overtake each other.
+_LINES = {channel: number for number, channel in enumerate(CHANNELS.values())}
 #: What the vehicle hears: commands and questions.
 UPLINK = Channel(0, 20.0, 5.0)
 
@@ -183,7 +186,7 @@ def live(emulator: Emulator, link: MavlinkLink, speed: float, loss: float, seed:
     answer_due = float("-inf")
     while True:
         wait = next_step - time.monotonic()
-        while datagram := link.receive(max(wait, 0.0)):
+        while (datagram := link.receive(max(wait, 0.0))) is not None:
             for message in link.messages(datagram):
                 up.put(emulator.now_ms, UPLINK, message)
                 if message.get_type() == "MANUAL_CONTROL":
@@ -205,7 +208,8 @@ def live(emulator: Emulator, link: MavlinkLink, speed: float, loss: float, seed:
             next_step = max(next_step, now - _PATIENCE / speed)
         for channel, message in emulator.said:
             component = WATER_LOG if message.get_type() == "ODOMETRY" else None
-            down.put(emulator.now_ms, channel, (channel, link.pack(message, component)))
+            data = link.pack(message, component, line=_LINES[channel])
+            down.put(emulator.now_ms, channel, (channel, data))
         emulator.said.clear()
         for channel, data in down.take(emulator.now_ms):
             link.send_bytes(data)
@@ -254,12 +258,16 @@ def main(argv: Sequence[str] | None = None) -> int:
         "--loss", type=not_negative, default=0.0, metavar="P", help="share of messages lost, both ways"
     )
     p.add_argument("--seed", type=int, default=1, help="of delays and losses")
+    p.add_argument(
+        "--signing-key", default="", metavar="FILE", help="sign, and obey signed commands only (mode 0600)"
+    )
     a = p.parse_args(argv)
     hull = vehicle.load(a.vehicle)
     north, east, heading = a.initial
     start = PlantState(north, east, math.radians(heading), a.surge, 0.0, 0.0)
     emulator = Emulator(hull, start, Current(*a.current))
-    link = MavlinkLink(a.address, 1, mavlink.MAV_COMP_ID_AUTOPILOT1, "--address")
+    key = load_key(a.signing_key, "--signing-key")
+    link = MavlinkLink(a.address, 1, mavlink.MAV_COMP_ID_AUTOPILOT1, "--address", key=key)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         live(emulator, link, a.speed, a.loss, a.seed)

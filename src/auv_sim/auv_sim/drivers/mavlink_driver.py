@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections import deque
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from geometry_msgs.msg import TwistWithCovarianceStamped
@@ -19,21 +20,25 @@ from auv_msgs_py.conversions import fill_odometry, fill_water_velocity, finite, 
 from auv_msgs_py.errors import ConfigurationError, MessageRefused
 from auv_msgs_py.runtime import SuiteNode, run_nodes
 from auv_msgs_py.topics import Topic
-from auv_msgs_py.types import STOP, Command, WaterVelocity
+from auv_msgs_py.types import STOP, WaterVelocity
 from auv_path_following import vehicle
 from auv_sim.driver_parameters import MavlinkDriverParameters
+from auv_sim.drivers.mavlink_commands import Commands
 from auv_sim.drivers.mavlink_link import MavlinkLink
-from auv_sim.drivers.mavlink_mapping import Limits, heartbeat, manual_control, rudder_of_pulse
+from auv_sim.drivers.mavlink_mapping import WATER_LOG, Limits, heartbeat, manual_control, rudder_of_pulse
 from auv_sim.drivers.mavlink_navigation import Assembly, Attitude, Position
-from auv_sim.drivers.vehicle_time import FollowedClock, OffsetEstimate
+from auv_sim.drivers.mavlink_peer import Configured, Peer
+from auv_sim.drivers.mavlink_signing import load_key
+from auv_sim.drivers.mavlink_watch import LinkWatch
+from auv_sim.drivers.vehicle_time import ComponentTime, FollowedClock, OffsetEstimate
 
-#: States of the mission in which no command moves the vehicle, whoever sends it.
-_OVER = ("holding", "complete", "aborted")
-#: A command may miss the stop by rounding.
-_ROUNDING = 1e-9
 #: How often the driver empties its socket, looks at its watches, sends its heartbeat and asks for the
 #: vehicle's time, s of ROS time.
 _LISTEN, _LOOK, _HEARTBEAT, _TIMESYNC = 0.005, 0.05, 1.0, 0.5
+#: Datagrams taken in at once: a flood must not keep the node from everything else.
+_MOST = 200
+#: Questions for the vehicle's time that may be under way.
+_ASKED = 8
 #: /clock moves in steps of so much, ns.
 _CLOCK_PERIOD = 20_000_000
 
@@ -49,20 +54,24 @@ class MavlinkDriverNode(SuiteNode):
                 f"{self.get_name()}: parameter lockstep", "true", "false: vehicles never wait"
             )
         self.limits = Limits.of(vehicle.load(p.vehicle))
-        where = f"{self.get_name()}: parameter address"
-        self.link = MavlinkLink(p.address, p.system, p.component, where, p.vehicle_system)
+        where = f"{self.get_name()}: parameter"
+        allowed = Configured(p.peer, f"{where} peer") if p.peer else None
+        peer = Peer(p.vehicle_system, p.peer_timeout, allowed)
+        key = load_key(p.signing_key, f"{where} signing_key")
+        self.link = MavlinkLink(p.address, p.system, p.component, f"{where} address", peer, key)
+        self._link_watch = LinkWatch(self.link, p.vehicle_system)
+        settling = 0 if p.clock_speed else round(p.settling * 1e9)
         self._time: OffsetEstimate | FollowedClock = (
-            FollowedClock(topics.FIRST_STAMP_NS, p.clock_speed)
-            if p.clock_speed
-            else OffsetEstimate(round(p.settling * 1e9))
+            FollowedClock(topics.FIRST_STAMP_NS, p.clock_speed) if p.clock_speed else OffsetEstimate(settling)
         )
+        self._log_time = ComponentTime(self._time, settling)
+        self._asked: deque[int] = deque(maxlen=_ASKED)
         self._assembly = Assembly()
         self._water_boot_ms = 0
         self._told: dict[Topic, int] = {}
         self._heard_at: int | None = None
         self._status = ""
-        self._commands: dict[str, tuple[float, int]] = {}
-        self._mission_over = False
+        self._commands = Commands(self.limits, p.command_timeout)
         self._due = dict.fromkeys((_HEARTBEAT, _TIMESYNC), 0)
         self._odometry, self._water = Odometry(), TwistWithCovarianceStamped()
         self._odometry.header.frame_id, self._odometry.child_frame_id = p.world_frame, p.body_frame
@@ -76,18 +85,23 @@ class MavlinkDriverNode(SuiteNode):
         self.listen(topics.RUDDER_CMD, lambda message: self._on_command(topics.RUDDER_CMD.name, message))
         self.listen(topics.THRUST_CMD, lambda message: self._on_command(topics.THRUST_CMD.name, message))
         self.listen(topics.MISSION_STATE, self._on_mission_state)
-        self._handlers = {
-            "HEARTBEAT": self._on_heartbeat, "STATUSTEXT": self._on_text, "TIMESYNC": self._on_timesync,
-            "ATTITUDE": self._on_attitude, "LOCAL_POSITION_NED": self._on_position,
-            "ODOMETRY": self._on_water_track, "SERVO_OUTPUT_RAW": self._on_servo,
-        }  # fmt: skip
+        autopilot = p.vehicle_component
+        self._handlers: dict[str, tuple[int, Callable[[Any], None]]] = {
+            "HEARTBEAT": (autopilot, self._on_heartbeat),
+            "STATUSTEXT": (autopilot, self._on_text),
+            "TIMESYNC": (autopilot, self._on_timesync),
+            "ATTITUDE": (autopilot, self._on_attitude),
+            "LOCAL_POSITION_NED": (autopilot, self._on_position),
+            "SERVO_OUTPUT_RAW": (autopilot, self._on_servo),
+            "ODOMETRY": (WATER_LOG, self._on_water_track),
+        }
         steady = RosClock(clock_type=ClockType.STEADY_TIME)
         for period, look in ((_LISTEN, self._listen_to_vehicle), (_LOOK, self._look)):
             self.create_timer(period / max(p.clock_speed, 1.0), look, clock=steady)
 
     def report(self) -> dict[str, Any]:
-        values = {"vehicle": self._status or "not heard yet", "messages lost": self.link.lost}
-        values |= {"datagrams damaged": self.link.damaged, "vehicle restarts": self._time.restarts}
+        values = {"vehicle": self._status or "not heard yet", **self._link_watch.values()}
+        values |= {"vehicle restarts": self._time.restarts, "water log restarts": self._log_time.restarts}
         if isinstance(self._time, OffsetEstimate) and self._time.round_trip is not None:
             values["round trip [ms]"] = f"{self._time.round_trip * 1e-6:.1f}"
         return values | {f"dropped {what}": count for what, count in self._assembly.dropped.items()}
@@ -105,18 +119,26 @@ class MavlinkDriverNode(SuiteNode):
     # --- from the vehicle
 
     def _listen_to_vehicle(self) -> None:
-        while datagram := self.link.receive(0.0):
+        p = self.parameters
+        for _ in range(_MOST):
+            if (datagram := self.link.receive(0.0)) is None:
+                return
             for message in self.link.messages(datagram):
-                handler = self._handlers.get(message.get_type())
-                if handler is not None and message.get_srcSystem() == self.parameters.vehicle_system:
-                    self._heard_at = self.time_ns()
-                    try:
-                        handler(message)
-                    except MessageRefused as error:
-                        self.health.refuse(error)
+                component, handler = self._handlers.get(message.get_type(), (0, None))
+                if handler is None or message.get_srcSystem() != p.vehicle_system:
+                    continue
+                self._heard_at = self.time_ns()
+                if component != message.get_srcComponent():
+                    what = f"{message.get_type()} of component {message.get_srcComponent()}"
+                    self._assembly.dropped[what] += 1
+                    continue
+                try:
+                    handler(message)
+                except MessageRefused as error:
+                    self.health.refuse(error)
 
-    def _ros_time_of(self, boot_ms: int) -> int:
-        """ROS time of a measurement; a vehicle that was started anew is begun with anew."""
+    def _hear_time(self, boot_ms: int) -> None:
+        """Take in the time of the autopilot; a vehicle that was started anew is begun with anew."""
         boot = boot_ms * 1_000_000
         if isinstance(self._time, FollowedClock):
             anew = self._time.heard(boot, time.monotonic_ns())
@@ -126,13 +148,9 @@ class MavlinkDriverNode(SuiteNode):
         if anew:
             self.get_logger().warning("the vehicle was started anew")
             self._assembly.reset()
-            self._water_boot_ms = 0
-        return self._time.stamp(boot)
 
     def _tell(self, topic: Topic, message: Any, stamp: int) -> None:
-        """Publish a measurement if its stamp can be relied on and does not go back."""
-        if not self._time.settled:
-            return
+        """Publish a measurement if its stamp does not go back."""
         if stamp <= self._told.get(topic, 0):
             self._assembly.dropped[f"{topic.name} while time was corrected"] += 1
             return
@@ -140,17 +158,16 @@ class MavlinkDriverNode(SuiteNode):
         self._publish[topic](message)
 
     def _tell_time(self, now: int) -> None:
-        """Publish /clock, not more often than somebody could need it."""
+        """Publish /clock, in steps of `_CLOCK_PERIOD`."""
         if self._tell_clock is not None and now >= self._told_time + _CLOCK_PERIOD:
             self._told_time = now
             set_stamp(self._clock_message.clock, now)
             self._tell_clock(self._clock_message)
 
     def _on_heartbeat(self, message: Any) -> None:
-        if message.get_srcComponent() != mavlink.MAV_COMP_ID_AUTOPILOT1:
-            return
         armed = "armed" if message.base_mode & mavlink.MAV_MODE_FLAG_SAFETY_ARMED else "not armed"
-        state = mavlink.enums["MAV_STATE"][message.system_status].name.removeprefix("MAV_STATE_").lower()
+        known = mavlink.enums["MAV_STATE"].get(message.system_status)
+        state = known.name.removeprefix("MAV_STATE_").lower() if known else f"state {message.system_status}"
         self._status = f"{state}, {armed}"
         self.health.warn("armed", "the vehicle is not armed" if armed == "not armed" else "")
 
@@ -158,18 +175,19 @@ class MavlinkDriverNode(SuiteNode):
         self.get_logger().warning(f"the vehicle says: {message.text}")
 
     def _on_timesync(self, message: Any) -> None:
-        if message.tc1 and isinstance(self._time, OffsetEstimate):
+        answered = message.tc1 and message.ts1 in self._asked
+        if answered and isinstance(self._time, OffsetEstimate):
             self._time.exchanged(message.ts1, message.tc1, self.time_ns())
 
     def _on_attitude(self, message: Any) -> None:
-        self._ros_time_of(message.time_boot_ms)
+        self._hear_time(message.time_boot_ms)
         self._assembly.attitude(Attitude(message.time_boot_ms, message.yaw, message.yawspeed))
 
     def _on_position(self, message: Any) -> None:
-        self._ros_time_of(message.time_boot_ms)
+        self._hear_time(message.time_boot_ms)
         m = message
         fused = self._assembly.position(Position(m.time_boot_ms, m.x, m.y, m.vx, m.vy))
-        if fused is not None:
+        if fused is not None and self._time.settled:
             stamp = self._time.stamp(fused.boot_ms * 1_000_000)
             fill_odometry(self._odometry, fused.navigation, fused.u, fused.v, stamp)
             self._tell(topics.ODOM, self._odometry, stamp)
@@ -179,9 +197,12 @@ class MavlinkDriverNode(SuiteNode):
             raise MessageRefused("ODOMETRY", f"child_frame_id {message.child_frame_id}", "MAV_FRAME_BODY_FRD")
         finite(message.vx + message.vy, "ODOMETRY")
         boot_ms = message.time_usec // 1000
-        stamp = self._ros_time_of(boot_ms)
-        if boot_ms > self._water_boot_ms:
+        if self._log_time.heard(boot_ms * 1_000_000, self.time_ns()):
+            self.get_logger().warning("the vehicle's water log was started anew")
+            self._water_boot_ms = 0
+        if boot_ms > self._water_boot_ms and self._log_time.settled:
             self._water_boot_ms = boot_ms
+            stamp = self._log_time.stamp(boot_ms * 1_000_000)
             fill_water_velocity(self._water, WaterVelocity(message.vx, message.vy), stamp)
             self._tell(topics.WATER_VELOCITY, self._water, stamp)
 
@@ -193,42 +214,33 @@ class MavlinkDriverNode(SuiteNode):
     # --- to the vehicle
 
     def _on_command(self, topic: str, message: Float64) -> None:
-        lowest, highest = {
-            topics.RUDDER_CMD.name: (-self.limits.rudder, self.limits.rudder),
-            topics.THRUST_CMD.name: (0.0, self.limits.thrust),
-        }[topic]
-        value = finite(message.data, topic)
-        if not lowest - _ROUNDING <= value <= highest + _ROUNDING:
-            raise MessageRefused(topic, f"{value:g}", f"from {lowest:g} to {highest:g}")
-        self._commands[topic] = value, self.time_ns()
-        if topic == topics.THRUST_CMD.name and topics.RUDDER_CMD.name in self._commands:
+        if self._commands.put(topic, finite(message.data, topic), self.time_ns()):
             self._send_command()
 
     def _on_mission_state(self, message: Any) -> None:
-        self._mission_over = message.data in _OVER
+        self._commands.mission_is(message.data)
 
     def _send_command(self) -> None:
-        """The newest commands; a stop when one of them is missing or the mission is over."""
-        oldest = self.time_ns() - self.parameters.command_timeout * 1e9
-        values = [
-            self._commands.get(topic.name, (0.0, 0)) for topic in (topics.RUDDER_CMD, topics.THRUST_CMD)
-        ]
-        silent = bool(self._commands) and any(at < oldest for _, at in values)
+        p, now = self.parameters, self.time_ns()
+        silent = self._commands.silent(now)
         self.health.error("commands", "no commands: the vehicle is told to stop" if silent else "")
-        command = STOP if silent or self._mission_over else Command(*(value for value, _ in values))
-        clockwise = self.parameters.turn_axis == "clockwise"
-        self.link.send(manual_control(command, self.limits, clockwise, self.parameters.vehicle_system))
+        command, clockwise = self._commands.command(now), p.turn_axis == "clockwise"
+        self.link.send(manual_control(command, self.limits, clockwise, p.vehicle_system))
 
     def _look(self) -> None:
         """What has to happen when nothing else does."""
         p, now = self.parameters, self.time_ns()
         if isinstance(self._time, FollowedClock) and self._time.pass_silence(time.monotonic_ns()):
             self._tell_time(self._time.now)
-        if self._commands and now - max(at for _, at in self._commands.values()) > 1e9 * p.command_timeout:
+        if self._commands.none_since(now):
             self._send_command()
         if self._heard_at is not None:
             silent = now - self._heard_at > p.link_timeout * 1e9
             self.health.error("link", f"no word from the vehicle for {p.link_timeout:g} s" if silent else "")
+        for name, text in self._link_watch.conditions(time.monotonic(), self._heard_at is not None).items():
+            self.health.warn(name, text)
+        if moved := self._link_watch.moved():
+            self.get_logger().warning(f"{moved}: the old address was silent for {p.peer_timeout:g} s")
         for period, message in (
             (_HEARTBEAT, heartbeat()),
             (_TIMESYNC, mavlink.MAVLink_timesync_message(0, now)),
@@ -236,6 +248,8 @@ class MavlinkDriverNode(SuiteNode):
             if now >= self._due[period] or now < self._due[period] - 2e9 * period:  # or the clock went back
                 self._due[period] = now + round(period * 1e9)
                 self.link.send(message)
+                if period == _TIMESYNC:
+                    self._asked.append(now)
 
 
 def main(args: Sequence[str] | None = None) -> int:

@@ -1,20 +1,22 @@
-"""MAVLink 2 over UDP: one socket, one pair of ids, messages in and out. ROS-free."""
+"""MAVLink 2 over UDP: one socket, one peer, messages in and out. ROS-free."""
 
 from __future__ import annotations
 
 import re
 import socket
-from collections.abc import Iterator
+import time
+from collections.abc import Callable
 from typing import Any
 
-from pymavlink.dialects.v20 import common as mavlink
-
 from auv_msgs_py.errors import ConfigurationError
+from auv_sim.drivers.mavlink_codec import LARGEST_DATAGRAM, Codec, Frame
+from auv_sim.drivers.mavlink_peer import Address, Peer, text_of
 
 #: Where ground stations listen for vehicles.
 STANDARD_PORT = 14550
 _ADDRESS = re.compile(r"(udp|udpin|udpout):([\w.\-]+):(\d+)")
-_LARGEST_DATAGRAM = 65535
+#: Asked of the system, bytes; what it grants has to hold all that comes while the process does not run.
+_RECEIVE_BUFFER = 4_000_000
 
 
 def parse_address(text: str, where: str) -> tuple[bool, str, int]:
@@ -41,7 +43,9 @@ class MavlinkLink:
         address: as `parse_address` reads it.
         system, component: our own ids.
         where: what to name when the address cannot be used.
-        peer_system: who waits speaks to where this system's last message came from; None: any system's.
+        peer: who the vehicle may be, where we wait for it; any sender and system if None.
+        key: of signatures, see `Codec`.
+        clock: wall time, s.
 
     Raises:
         ConfigurationError: the address cannot be used.
@@ -53,65 +57,76 @@ class MavlinkLink:
         system: int,
         component: int,
         where: str = "address",
-        peer_system: int | None = None,
+        peer: Peer | None = None,
+        key: bytes | None = None,
+        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         waits, host, port = parse_address(address, where)
+        self.peer = peer if peer is not None else Peer()
+        self._clock = clock
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, _RECEIVE_BUFFER)
         try:
             if waits:
                 self._socket.bind((host, port))
-                self._peer: tuple[str, int] | None = None
-            else:
+            else:  # the system then delivers nothing from anywhere else
                 self._socket.connect((host, port))
-                self._peer = (host, port)
+                self.peer.address = self._socket.getpeername()
         except OSError as error:
             self._socket.close()
             raise ConfigurationError(
                 where, f"'{address}' ({error.strerror})", "an address that is free"
             ) from None
-        self._waits, self._peer_system = waits, peer_system
-        self._sender: tuple[str, int] | None = None
-        self._codec = mavlink.MAVLink(None, srcSystem=system, srcComponent=component)
-        self._codec.robust_parsing = True
-        self._voices = {component: self._codec}
-        self._sequence: dict[tuple[int, int], int] = {}
-        #: Messages that never came, by the gaps in the sender's numbering; bytes that were no message.
+        self._waits = waits
+        self._sender: Address = ("", 0)
+        self._codec = Codec(system, component, key)
+        self._numbers: dict[tuple[int, int], int] = {}
+        self._known: Address | None = None
+        #: The peer's messages that never came, by the gaps in their numbering; datagrams that could not be
+        #: read to the end, and why the last of them could not.
         self.lost = self.damaged = 0
+        self.damage = ""
 
-    def receive(self, timeout: float) -> bytes:
-        """One datagram, empty when none came within `timeout` s."""
+    def receive(self, timeout: float) -> bytes | None:
+        """One datagram, which may be empty; None when none came within `timeout` s."""
         try:
             self._socket.settimeout(timeout)
-            data, self._sender = self._socket.recvfrom(_LARGEST_DATAGRAM)
+            data, self._sender = self._socket.recvfrom(LARGEST_DATAGRAM + 1)
         except OSError:  # nothing came, or nobody listens there yet
-            return b""
+            return None
         return data
 
-    def messages(self, datagram: bytes) -> Iterator[Any]:
-        """The messages of the datagram last received; damaged ones are counted and left out."""
-        for message in self._codec.parse_buffer(datagram) or ():
-            if message.get_type() == "BAD_DATA":
-                self.damaged += 1
-                continue
-            if self._waits and self._peer_system in (None, message.get_srcSystem()):
-                self._peer = self._sender
-            sender = message.get_srcSystem(), message.get_srcComponent()
-            number = message.get_seq()
-            missing = (number - self._sequence.get(sender, number - 1) - 1) % 256
+    def messages(self, datagram: bytes) -> list[Any]:
+        """The peer's messages in the datagram last received; what cannot be read is counted and left out."""
+        sender, now = self._sender, self._clock()
+        if not self.peer.may_be(sender, now):
+            self.peer.refuse(sender, now)
+            return []
+        frames, damage = self._codec.unpack(datagram)
+        if damage:
+            self.damaged += 1
+            self.damage = f"{damage}, from {text_of(sender)}"
+        if not self.peer.is_vehicle(sender, frames, now):
+            self.peer.refuse(sender, now)
+            return []
+        if sender != self._known:
+            self._known = sender
+            self._numbers.clear()
+        self._count(frames)
+        return [frame.message for frame in frames if frame.message is not None]
+
+    def _count(self, frames: list[Frame]) -> None:
+        """Look for gaps in the numbering of each component."""
+        for frame in frames:
+            source = frame.system, frame.component
+            missing = (frame.number - self._numbers.get(source, frame.number - 1) - 1) % 256
             if missing < 128:  # otherwise it was overtaken
                 self.lost += missing
-                self._sequence[sender] = number
-            yield message
+                self._numbers[source] = frame.number
 
-    def pack(self, message: Any, component: int | None = None) -> bytes:
-        """A message as our next datagram, or as that of another component of our system."""
-        component = self._codec.srcComponent if component is None else component
-        if component not in self._voices:
-            self._voices[component] = mavlink.MAVLink(None, self._codec.srcSystem, component)
-        codec = self._voices[component]
-        data: bytes = message.pack(codec)
-        codec.seq = (codec.seq + 1) % 256
-        return data
+    def pack(self, message: Any, component: int | None = None, line: int = 0) -> bytes:
+        """A message as our next datagram, see `Codec.pack`."""
+        return self._codec.pack(message, component, line)
 
     def send(self, message: Any) -> None:
         """Send a message; before the vehicle has been heard there is nobody to send to."""
@@ -119,11 +134,11 @@ class MavlinkLink:
 
     def send_bytes(self, data: bytes) -> None:
         """Send what `pack` made. UDP promises nothing, so neither does this."""
-        if self._peer is None:
+        if self.peer.address is None:
             return
         try:
             if self._waits:
-                self._socket.sendto(data, self._peer)
+                self._socket.sendto(data, self.peer.address)
             else:
                 self._socket.send(data)
         except OSError:

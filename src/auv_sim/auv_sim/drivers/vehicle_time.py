@@ -18,6 +18,9 @@ STEP = 500 * _MS
 SLEW, FAST, NEAR = 0.002, 0.05, 15 * _MS
 #: So long after it was first heard a vehicle's time can be relied on.
 SETTLING = _SECOND
+#: Two components share a clock if the one's messages seem to arrive so much later than the other's, and not
+#: this much earlier.
+SHARED, EARLY = 100 * _MS, 20 * _MS
 #: How long a good sample counts, and how many time exchanges are compared.
 WINDOW, EXCHANGES = 10 * _SECOND, 20
 
@@ -78,6 +81,16 @@ class OffsetEstimate:
         if self._bounds and abs(offset - self._bounds[0][1]) < _SECOND:
             # Otherwise it answers with another clock than it stamps with, say with the time of day.
             self._exchanges.append((received - sent, offset))
+
+    @property
+    def least(self) -> int | None:
+        """The upper bound of the offset, None before anything was heard."""
+        return self._bounds[0][1] if self._bounds else None
+
+    @property
+    def offset(self) -> int | None:
+        """What is added to a time since boot, None before anything was heard."""
+        return self._applied
 
     def _target(self) -> int:
         least = self._bounds[0][1]
@@ -148,6 +161,11 @@ class FollowedClock:
         return anew
 
     @property
+    def offset(self) -> int | None:
+        """What is added to a time since boot, None before anything was heard."""
+        return self._offset
+
+    @property
     def settled(self) -> bool:
         """Whether the vehicle's time can be relied on: at once, since ours follows it."""
         return True
@@ -168,3 +186,48 @@ class FollowedClock:
         """When that was. Something must have been heard before."""
         assert self._offset is not None
         return boot + self._offset
+
+
+class ComponentTime:
+    """Time of a component that is not the autopilot: it may count from a boot, or an epoch, of its own.
+
+    Its arrivals alone bound its offset no better than by its shortest delay. A component that stamps with the
+    autopilot's clock, as most do, is better served by the autopilot's offset, which the exchange of times
+    corrects. Which of the two holds is decided once, and again when they part.
+
+    Args:
+        autopilot: the time of the autopilot.
+        settling: as of `OffsetEstimate`.
+    """
+
+    def __init__(self, autopilot: OffsetEstimate | FollowedClock, settling: int = SETTLING) -> None:
+        self._autopilot = autopilot
+        self._own = OffsetEstimate(settling)
+        self._shares: bool | None = None
+
+    @property
+    def restarts(self) -> int:
+        """How often the component was started anew."""
+        return self._own.restarts
+
+    def heard(self, boot: int, now: int) -> bool:
+        """A message with this time arrived now; True when the component has been started anew."""
+        anew = self._own.heard(boot, now)
+        least, offset = self._own.least, self._autopilot.offset
+        if least is None or offset is None:
+            return anew
+        later = least - offset
+        if anew or (self._shares and abs(later) > STEP):
+            self._shares = None
+        if self._shares is None and self._own.settled and self._autopilot.settled:
+            self._shares = -EARLY < later < SHARED
+        return anew
+
+    @property
+    def settled(self) -> bool:
+        """Whether its time can be relied on."""
+        return self._shares is not None
+
+    def stamp(self, boot: int) -> int:
+        """When that was in ROS time. It must have settled before."""
+        return (self._autopilot.offset or 0) + boot if self._shares else self._own.stamp(boot)

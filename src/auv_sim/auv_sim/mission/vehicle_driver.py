@@ -51,6 +51,7 @@ def tell_driver(
             "--surge", repr(start.surge),
             "--current", *map(repr, (current.Vx, current.Vy)),
             "--speed", repr(speed or 1.0),
+            "--signing-key", parameters[driver].signing_key,
         )  # fmt: skip
     parameters[driver] = dataclasses.replace(parameters[driver], **told)
     return emulator
