@@ -37,6 +37,7 @@ EXECUTABLES = {
         "check_vehicle",
         "mavlink_driver",
         "mavlink_emulator",
+        "mavlink_strangers",
     },
 }
 #: Import names that differ from the name to install.
