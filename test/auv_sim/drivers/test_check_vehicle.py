@@ -25,7 +25,10 @@ CommandLine = Callable[..., list[str]]
 REMUS = vehicle.load("remus100")
 CONSENT = ["--wiggle", "--yes-the-vehicle-may-move"]
 #: What only the wire can show, and some of each other kind.
-OVER_DDS = {"honest", "wrong-type", "qos-mismatch", "yaw-ned", "wall-clock", "rudder-sign"}
+OVER_DDS = {
+    "honest", "wrong-type", "qos-mismatch", "yaw-ned", "wall-clock", "rudder-sign",
+    "bare", "bare-rudder-sign", "bare-noisy",
+}  # fmt: skip
 
 
 def test_planted_mistakes_are_found_over_the_wire(domain: int) -> None:
@@ -88,6 +91,8 @@ def test_nothing_there_is_a_failure_and_named(domain: int, capsys: pytest.Captur
     assert main(["--duration", "0.2", "--wait", "0.2", "--json"]) == 1
     items = json.loads(capsys.readouterr().out)["items"]
     assert {item["mistake"] for item in items if item["verdict"] == "fail"} == {"MISSING_TOPIC", "DEAF"}
+    missing = [item["measured"] for item in items if item["mistake"] == "MISSING_TOPIC"]
+    assert missing == [f"no publisher in ROS domain {domain}, discovery range LOCALHOST"] * 2
 
 
 @pytest.mark.parametrize(

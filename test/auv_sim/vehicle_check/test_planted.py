@@ -28,8 +28,9 @@ BEGIN, STEP, LATENCY = 100.0, 0.05, 0.01
 
 def endpoints(planted: Planted) -> tuple[Endpoint, ...]:
     latched = planted.latched_commands
+    states = () if planted.bare else (topics.RUDDER_STATE,)
     return (
-        *(Endpoint(t.name, True, t.type, "driver") for t in (topics.ODOM, topics.RUDDER_STATE)),
+        *(Endpoint(t.name, True, t.type, "driver") for t in (topics.ODOM, *states)),
         Endpoint(topics.WATER_VELOCITY.name, True, planted.water_type, "driver"),
         *(
             Endpoint(t.name, False, t.type, "driver", transient_local=latched)
@@ -44,7 +45,7 @@ def record(
     """What the listener would have heard of the small test, without the wire."""
     driver = PlantedVehicle(planted, REMUS, BEGIN)
     driver.plant.state = START._replace(psi=heading)
-    recording = Recording(duration=END, sim_time=True, endpoints=endpoints(planted))
+    recording = Recording(duration=END, sim_time=True, wiggled=wiggle, endpoints=endpoints(planted))
     for k in range(round((END + FAREWELL) / STEP)):
         now = BEGIN + k * STEP
         for odom, water, rudder in driver.live(now):
@@ -52,7 +53,7 @@ def record(
             recording.odom.append(odom._replace(received=heard))
             if planted.water_type == topics.WATER_VELOCITY.type:
                 recording.water.append(water._replace(received=heard))
-            if state:
+            if state and not planted.bare:
                 recording.rudder_state.append(Value(heard, rudder))
         if wiggle:
             command = Wiggle.of(REMUS).at(now - BEGIN)
@@ -68,7 +69,8 @@ def found(recording: Recording) -> set[Mistake]:
 
 @pytest.mark.parametrize("planted", PLANTED, ids=lambda planted: planted.name)
 def test_the_mistake_is_named_and_no_other(planted: Planted) -> None:
-    assert found(record(planted)) == ({planted.mistake} if planted.mistake else set())
+    verdicts = check(record(planted), planted.file(REMUS))
+    assert mistakes(verdicts) == ({planted.mistake} if planted.mistake else set())
 
 
 def test_there_are_enough_of_them() -> None:
@@ -77,6 +79,31 @@ def test_there_are_enough_of_them() -> None:
 
 def test_an_honest_vehicle_passes_every_item() -> None:
     assert {verdict.level for verdict in check(record(HONEST), REMUS)} == {Level.PASS}
+
+
+@pytest.mark.parametrize("name", ["remus100", "remus100_mismatch", "remus100_table2"])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_turning_and_cruise_are_enough_for_the_sign_of_any_hull(
+    name: str, sign: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    hull = vehicle.load(name)
+    monkeypatch.setitem(record.__globals__, "REMUS", hull)
+    (bare,) = (planted for planted in PLANTED if planted.name == "bare")
+    turned = replace(bare, command=lambda c: c._replace(rudder=sign * c.rudder))
+    verdicts = check(record(turned), turned.file(hull))
+    assert mistakes(verdicts) == (set() if sign > 0.0 else {Mistake.RUDDER_SIGN})
+    assert {v.level for v in verdicts} <= {Level.PASS, Level.FAIL}
+
+
+def test_what_the_small_test_could_not_judge_does_not_pass() -> None:
+    (noisy,) = (planted for planted in PLANTED if planted.name == "bare-noisy")
+    recording = record(noisy)
+    verdicts = check(recording, noisy.file(REMUS))
+    assert {v.level for v in verdicts if v.mistake is not None} == {Level.UNKNOWN}
+    assert report.as_dict(verdicts, recording)["passed"] is False
+    assert report.conclusion(verdicts).endswith("not judged: not fit for a mission until all of it is judged")
+    untouched = replace(recording, wiggled=False)
+    assert mistakes(check(untouched, noisy.file(REMUS))) == set()
 
 
 @pytest.mark.parametrize("name", ["rudder-sign", "rudder-degrees", "rudder-slow", "dead-time"])

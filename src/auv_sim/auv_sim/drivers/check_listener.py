@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from typing import Any
 
 from geometry_msgs.msg import TwistWithCovarianceStamped
@@ -38,6 +39,13 @@ def _endpoint(topic: Topic, publishes: bool, info: Any) -> Endpoint:
     reliable = info.qos_profile.reliability == ReliabilityPolicy.RELIABLE
     latched = info.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
     return Endpoint(topic.name, publishes, info.topic_type, info.node_name, reliable, latched)
+
+
+def _domain(node: Node) -> str:
+    """Where a node looks for others: who is elsewhere does not exist for it."""
+    local_only = os.environ.get("ROS_LOCALHOST_ONLY") == "1"
+    reach = os.environ.get("ROS_AUTOMATIC_DISCOVERY_RANGE") or ("LOCALHOST" if local_only else "SUBNET")
+    return f"ROS domain {node.context.get_domain_id()}, discovery range {reach}"
 
 
 class VehicleListener:
@@ -159,7 +167,9 @@ class VehicleListener:
             publisher.publish(Float64(data=0.0))
 
     def finish(self, begin: float, sim_time: bool) -> Recording:
-        """The recording, complete with what discovery knows."""
+        """The recording, complete with what discovery found."""
+        self.recording.wiggled = self._wiggle is not None
+        self.recording.listened_in = _domain(self.node)
         self.recording.endpoints = self.endpoints()
         self.recording.duration = self.now() - begin
         self.recording.sim_time = sim_time

@@ -59,7 +59,9 @@ class PlantedDriver:
         self._water = node.create_publisher(
             self._water_type, f"{self.namespace}/velocity_through_water", _DEPTH
         )
-        self._state = node.create_publisher(Float64, f"{self.namespace}/rudder_state", _DEPTH)
+        self._state = (
+            None if planted.bare else node.create_publisher(Float64, f"{self.namespace}/rudder_state", _DEPTH)
+        )
         wanted = QoSProfile(depth=_DEPTH)
         if planted.latched_commands:
             wanted.durability = DurabilityPolicy.TRANSIENT_LOCAL
@@ -74,15 +76,17 @@ class PlantedDriver:
         self.vehicle.order(Command(self._rudder, message.data))
 
     def ready(self) -> bool:
-        """Somebody hears it and it hears somebody, as far as the mistake allows."""
-        return bool(self._odometry.get_subscription_count() and self._state.get_subscription_count())
+        """Whether its topics are matched, as far as the mistake allows."""
+        publishers = (self._odometry, self._state) if self._state is not None else (self._odometry,)
+        return all(publisher.get_subscription_count() for publisher in publishers)
 
     def live(self, until: float) -> None:
         """Let time pass and publish."""
         for odometry, water, rudder in self.vehicle.live(until):
             self._odometry.publish(_odometry(odometry))
             self._water.publish(_water(self._water_type, water))
-            self._state.publish(Float64(data=rudder))
+            if self._state is not None:
+                self._state.publish(Float64(data=rudder))
             self.sent += 1
 
 
@@ -120,7 +124,8 @@ class _Fleet:
 
     def measured(self) -> bool:
         return all(
-            min(len(listener.recording.rudder_state), len(listener.recording.odom)) >= driver.sent
+            len(listener.recording.odom) >= driver.sent
+            and (driver.planted.bare or len(listener.recording.rudder_state) >= driver.sent)
             for driver, listener in self._pairs
         )
 
@@ -196,7 +201,7 @@ def find_all(
         for context in contexts:
             context.try_shutdown()
     return {
-        driver.planted.name: mistakes(check(recording, hull))
+        driver.planted.name: mistakes(check(recording, driver.planted.file(hull)))
         for driver, recording in zip(drivers, recordings, strict=True)
     }
 

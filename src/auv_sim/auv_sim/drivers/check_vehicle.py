@@ -44,7 +44,8 @@ def parser() -> argparse.ArgumentParser:
     p = Parser(
         prog="check_vehicle",
         description="Listen to a vehicle's topics and say, item by item, whether they keep the contract.",
-        epilog="Exit code: 0 nothing failed, 1 something failed, 2 input that cannot be used.",
+        epilog="Exit code: 0 nothing failed (with --wiggle: and everything was judged), 1 otherwise,"
+        " 2 input that cannot be used.",
         allow_abbrev=False,
     )
     p.add_argument(
@@ -127,7 +128,8 @@ def _check(options: argparse.Namespace, arguments: list[str], hull: Vehicle) -> 
     else:
         out = console()
         clock = "/clock" if recording.sim_time else "the system's clock"
-        out.print(report.table(verdicts, f"{options.namespace}, {recording.duration:.1f} s by {clock}"))
+        heard = f"{options.namespace}, {recording.duration:.1f} s by {clock}, {recording.listened_in}"
+        out.print(report.table(verdicts, heard))
         if listener.cut_short:
             out.print(f"[yellow]the small test was cut short[/yellow]: {listener.cut_short}")
         out.print(report.conclusion(verdicts))

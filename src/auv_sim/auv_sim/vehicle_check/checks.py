@@ -33,11 +33,16 @@ def check(recording: Recording, vehicle: Vehicle) -> list[Verdict]:
         if mistakes(kinematics) & _RATES:
             motion = motion._replace(r=np.gradient(motion.yaw, motion.t))
         response = check_response(recording, motion, vehicle)
-    return [
+    verdicts = [
         *graph, *check_values(recording, motion), *check_timing(recording), *kinematics, *response
     ]  # fmt: skip
+    if recording.wiggled and not mistakes(verdicts):  # otherwise it follows from what failed
+        left = Mistake.NOT_JUDGED
+        verdicts = [v._replace(mistake=left) if v.level is Level.UNKNOWN else v for v in verdicts]
+    return verdicts
 
 
 def mistakes(verdicts: list[Verdict]) -> set[Mistake]:
-    """The causes of what failed."""
-    return {v.mistake for v in verdicts if v.level is Level.FAIL and v.mistake is not None}
+    """The causes of what does not pass; empty: fit for a mission."""
+    levels = (Level.FAIL, Level.UNKNOWN)
+    return {v.mistake for v in verdicts if v.level in levels and v.mistake is not None}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from auv_msgs_py import topics
 from auv_msgs_py.topics import Topic
 from auv_sim.vehicle_check.samples import Recording
-from auv_sim.vehicle_check.verdict import Mistake, Verdict, failed, passed, unknown
+from auv_sim.vehicle_check.verdict import Mistake, Verdict, failed, passed
 
 _FROM_VEHICLE = (topics.ODOM, topics.WATER_VELOCITY)
 _TO_VEHICLE = (topics.RUDDER_CMD, topics.THRUST_CMD)
@@ -23,8 +23,9 @@ def _published(topic: Topic, recording: Recording, optional: bool = False) -> Ve
     there = [e for e in recording.endpoints if e.topic == topic.name and e.publishes]
     if not there:
         if optional:
-            return unknown(item, "nobody publishes it", "optional; it tells more about the rudder")
-        return failed(item, Mistake.MISSING_TOPIC, "nobody publishes it", topic.type)
+            return passed(item, "not published", "optional; it shows more of the rudder")
+        place = f" in {recording.listened_in}" if recording.listened_in else ""
+        return failed(item, Mistake.MISSING_TOPIC, f"no publisher{place}", topic.type)
     wrong = [e for e in there if e.type != topic.type]
     if wrong:
         return failed(item, Mistake.WRONG_TYPE, wrong[0].type, topic.type)

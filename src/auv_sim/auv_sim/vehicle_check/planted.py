@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,8 @@ import numpy as np
 from auv_msgs_py import topics
 from auv_msgs_py.frames import flip_yaw, quaternion_of_yaw, swap_axes, yaw_of_quaternion
 from auv_msgs_py.types import STOP, Command, Current
-from auv_path_following.vehicle import Vehicle
+from auv_path_following.control.hull_model import tightest_turn
+from auv_path_following.vehicle import Cruise, Turning, Vehicle
 from auv_sim.plant.actuator import RudderServo
 from auv_sim.plant.remus import PlantState, RemusPlant
 from auv_sim.vehicle_check.samples import OdometrySample, WaterSample
@@ -44,6 +45,7 @@ class Planted:
         rudder_rate: share of the file's.
         water_type: of the message on velocity_through_water.
         latched_commands: subscribes to commands as transient local.
+        bare: has no rudder_state, and a vehicle file with measured values in place of a hull.
     """
 
     name: str
@@ -56,6 +58,15 @@ class Planted:
     rudder_rate: float = 1.0
     water_type: str = topics.WATER_VELOCITY.type
     latched_commands: bool = False
+    bare: bool = False
+
+    def file(self, vehicle: Vehicle) -> Vehicle:
+        """The vehicle file that the driver is judged by; `vehicle` is what really moves."""
+        if not self.bare:
+            return vehicle
+        cruise = Cruise(thrust=vehicle.thrust_max, speed=vehicle.top_speed)
+        turning = Turning(radius=round(tightest_turn(vehicle).radius, 1))
+        return replace(vehicle, hull=None, cruise=cruise, turning=turning)
 
 
 def _turned(change: Callable[[float], float]) -> Callable[[OdometrySample, int], OdometrySample]:
@@ -123,6 +134,15 @@ PLANTED = (
     Planted("rudder-slow", Mistake.RUDDER_SLOW, rudder_rate=0.25),
     Planted("dead-time", Mistake.DEAD_TIME, dead_time=0.7),
     Planted("no-thrust", Mistake.THRUST_DEAD, command=_command(thrust=0.02)),
+    Planted("bare", None, bare=True),
+    Planted("bare-rudder-sign", Mistake.RUDDER_SIGN, command=_command(rudder=-1.0), bare=True),
+    Planted("bare-rudder-degrees", Mistake.RUDDER_DEGREES, command=_command(rudder=_DEGREE), bare=True),
+    Planted("bare-rudder-scale", Mistake.RUDDER_SCALE, command=_command(rudder=0.3), bare=True),
+    Planted("bare-rudder-slow", Mistake.RUDDER_SLOW, rudder_rate=0.25, bare=True),
+    Planted("bare-dead-time", Mistake.DEAD_TIME, dead_time=0.7, bare=True),
+    Planted(
+        "bare-noisy", Mistake.NOT_JUDGED, odom=_odom(r=lambda s, k: s.r + 0.21 * math.sin(k * k)), bare=True
+    ),
 )
 
 

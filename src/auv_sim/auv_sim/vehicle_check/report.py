@@ -6,6 +6,7 @@ from typing import Any
 
 from rich.table import Table
 
+from auv_sim.vehicle_check.checks import mistakes
 from auv_sim.vehicle_check.samples import Recording
 from auv_sim.vehicle_check.verdict import Level, Verdict
 
@@ -37,7 +38,8 @@ def as_dict(verdicts: list[Verdict], recording: Recording) -> dict[str, Any]:
         for v in verdicts
     ]
     return {
-        "passed": not any(v.level is Level.FAIL for v in verdicts),
+        "passed": not mistakes(verdicts),
+        "listened_in": recording.listened_in,
         "listened_s": round(recording.duration, 3),
         "clock": "/clock" if recording.sim_time else "system",
         "items": items,
@@ -52,6 +54,8 @@ def conclusion(verdicts: list[Verdict]) -> str:
         text += f", {count[Level.UNKNOWN]} not judged"
     if count[Level.FAIL]:
         return f"{text}: not fit for a mission"
+    if mistakes(verdicts):
+        return f"{text}: not fit for a mission until all of it is judged"
     if any(v.level is Level.UNKNOWN and "--wiggle" in v.expected for v in verdicts):
         return f"{text}: let it move, with --wiggle for instance"
     return f"{text}: fit for a mission"

@@ -1,13 +1,13 @@
 """From command to response: sign, scale, rate limit and dead time of the rudder; whether the thrust pushes.
 
 The vehicle's own file is the model: the same commands go through the simulated hull, with several rudder
-rates, and what was measured is compared with that, shifted by several dead times.
+rates, and what was measured is compared with that, shifted by several dead times. A file without a hull has
+the measured turn and cruise in its place (`turning.py`).
 """
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
@@ -16,41 +16,20 @@ from auv_msgs_py.types import Command
 from auv_path_following.vehicle import Vehicle
 from auv_sim.plant.actuator import RudderServo
 from auv_sim.plant.remus import PlantState, RemusPlant
+from auv_sim.vehicle_check.fits import STEP, WAYS, Fit, best, servo
 from auv_sim.vehicle_check.samples import Array, Motion, Recording, Value
+from auv_sim.vehicle_check.turning import fit_turning
 from auv_sim.vehicle_check.values import convention_of
 from auv_sim.vehicle_check.verdict import Mistake, Verdict, failed, passed, unknown, warned
 
-_STEP = 0.05
 #: The rudder must have been asked to move by so much, rad rms.
 _LEAST_RUDDER = math.radians(2.0)
-#: Shares of the file's rudder rate, and dead times (s), that are tried.
-_RATES = (0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.4, 2.0, 3.0)
-_DELAYS = np.arange(0.0, 1.501, 0.02)
 #: Dead time from where on the rudder begins to swing (docs/driver.md), and where the test fails, s.
 GOOD_DELAY, WORST_DELAY = 0.15, 0.4
-_DEGREES = 180.0 / math.pi
 
 #: What is judged here.
 ITEMS = ("rudder: sign and scale", "rudder: rate", "rudder: dead time", "thrust: push")
 _NEEDED = "rudder commands of some degrees while the vehicle moves: --wiggle, or a mission under way"
-
-
-class Fit(NamedTuple):
-    """How a signal follows the model.
-
-    Attributes:
-        gain: its factor.
-        rate: share of the file's rudder rate.
-        delay: dead time, s.
-        unexplained: the part of the signal that stays so, 0 to 1.
-        scale: of the command on its way to the rudder: 1, or what taking degrees for radians makes of it.
-    """
-
-    gain: float
-    rate: float
-    delay: float
-    unexplained: float
-    scale: float = 1.0
 
 
 def check_response(recording: Recording, motion: Motion, vehicle: Vehicle) -> list[Verdict]:
@@ -61,7 +40,7 @@ def check_response(recording: Recording, motion: Motion, vehicle: Vehicle) -> li
         return [unknown(item, "no commands to follow", _NEEDED) for item in items]
     push = _push(items[3], recording, t, thrust, vehicle)
     state = _fit_state(recording, t, rudder, vehicle)
-    # A rudder turns nobody who stands still.
+    # A stationary vehicle does not respond to its rudder.
     moves = push.mistake is not Mistake.THRUST_DEAD
     yaw = _fit_yaw(recording, motion, t, rudder, thrust, vehicle) if moves else None
     return [_sign(items[0], state, yaw), *_rate_and_delay(items[1:3], state, yaw, vehicle), push]
@@ -73,7 +52,7 @@ def _commands(recording: Recording) -> tuple[Array, Array, Array]:
         return np.empty(0), np.empty(0), np.empty(0)
     begin = min(recording.rudder_cmd[0].received, recording.thrust_cmd[0].received)
     end = max(recording.rudder_cmd[-1].received, recording.thrust_cmd[-1].received)
-    t = np.arange(begin, end, _STEP)
+    t = np.arange(begin, end, STEP)
     return t, _held(recording.rudder_cmd, t), _held(recording.thrust_cmd, t)
 
 
@@ -82,43 +61,6 @@ def _held(values: list[Value], t: Array) -> Array:
     row = np.searchsorted(times, t, side="right") - 1
     held = np.array([value.value for value in values])
     return np.where(row >= 0, held[np.maximum(row, 0)], 0.0)
-
-
-class _Way(NamedTuple):
-    """What may become of a command: its scale, and the share of the file's rudder rate."""
-
-    scale: float
-    rate: float
-
-
-_WAYS = (*(_Way(1.0, rate) for rate in _RATES), _Way(1.0 / _DEGREES, 1.0), _Way(_DEGREES, 1.0))
-
-
-def _servo(rudder: Array, vehicle: Vehicle, rate: float) -> Array:
-    servo = RudderServo(vehicle.rudder.max_angle, rate * vehicle.rudder.max_rate)
-    angles = np.empty_like(rudder)
-    for k, angle in enumerate(rudder):
-        angles[k] = servo.angle
-        servo.command(float(angle))
-        servo.advance(_STEP)
-    return angles
-
-
-def _best(t: Array, models: dict[_Way, Array], times: Array, values: Array) -> Fit:
-    """The rate, the dead time and the factor that explain a signal best."""
-    power = float(values @ values) or 1e-12
-    best = Fit(0.0, 1.0, 0.0, 1.0)
-    for way, model in models.items():
-        for delay in _DELAYS:
-            expected = np.interp(times - delay, t, model, left=0.0)
-            own = float(expected @ expected)
-            if own < 1e-9:
-                continue
-            gain = float(expected @ values) / own
-            rest = 1.0 - gain * float(expected @ values) / power
-            if rest < best.unexplained - 1e-6:
-                best = Fit(gain, way.rate, float(delay), rest, way.scale)
-    return best
 
 
 def _fit_state(recording: Recording, t: Array, rudder: Array, vehicle: Vehicle) -> Fit | None:
@@ -130,29 +72,34 @@ def _fit_state(recording: Recording, t: Array, rudder: Array, vehicle: Vehicle) 
     times, values = np.array([s.received for s in samples]), np.array([s.value for s in samples])
     if float(np.abs(values).max()) < 1e-4:
         return Fit(0.0, 1.0, 0.0, 1.0)
-    return _best(t, {way: _servo(way.scale * rudder, vehicle, way.rate) for way in _WAYS}, times, values)
+    return best(t, {way: servo(way.scale * rudder, vehicle, way.rate) for way in WAYS}, times, values)
 
 
 def _fit_yaw(
     recording: Recording, motion: Motion, t: Array, rudder: Array, thrust: Array, vehicle: Vehicle
 ) -> Fit | None:
-    """The yaw rate against that of the file's hull; positive gain for the contract's sign."""
-    if vehicle.hull is None:
-        return None
+    """The yaw rate against what the file says of the hull; positive gain for the contract's sign."""
     inside = (motion.t >= t[0]) & (motion.t <= t[-1] + 1.0)
     if inside.sum() < 20:
         return None
     ned = convention_of(recording) is Convention.NED_FRD
+    if vehicle.hull is None:
+        through_water = [s for s in recording.water if math.isfinite(s.u)]
+        if len(through_water) < 20:
+            return None
+        speed = np.interp(t, [s.received for s in through_water], [s.u for s in through_water])
+        sign = -1.0 if ned else 1.0
+        return fit_turning(t, rudder, speed, motion.t[inside], sign * motion.r[inside], vehicle)
     models = {}
-    for way in _WAYS:
-        plant = RemusPlant(vehicle, PlantState(0.0, 0.0, 0.0, _speed(recording, t[0]), 0.0, 0.0), _STEP)
+    for way in WAYS:
+        plant = RemusPlant(vehicle, PlantState(0.0, 0.0, 0.0, _speed(recording, t[0]), 0.0, 0.0), STEP)
         plant.rudder = RudderServo(vehicle.rudder.max_angle, way.rate * vehicle.rudder.max_rate)
         model = np.empty_like(t)
         for k in range(t.size):
             model[k] = plant.state.r if ned else -plant.state.r
-            plant.advance(Command(way.scale * float(rudder[k]), float(thrust[k])), _STEP)
+            plant.advance(Command(way.scale * float(rudder[k]), float(thrust[k])), STEP)
         models[way] = model
-    return _best(t, models, motion.t[inside], motion.r[inside])
+    return best(t, models, motion.t[inside], motion.r[inside])
 
 
 def _speed(recording: Recording, at: float) -> float:
@@ -170,7 +117,7 @@ def _sign(item: str, state: Fit | None, yaw: Fit | None) -> Verdict:
     )
     told = f"per command and file: {told}"
     if yaw is None and state is None:
-        return unknown(item, "neither rudder_state nor a hull to compare the yaw rate with", _NEEDED)
+        return unknown(item, "neither rudder_state nor enough yaw rate and speed through the water", _NEEDED)
     judge = yaw if yaw is not None and yaw.unexplained < 0.5 else state if yaw is None else yaw
     assert judge is not None
     for fit in (state, yaw):

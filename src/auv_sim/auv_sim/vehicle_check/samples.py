@@ -72,6 +72,8 @@ class Recording:
         endpoints: who publishes and subscribes; only the contract's topics, and not the listener itself.
         duration: how long was listened, s of ROS time.
         sim_time: whether ROS time came from /clock.
+        wiggled: whether the small test was made: then everything can be judged, and has to be.
+        listened_in: ROS domain and discovery range of the listener, for people.
     """
 
     odom: list[OdometrySample] = field(default_factory=list)
@@ -82,6 +84,8 @@ class Recording:
     endpoints: tuple[Endpoint, ...] = ()
     duration: float = 0.0
     sim_time: bool = False
+    wiggled: bool = False
+    listened_in: str = ""
 
 
 class Motion(NamedTuple):

@@ -64,6 +64,7 @@ class Mistake(enum.Enum):
     DEAD_TIME = "a dead time that the heading loop cannot bear"
     THRUST_DEAD = "the thrust does nothing"
     THRUST_SCALE = "thrust with the wrong scale"
+    NOT_JUDGED = "what the small test could not judge does not pass"
 
 
 class Verdict(NamedTuple):
