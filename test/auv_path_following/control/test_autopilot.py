@@ -17,8 +17,10 @@ from auv_path_following import config_files, vehicle
 from auv_path_following.control.autopilot import HeadingAutopilot
 from auv_path_following.control.controller import ControllerOutput
 from auv_path_following.control.derivative import DerivativeConfig
+from auv_path_following.control.hull_model import HullModel
 from auv_path_following.control.reference_model import ReferenceConfig
 from auv_path_following.parameters import AutopilotParameters, GuidanceParameters, ObserverParameters
+from auv_path_following.vehicle import Cruise, Turning
 
 _NODES = {
     topics.OBSERVER: ObserverParameters,
@@ -223,5 +225,17 @@ def test_a_rudder_however_fast_gives_a_kp(rate):
     """1e6 deg/s is how some write that their rudder has no rate limit worth a number."""
     fast = dataclasses.replace(REMUS, rudder=dataclasses.replace(REMUS.rudder, max_rate_deg_s=rate))
     config = dataclasses.replace(CONFIG, nism=dataclasses.replace(CONFIG.nism, kp_from_rudder=True))
-    kp = HeadingAutopilot(fast, config).controller.config.kp
-    assert kp == min(fast.rudder.max_rate, 10.0)
+    nism = HeadingAutopilot(fast, config).controller.config
+    assert 0.0 < nism.kp <= min(fast.rudder.max_rate, 10.0)
+    assert HullModel(fast).b * nism.kp * nism.k5 <= 12.0 * (1.0 + 1e-9)
+    measured = dataclasses.replace(
+        fast, hull=None, cruise=Cruise(thrust=6.48, speed=2.0), turning=Turning(radius=9.0)
+    )
+    assert HeadingAutopilot(measured, config).controller.config.kp == min(fast.rudder.max_rate, 10.0)
+
+
+@pytest.mark.parametrize("name", config_files.shipped("vehicles"))
+def test_a_shipped_hull_takes_its_rudders_whole_rate(name):
+    hull = vehicle.load(name)
+    config = dataclasses.replace(CONFIG, nism=dataclasses.replace(CONFIG.nism, kp_from_rudder=True))
+    assert HeadingAutopilot(hull, config).controller.config.kp == hull.rudder.max_rate

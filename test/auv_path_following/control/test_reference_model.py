@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from auv_msgs_py.angles import wrap
 from auv_path_following import vehicle
-from auv_path_following.control.hull_model import tightest_turn
+from auv_path_following.control.hull_model import HullModel, tightest_turn
 from auv_path_following.control.reference_model import ReferenceConfig, ReferenceModel, limits_of
 
 REMUS = vehicle.load("remus100")
@@ -95,6 +95,12 @@ def test_given_limits_are_taken_and_others_follow_from_hull_and_rudder():
     slow, fast = (limits_of(CONFIG, REMUS, share * RATE) for share in (0.5, 1.0))
     assert fast.jerk == pytest.approx(2.0 * slow.jerk)
     assert fast.acceleration == pytest.approx(2.0 * slow.acceleration)
-    assert slow.rate < fast.rate <= tightest_turn(REMUS).rate
+    assert slow.rate < fast.rate <= REMUS.top_speed / tightest_turn(REMUS).radius
     weak = limits_of(CONFIG, vehicle.load("remus100_mismatch"), RATE)
     assert weak.jerk < fast.jerk
+
+
+def test_a_fast_servo_makes_no_larger_rudder():
+    slow, fast = (limits_of(CONFIG, REMUS, rate) for rate in (RATE, 20.0 * RATE))
+    assert fast.jerk == pytest.approx(20.0 * slow.jerk)
+    assert fast.acceleration == pytest.approx(HullModel(REMUS).b * REMUS.rudder.max_angle / 3.0)

@@ -5,36 +5,15 @@ from __future__ import annotations
 import dataclasses
 import math
 
-import numpy as np
 import pytest
 
 from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.types import Command
 from auv_path_following import config_files, vehicle
 from auv_path_following.control.hull_model import tightest_turn
-from auv_path_following.vehicle import Cruise, Hull, Turning, Vehicle
+from auv_path_following.vehicle import Cruise, Turning, Vehicle
 from auv_sim.plant.remus import PlantState, RemusPlant
-
-REMUS = vehicle.load("remus100")
-#: A fast servo, a stable hull that drifts and settles slowly.
-STABLE = dataclasses.replace(
-    REMUS,
-    rudder=dataclasses.replace(REMUS.rudder, max_angle_deg=20.0, max_rate_deg_s=300.0),
-    hull=dataclasses.replace(
-        REMUS.coefficients, m=31.9, Yvd=-31.9, Xvr=31.9, Yvv=-155.0, Yuv=-1.0, Yur=-0.93, Yuud=4.8, Yrd=0.0,
-        Nrr=-20.0, Nur=-4.165, Nuv=0.0, Nvv=0.0, Nvd=0.0, Nuud=-3.33,
-    ),
-)  # fmt: skip
-
-
-def drawn(number: int) -> Vehicle:
-    """A hull each of whose coefficients is up to twice or half that of the REMUS 100."""
-    names = [field.name for field in dataclasses.fields(Hull) if field.name != "surge_coupling"]
-    factors = 2.0 ** np.random.default_rng([7, number]).uniform(-1.0, 1.0, len(names))
-    hull = REMUS.coefficients
-    changes = {name: getattr(hull, name) * factor for name, factor in zip(names, factors, strict=True)}
-    return dataclasses.replace(REMUS, hull=dataclasses.replace(hull, **changes))
-
+from hulls import REMUS, STABLE, drawn
 
 HULLS = {
     **{name: vehicle.load(name) for name in config_files.shipped("vehicles")},

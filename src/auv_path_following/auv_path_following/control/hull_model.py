@@ -85,6 +85,11 @@ class HullModel:
             (self.inv_rv * h.Yuud + self.inv_rr * h.Nuud) * square,
         )
 
+    @property
+    def b(self) -> float:
+        """|dr/dt| for each radian of rudder at the speed of full thrust, 1/s^2."""
+        return abs(self.rudder_gain(self.vehicle.top_speed)[1])
+
     def steady_turn(self, thrust: float) -> SteadyTurn:
         """Return the turn under full rudder in which all forces of Eq. (19) balance, sway and drag included.
 

@@ -9,6 +9,9 @@ from auv_path_following.control.controller import ControllerOutput, HeadingInput
 
 #: Of the rudder rate's two parts, rad/s: beyond anything that moves a fin.
 LARGEST_RATE = 10.0
+#: Largest crossover b kp k5 of the inner loop where kp is derived, 1/s. With a delay tau it is stable up
+#: to 1.25/tau: 12 1/s allow 0.1 s, which is 50 ms of dead time and half a period at 10 odometries a second.
+LARGEST_CROSSOVER = 12.0
 
 
 @settings
@@ -41,7 +44,7 @@ class NismConfig:
     )
     kp_from_rudder: bool = setting(
         False,
-        "take kp from the rudder of the vehicle's file: its rate less ks, within the bounds of kp",
+        "take kp from the vehicle's file: the rudder's rate less ks; less where b kp k5 would exceed 12 1/s",
         live=True,
     )
     ks: float = setting(

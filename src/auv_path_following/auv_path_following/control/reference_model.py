@@ -64,18 +64,20 @@ class Shaped(NamedTuple):
 #: Share of the jerk of a rudder at its greatest rate; the rest is left to the controller.
 JERK_SHARE = 0.9
 #: How long the reference may build up acceleration, s.
-BUILD_UP = 0.4
+BUILD_UP = 0.8
+#: Share of the full rudder that the acceleration may take.
+RUDDER_SHARE = 1.0 / 3.0
 
 
 def limits_of(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> Limits:
-    """The limits to use: those given, and where 0 is given those that hull and rudder allow.
+    """Return the limits to use: those given, and where 0 is given those that hull and rudder allow.
 
     At cruising speed under full thrust a radian of rudder turns the hull with b = |dr/dt per rad|. So
 
     - jerk = `JERK_SHARE` b rudder_rate: the rudder itself cannot do more;
-    - acceleration = jerk `BUILD_UP`: the rudder is never far from neutral, and there again as fast;
+    - acceleration = jerk `BUILD_UP`, at most `RUDDER_SHARE` b max_angle: a fast servo makes no larger rudder;
     - rate = acceleration / bandwidth: from there the linear law alone brakes within the acceleration;
-      never more than the steady turn under full rudder.
+      never more than the tightest turn at cruising speed: a corner is over before much speed is lost.
 
     Args:
         config: what is given.
@@ -95,10 +97,11 @@ def limits_of(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> 
             f"{vehicle.name}: hull", found, "its coefficients, or a limit greater than 0"
         )
     model = HullModel(vehicle)
-    speed = model.cruise(vehicle.thrust_max)
-    jerk = config.max_jerk or JERK_SHARE * abs(model.rudder_gain(speed)[1]) * rudder_rate
-    acceleration = config.max_acceleration or BUILD_UP * jerk
-    rate = config.max_rate or min(acceleration / config.bandwidth, tightest_turn(vehicle).rate)
+    jerk = config.max_jerk or JERK_SHARE * model.b * rudder_rate
+    largest = RUDDER_SHARE * model.b * vehicle.rudder.max_angle
+    acceleration = config.max_acceleration or min(BUILD_UP * jerk, largest)
+    fastest = vehicle.top_speed / tightest_turn(vehicle).radius
+    rate = config.max_rate or min(acceleration / config.bandwidth, fastest)
     return Limits(rate, acceleration, jerk)
 
 
