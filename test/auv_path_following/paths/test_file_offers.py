@@ -131,6 +131,13 @@ def test_a_message_names_the_waypoint_file_and_the_point(loaded, tmp_path, route
     assert f"m.yaml: {said}" in str(caught.value)
 
 
+def test_points_at_one_place_are_taken_once_with_a_line(loaded, tmp_path):
+    (tmp_path / "a.csv").write_text("lat,lon\n59.9,10.6\n59.9,10.6\n59.905,10.6\n59.905,10.6000000001\n")
+    mission = loaded(HEAD + "speed: 1\nwaypoints: {file: a.csv, smoothing: {kind: linear}}\n")
+    assert mission.path.n == 1
+    assert mission.notices == ("a.csv: 2 point(s) at the place of the one before left out",)
+
+
 @pytest.mark.parametrize(("closed", "sides"), [("", 4), (", closed: false", 3)])
 def test_the_outline_of_a_polygon_is_closed_unless_the_mission_says_otherwise(
     loaded, tmp_path, closed, sides

@@ -21,6 +21,8 @@ Frame = Literal["ned", "enu", "wgs84"]
 
 #: Any larger number in a mission is taken for a mistake; a northing of UTM is smaller. m, deg, s, N.
 LARGEST = 1e7
+#: Points of a file that follow each other more closely than this are one, m.
+_SAME = 1e-3
 
 
 class Given(NamedTuple):
@@ -115,8 +117,11 @@ class Site:
                     points = self._placed(points, lambda k: f"point {k + 1}")
                 else:
                     _check_metres(points)
+        kept = [at for k, at in enumerate(points) if k == 0 or math.dist(at, points[k - 1]) > _SAME]
+        if len(kept) < len(points):
+            self.note(f"{name}: {len(points) - len(kept)} point(s) at the place of the one before left out")
         self.note(*(f"{name}: {notice}" for notice in taken.notices))
-        return Given(points, taken.outline)
+        return Given(kept, taken.outline)
 
     def note(self, *notices: str) -> None:
         """Add notices; each is kept once, as a line that is safe to print."""

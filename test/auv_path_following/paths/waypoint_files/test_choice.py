@@ -87,6 +87,12 @@ def test_an_outline_drawn_as_a_line_is_taken_for_a_survey_with_a_line(taken):
     assert notices == ["the line 'shore' is taken as an outline and closed"]
 
 
+def test_an_open_line_is_no_geofence(taken):
+    with pytest.raises(ConfigurationError, match="no area"):
+        taken("geofence", _feature("LineString", RING[:3]))
+    assert len(taken("geofence", _feature("LineString", RING)).points) == 4
+
+
 def test_altitudes_are_reported(taken):
     high = [[10.0, 63.0, -5.0], [10.1, 63.0, -12.5]]
     assert taken("waypoints", _feature("LineString", high)).notices == [
@@ -113,7 +119,7 @@ def test_every_part_of_a_kml_is_found_whatever_holds_it(tmp_path):
     points, _, notices = waypoint_files.choose(waypoint_files.read(tmp_path / "a.kml"), "waypoints")
     assert points == [(63.0, 10.0), (63.0, 10.1)]
     assert notices == [
-        "3D model 'ship' not taken",
-        "link to another file 'more' not taken",
+        "1 3D model(s) not taken",
+        "1 network link(s) not taken",
         "1 polygon not taken: 'both (2)'",
     ]

@@ -173,6 +173,28 @@ def test_exclusion_fences_circles_and_rally_points_are_reported(plan):
     ]
 
 
+def test_a_plan_without_a_fence_is_no_geofence(plan):
+    with pytest.raises(ConfigurationError, match="no area, expected an inclusion fence"):
+        waypoint_files.choose(plan(_item(16, A), _item(16, B), _item(177, frame=2)), "geofence")
+
+
+def test_an_old_plan_keeps_positions_beside_the_parameters_and_has_one_fence(plan):
+    items = [
+        {"command": 16, "frame": 3, "params": [0, 0, 0, None], "coordinate": [*place, 20]} for place in (A, B)
+    ]
+    content = plan(*items, geoFence={"polygon": RING, "version": 1})
+    assert waypoint_files.choose(content, "waypoints").points == [A, B]
+    assert len(waypoint_files.choose(content, "geofence").points) == 3
+
+
+def test_a_mission_file_of_the_time_before_plans_is_read(tmp_path):
+    items = [_item(16, place) for place in (A, B)]
+    (tmp_path / "a.mission").write_text(
+        json.dumps({"items": items, "plannedHomePosition": [*A, 0], "version": 2})
+    )
+    assert waypoint_files.choose(waypoint_files.read(tmp_path / "a.mission"), "waypoints").points == [A, B]
+
+
 def test_a_landing_pattern_ends_a_mission(plan):
     landing = {"type": "ComplexItem", "complexItemType": "fwLandingPattern", "landCoordinate": [*A, 0]}
     assert waypoint_files.choose(plan(_item(16, A), _item(16, B), landing), "waypoints").notices == [

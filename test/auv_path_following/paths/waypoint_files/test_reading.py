@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+import re
 import zipfile
 
 import pytest
 
+from auv_msgs_py import user_files
 from auv_msgs_py.errors import ConfigurationError
 from auv_path_following.paths import waypoint_files
 
@@ -115,6 +117,35 @@ def test_a_kmz_gives_the_same_places(tmp_path):
     assert waypoint_files.choose(waypoint_files.read(tmp_path / "a.kmz"), "waypoints").points == PLACES
 
 
+@pytest.mark.parametrize(
+    ("names", "said"),
+    [
+        (("a/b.kml", "c.kml"), "2 .kml files inside ('a/b.kml', 'c.kml'), expected a KMZ with one doc.kml"),
+        (("a.png",), "no .kml file inside"),
+    ],
+)
+def test_a_kmz_without_one_document_is_refused(tmp_path, names, said):
+    with zipfile.ZipFile(tmp_path / "a.kmz", "w") as archive:
+        for name in names:
+            archive.writestr(name, GOOD["line.kml"])
+    with pytest.raises(ConfigurationError, match=re.escape(said)):
+        waypoint_files.read(tmp_path / "a.kmz")
+
+
+def test_a_kmz_that_unpacks_to_more_than_a_file_may_have_is_refused(tmp_path):
+    with zipfile.ZipFile(tmp_path / "a.kmz", "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("doc.kml", b" " * (user_files.MOST_BYTES + 1))
+    with pytest.raises(ConfigurationError, match="a document of more than 16,000,000 bytes"):
+        waypoint_files.read(tmp_path / "a.kmz")
+
+
+def test_a_fragment_of_kml_is_read(tmp_path):
+    (tmp_path / "a.kml").write_text(
+        f"<Placemark><LineString><coordinates>{_tuples(LON_LAT)}</coordinates></LineString></Placemark>"
+    )
+    assert waypoint_files.choose(waypoint_files.read(tmp_path / "a.kml"), "waypoints").points == PLACES
+
+
 def test_columns_of_metres_are_metres(tmp_path):
     (tmp_path / "a.csv").write_text("east,north\n1,2\n3,4\n", encoding="utf-8")
     content = waypoint_files.read(tmp_path / "a.csv")
@@ -146,7 +177,12 @@ WRONG = {
     "swapped.geojson": (json.dumps({"type": "Point", "coordinates": [10.0, 163.0]}), "latitude 163"),
     "a.kml": ("<kml>", "not XML"),
     "entities.kml": ('<!DOCTYPE kml [<!ENTITY a "b">]><kml/>', "a document type"),
-    "text.kml": (_kml("<Point><coordinates>here</coordinates></Point>"), "not numbers"),
+    "text.kml": (_kml("<Point><coordinates>here</coordinates></Point>"), "1 numbers in 'here'"),
+    "spaces.kml": (_kml("<Point><coordinates>10, 63, 0</coordinates></Point>"), "'' is no number"),
+    "glued.kml": (
+        _kml("<LineString><coordinates>10,63,0,10.1,63,0,10.2,63,0</coordinates></LineString>"),
+        "9 numbers in '10,63,0,10.1",
+    ),
     "empty.csv": ("", "an empty file"),
     "head.csv": ("x,y\n1,2\n", "the header 'x,y'"),
     "both.csv": ("north,east,lat,lon\n1,2,3,4\n", "with both pairs of columns"),

@@ -16,6 +16,11 @@ _FIRST: dict[Use, tuple[Kind, ...]] = {
     "survey": ("polygon", "line", "point"),
     "geofence": ("polygon", "line", "point"),
 }
+_NOTHING: dict[Use, tuple[str, str]] = {
+    "waypoints": ("no waypoints", "a line, a polygon or points"),
+    "survey": ("no polygon", "a polygon, a line or points"),
+    "geofence": ("no area", "an inclusion fence, a polygon, a closed line or points"),
+}
 _SPLIT = "a polygon without holes: split it into parts around the hole, one mission each, or delete the hole"
 
 
@@ -56,6 +61,8 @@ def choose(content: Content, use: Use, feature: str | None = None) -> Taken:
         if len(chosen) > 1 and kind != "point":
             found = f"{len(chosen)} {kind}s ({_names(named[k] for k in chosen)})"
             raise ConfigurationError("", found, "one, or its name as `feature`")
+        if use == "geofence" and kind == "line":
+            chosen = [k for k in chosen if pool[k].points and pool[k].points[0] == pool[k].points[-1]]
         if chosen:
             break
     else:
@@ -82,10 +89,9 @@ def _names(names: object) -> str:
 
 
 def _nothing(content: Content, use: Use) -> ConfigurationError:
-    found = {"waypoints": "no waypoints", "survey": "no polygon", "geofence": "no area"}[use]
+    found, expected = _NOTHING[use]
     if content.notices:
         found += f" ({'; '.join(content.notices[:3])})"
-    expected = "a line, a polygon or points"
     if content.fences:
         expected += "; it holds a geofence: name the file as `geofence: {file: ...}`"
     return ConfigurationError("", found, expected)

@@ -111,9 +111,12 @@ def decimal(text: str) -> float:
     Raises:
         ValueError: it is something else.
     """
-    if "_" in text:  # 1_000 is Python's own way to write a number
-        raise ValueError(f"{text!r:.40} is no number")
-    return float(text)
+    try:
+        if "_" not in text:  # 1_000 is Python's own way to write a number
+            return float(text)
+    except ValueError:
+        pass
+    raise ValueError(f"{text!r:.40} is no number")
 
 
 def labels(shapes: Sequence[Shape]) -> list[str]:

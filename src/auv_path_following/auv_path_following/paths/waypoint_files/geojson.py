@@ -56,7 +56,7 @@ def _geometries(document: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]
         name, item = waiting.pop()
         if not isinstance(item, dict):
             if item is not None:
-                raise ConfigurationError(_where(name), f"a {type(item).__name__}", "a feature or geometry")
+                raise ConfigurationError(_where(name), f"{json.dumps(item):.40}", "a feature or geometry")
             continue
         inner = item.get("features", item.get("geometries"))
         if isinstance(inner, list):

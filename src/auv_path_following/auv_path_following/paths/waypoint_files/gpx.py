@@ -5,7 +5,7 @@ from __future__ import annotations
 from xml.etree.ElementTree import Element
 
 from auv_msgs_py.errors import ConfigurationError
-from auv_path_following.paths.waypoint_files.content import Content, shape, shown
+from auv_path_following.paths.waypoint_files.content import Content, decimal, shape, shown
 from auv_path_following.paths.waypoint_files.xml_tree import local, parse, text_of
 
 
@@ -16,7 +16,7 @@ def read(data: bytes) -> Content:
         ConfigurationError: it is not GPX, or a position is wrong.
     """
     content = Content()
-    for element in parse(data, "GPX", "gpx"):
+    for element in parse(data, "GPX", ("gpx",)):
         name = text_of(element, "name")
         match local(element):
             case "rte":
@@ -28,7 +28,6 @@ def read(data: bytes) -> Content:
                     content.shapes.append(shape("line", name or "track", places))
             case "wpt":
                 content.shapes.append(shape("point", name, [_place(element, name)]))
-    content.shapes = [found for found in content.shapes if found.points]
     return content
 
 
@@ -36,8 +35,8 @@ def _place(point: Element, name: str) -> list[float]:
     """[latitude, longitude, height]."""
     try:
         height = text_of(point, "ele")
-        place = [float(point.attrib["lat"]), float(point.attrib["lon"])]
-        return [*place, float(height)] if height else place
+        place = [decimal(point.attrib["lat"]), decimal(point.attrib["lon"])]
+        return [*place, decimal(height)] if height else place
     except (KeyError, ValueError) as error:
         where = shown(name) if name else ""
         raise ConfigurationError(where, f"a position that is not a number ({error})", "lat and lon") from None

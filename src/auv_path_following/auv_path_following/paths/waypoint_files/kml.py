@@ -5,16 +5,19 @@ from __future__ import annotations
 import io
 import zipfile
 import zlib
+from collections import Counter
 from collections.abc import Iterator
 from xml.etree.ElementTree import Element
 
 from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.user_files import MOST_BYTES
-from auv_path_following.paths.waypoint_files.content import Content, Shape, shape, shown
+from auv_path_following.paths.waypoint_files.content import Content, Shape, decimal, listed, shape, shown
 from auv_path_following.paths.waypoint_files.xml_tree import local, parse, text_of
 
-#: Geometries without waypoints, and links to other files: reported, not followed.
-_NOT_TAKEN = {"Model": "3D model", "GroundOverlay": "image overlay", "NetworkLink": "link to another file"}
+#: Geometries without waypoints, and links to other files: counted, not followed.
+_NOT_TAKEN = {"Model": "3D model", "GroundOverlay": "image overlay", "NetworkLink": "network link"}
+#: A file may also be a fragment.
+_ROOTS = ("kml", "Document", "Folder", "Placemark")
 #: Compression methods of KMZ.
 _METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 
@@ -25,20 +28,21 @@ def read(data: bytes) -> Content:
     Raises:
         ConfigurationError: it is not KML, or a geometry cannot be used.
     """
-    content = Content()
-    waiting: list[tuple[str, Element]] = [("", parse(data, "KML", "kml"))]
+    content, left_out = Content(), Counter[str]()
+    waiting: list[tuple[str, Element]] = [("", parse(data, "KML", _ROOTS))]
     while waiting:
         name, element = waiting.pop()
         kind = local(element)
         if kind == "Placemark":
             name = text_of(element, "name")
         if kind in _NOT_TAKEN:
-            content.notices.append(f"{_NOT_TAKEN[kind]} {shown(text_of(element, 'name') or name)} not taken")
+            left_out[_NOT_TAKEN[kind]] += 1
             continue
         found = list(_shapes(kind, name, element))
         content.shapes.extend(found)
         if not found:
             waiting.extend((name, child) for child in reversed(element))
+    content.notices += [f"{count} {what}(s) not taken" for what, count in left_out.items()]
     return content
 
 
@@ -53,7 +57,9 @@ def read_zipped(data: bytes) -> Content:
             found = [info for info in archive.infolist() if info.filename.lower().endswith(".kml")]
             roots = [info for info in found if info.filename.lower() == "doc.kml"] or found
             if len(roots) != 1:
-                raise ConfigurationError("", f"{len(roots)} .kml files inside", "a KMZ with one doc.kml")
+                names = listed(shown(info.filename) for info in roots)
+                found_kml = f"{len(roots)} .kml files inside ({names})" if roots else "no .kml file inside"
+                raise ConfigurationError("", found_kml, "a KMZ with one doc.kml")
             if roots[0].compress_type not in _METHODS:
                 raise ConfigurationError("", "a compression other than deflate", "an ordinary KMZ")
             with archive.open(roots[0]) as file:
@@ -74,15 +80,13 @@ def _shapes(kind: str, name: str, element: Element) -> Iterator[Shape]:
         elif kind == "Point":
             yield from (shape("point", name, [place]) for place in _places(element))
         elif kind == "Polygon":
-            outer = element.find("{*}outerBoundaryIs/{*}LinearRing")
-            if outer is None:
-                raise ValueError("no outerBoundaryIs")
             holes = len(element.findall("{*}innerBoundaryIs/{*}LinearRing"))
-            yield shape("polygon", name, _places(outer), holes)
+            for outer in element.findall("{*}outerBoundaryIs/{*}LinearRing"):
+                yield shape("polygon", name, _places(outer), holes)
     except (IndexError, ValueError) as error:
         where = f"placemark {shown(name)}" if name else ""
-        found = f"coordinates that are not numbers ({error})"
-        raise ConfigurationError(where, found, "longitude,latitude as KML has it") from None
+        found = f"coordinates that cannot be read ({error})"
+        raise ConfigurationError(where, found, "longitude,latitude and spaces between positions") from None
 
 
 def _places(element: Element) -> list[list[float]]:
@@ -91,5 +95,8 @@ def _places(element: Element) -> list[list[float]]:
 
 def _place(text: str, separator: str | None) -> list[float]:
     """longitude, latitude, height -> [latitude, longitude, height]."""
-    longitude, latitude, *height = (float(part) for part in text.split(separator)[:3])
+    parts = text.split(separator)
+    if not 2 <= len(parts) <= 3:  # more: positions that are not apart, of which the first would remain
+        raise ValueError(f"{len(parts)} numbers in {text!r:.40}")
+    longitude, latitude, *height = map(decimal, parts)
     return [latitude, longitude, *height]

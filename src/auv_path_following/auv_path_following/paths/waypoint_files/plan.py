@@ -24,7 +24,12 @@ def read(data: bytes) -> Content:
 
 def is_plan(document: dict[str, Any]) -> bool:
     """Whether a JSON document says that it is a plan."""
-    return document.get("fileType") == "Plan"
+    return document.get("fileType") == "Plan" or _is_old(document)
+
+
+def _is_old(document: dict[str, Any]) -> bool:
+    """Whether it is a .mission file, which QGroundControl wrote before plans."""
+    return "mission" not in document and "plannedHomePosition" in document
 
 
 def content(document: dict[str, Any]) -> Content:
@@ -33,7 +38,7 @@ def content(document: dict[str, Any]) -> Content:
     Raises:
         ConfigurationError: as `read`.
     """
-    mission = document.get("mission")
+    mission = document if _is_old(document) else document.get("mission")
     items = mission.get("items") if isinstance(mission, dict) else None
     if not isinstance(items, list):
         raise ConfigurationError("", "no mission.items", _FORMAT)
@@ -71,7 +76,9 @@ def _items(items: list[Any]) -> Iterator[Item]:
         pattern = item.get(_PATTERN)
         inner = pattern.get("Items") if isinstance(pattern, dict) else None
         if not isinstance(inner, list):
-            expected = "a survey or corridor with its items (save the plan again), or `survey: {file: ...}`"
+            expected = "waypoints, or a survey or corridor with its items (save the plan again)"
+            if kind == "survey":
+                expected += ", or `survey: {file: ...}` for its polygon"
             raise ConfigurationError(
                 f"item {position}", f"a pattern of type {kind!r:.40} without items", expected
             )
@@ -85,8 +92,9 @@ def _items(items: list[Any]) -> Iterator[Item]:
 def _simple(label: str, item: dict[str, Any]) -> Item:
     params = item.get("params")
     place = item.get("coordinate")
-    if params is None and isinstance(place, list):  # plans before version 2 of the mission
-        params = [item.get(f"param{k}") for k in range(1, 5)] + place
+    if isinstance(place, list):  # plans before 2018 keep the position beside four parameters
+        first = params if isinstance(params, list) else [item.get(f"param{k}") for k in range(1, 5)]
+        params = [*first[:4], *place]
     goes_on = item.get("autoContinue", True) is not False
     return Item(label, item.get("command"), item.get("frame", 0), params, goes_on)
 
@@ -99,6 +107,8 @@ def _areas(items: list[Any]) -> Iterator[Shape]:
 
 def _fence(document: dict[str, Any], found: Content) -> None:
     fence = document.get("geoFence")
+    if corners := _list(fence, "polygon"):  # plans before 2018 have one polygon
+        found.fences.append(_ring("geoFence", "fence", corners))
     excluded = 0
     for position, item in enumerate(_list(fence, "polygons"), start=1):
         where = f"geoFence polygon {position}"

@@ -22,6 +22,7 @@ _READERS: dict[str, Callable[[bytes], Content]] = {
     ".gpx": gpx.read,
     ".csv": table.read,
     ".plan": plan.read,
+    ".mission": plan.read,
     ".waypoints": wpl.read,
     ".txt": wpl.read,
 }
@@ -44,6 +45,7 @@ def read(path: Path, called: str | None = None) -> Content:
         raise ConfigurationError(name, f"the suffix '{path.suffix}'", f"one of {', '.join(_READERS)}")
     try:
         content = reader(user_files.read_bytes(path, "a file with waypoints"))
+        content.shapes = [shape for shape in content.shapes if shape.points or shape.refusal]
         _check(content)
     except ConfigurationError as error:
         inner = error.where.removeprefix(str(path))

@@ -30,13 +30,13 @@ class _Builder(ElementTree.TreeBuilder):
         raise ConfigurationError("", "a document type (<!DOCTYPE>)", "XML without one")
 
 
-def parse(data: bytes, what: str, root: str) -> ElementTree.Element:
+def parse(data: bytes, what: str, roots: tuple[str, ...]) -> ElementTree.Element:
     """Parse XML.
 
     Args:
         data: the file.
         what: the format, for messages.
-        root: local name of the outermost element.
+        roots: local names that the outermost element may have.
 
     Raises:
         ConfigurationError: it has a document type, is not XML, or is another format.
@@ -48,10 +48,9 @@ def parse(data: bytes, what: str, root: str) -> ElementTree.Element:
         found: ElementTree.Element = parser.close()
     except (ElementTree.ParseError, LookupError, ValueError) as error:
         raise ConfigurationError("", f"text that is not XML ({error})", what) from None
-    if local(found) != root:
-        raise ConfigurationError(
-            "", f"XML with the root <{local(found)[:40]}>", f"{what}, which has <{root}>"
-        )
+    if local(found) not in roots:
+        expected = f"{what}, which has <{roots[0]}>"
+        raise ConfigurationError("", f"XML with the root <{local(found)[:40]}>", expected)
     return found
 
 
