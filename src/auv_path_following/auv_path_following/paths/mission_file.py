@@ -66,6 +66,7 @@ class Mission:
         switching: what the file asks of the circles of acceptance.
         origin: where north 0, east 0 is; None where the file does not say.
         waypoints: (north, east), m, that the path was made from; empty where it was not made from any.
+        area: corners (north, east), m, of the polygon that is surveyed; empty for other routes.
         once: subpaths of the path before it repeats itself.
         limits: what ends it early; the parameters may ask for less.
         geofence: corners (north, east), m, of the area that must not be left; empty for none.
@@ -83,6 +84,7 @@ class Mission:
     switching: MissionSwitching = _NO_WISHES
     origin: Origin | None = None
     waypoints: tuple[Point, ...] = ()
+    area: tuple[Point, ...] = ()
     once: int = 0
     files: tuple[Path, ...] = ()
     limits: LimitsConfig = _NO_LIMITS
@@ -215,6 +217,7 @@ def load(name_or_path: str, hull: Vehicle | None = None) -> Mission:
         switching=spec.switching,
         origin=spec.origin,
         waypoints=tuple(route.waypoints),
+        area=route.area,
         once=once,
         files=tuple(site.files),
         limits=spec.limits,

@@ -20,10 +20,11 @@ from auv_path_following.paths.smoothing import Smoothing, smooth
 
 
 class Route(NamedTuple):
-    """What a route comes to: its subpaths, and the waypoints (north, east, m) that they were made from."""
+    """A route: its subpaths, the waypoints they were made from and the area they survey, (north, east), m."""
 
     segments: list[Segment]
     waypoints: list[Pair]
+    area: tuple[Pair, ...] = ()
 
 
 @contextmanager
@@ -116,7 +117,7 @@ class SurveySpec:
             number = int(error.where[len("points[") : -1])
             found = f"{error.found} (end {number % 2 + 1} of leg {number // 2 + 1})"
             raise ConfigurationError("smoothing", found, "a smaller one, more spacing, or dubins") from None
-        return Route(segments, [point for leg in legs for point in leg])
+        return Route(segments, [point for leg in legs for point in leg], tuple(polygon))
 
 
 @settings

@@ -27,6 +27,7 @@ def draw(
     *,
     rudder_limit: float | None = None,
     rudder_rate_limit: float | None = None,
+    command: str = "",
 ) -> None:
     """Draw the overview, 1600 x 1000 pixels.
 
@@ -37,6 +38,7 @@ def draw(
         png: the file to write.
         title: what was flown.
         rudder_limit, rudder_rate_limit: drawn where given, rad and rad/s.
+        command: what flies this mission again, printed below the picture.
     """
     figure = Figure(figsize=_SIZE_INCHES, dpi=_DOTS_PER_INCH, facecolor="white")
     FigureCanvasAgg(figure)
@@ -61,6 +63,9 @@ def draw(
         axes.tick_params(labelbottom=False)
     rows[-1].set_xlabel("time since the start (s)", color=INK)
     figure.align_ylabels(rows)
+    figure.text(
+        0.05, 0.018, command, fontsize=10, family="monospace", color=MUTED, va="center", parse_math=False
+    )
     figure.savefig(png, format="png", dpi=_DOTS_PER_INCH)
 
 

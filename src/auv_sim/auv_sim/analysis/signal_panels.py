@@ -8,7 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from auv_path_following.paths.composite import CompositePath
-from auv_sim.analysis.plot_style import BLUE, HALO, MUTED, ORANGE, PATH, RED, style
+from auv_sim.analysis.labels import Labels
+from auv_sim.analysis.plot_style import BLUE, MUTED, ORANGE, PATH, RED, style
 from auv_sim.analysis.run import Column, Run
 
 
@@ -72,12 +73,12 @@ def switches(rows: list[Axes], time: Column, flown: Run, path: CompositePath) ->
         for start in starts[1:]:
             axes.axvline(float(start), color=MUTED, linewidth=0.7, alpha=0.5, zorder=0)
         axes.set_xlim(0.0, float(time[-1]) or 1.0)
-    for start, end, number in zip(starts, [*starts[1:], float(time[-1])], numbers, strict=True):
-        rows[0].annotate(
-            str(number + 1), (0.5 * (start + end), 1.0), xycoords=("data", "axes fraction"), ha="center",
-            va="top", xytext=(0.0, -2.0), textcoords="offset points", color=MUTED, fontsize=10,
-            fontweight="bold", path_effects=HALO,
-        )  # fmt: skip
+    labels = Labels(rows[0])
+    top = rows[0].get_ylim()[1]
+    spans = zip(starts, [*starts[1:], float(time[-1])], numbers, strict=True)
+    for start, end, number in sorted(spans, key=lambda span: span[0] - span[1]):
+        at = (0.5 * (start + end), top)
+        labels.write(str(number + 1), at, (0.0, -8.0), 10, color=MUTED, fontweight="bold")
 
 
 def _limits(axes: Axes, limit: float | None) -> None:

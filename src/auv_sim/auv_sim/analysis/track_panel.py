@@ -8,13 +8,18 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from auv_msgs_py.angles import wrap
 from auv_path_following.paths.composite import CompositePath
-from auv_path_following.paths.segment import PathPoint
+from auv_sim.analysis.labels import Labels, arrow
 from auv_sim.analysis.metrics import MissionSummary
-from auv_sim.analysis.plot_style import BLUE, GREEN, HALO, INK, MUTED, ORANGE, PATH, RED, fact, style
+from auv_sim.analysis.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, PATH, RED, fact, style
 from auv_sim.analysis.run import Run
 
 _TABLE_ROWS = 9
+#: Up to so many joints each has its kind beside it; of the subpaths the longest are numbered.
+_FEW, _NUMBERS = 30, 60
+#: A smaller jump of the course is no corner, rad.
+_STRAIGHT = 1e-3
 #: Where the table's columns stand: the left edge of the first, the right edges of the others.
 _TABLE_COLUMNS = (0.0, 0.33, 0.49, 0.64, 0.83, 1.0)
 
@@ -31,63 +36,70 @@ def track(axes: Axes, flown: Run, path: CompositePath) -> None:
     axes.plot(y, x, color=BLUE, linewidth=1.6, label="track")
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(0.07)
-    for k, segment in enumerate(path.segments):
-        _beside(axes, segment.evaluate(0.35), -14.0, str(k + 1), color=MUTED, fontsize=12, fontweight="bold")
-    for joint in path.joints:
-        axes.plot(joint.y, joint.x, "o", color="white", markeredgecolor=INK, markersize=6, zorder=4)
-        label = f"{joint.index}–{joint.index + 1} {joint.geometric}"
-        color = RED if joint.geometric == "G0" else MUTED
-        _beside(axes, path.evaluate(joint.index, 0.0), 18.0, label, color=color, fontsize=8)
+    axes.plot(
+        [joint.y for joint in path.joints], [joint.x for joint in path.joints], "o", color="white",
+        markeredgecolor=INK, markersize=6 if len(path.joints) <= _FEW else 3, zorder=4, linestyle="none",
+    )  # fmt: skip
     if flown.steps:
         for row, marker, size, color, label in ((0, "^", 12, GREEN, "start"), (-1, "s", 9, RED, "end")):
             axes.plot(
                 y[row], x[row], marker, color=color, markersize=size, markeredgecolor="white",
                 zorder=5, linestyle="none", label=label,
             )  # fmt: skip
-        _current_arrow(axes, flown)
+        _current_arrow(axes, flown, path)
+    _numbers(axes, path)
     axes.legend(
         loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=5, fontsize=10, frameon=False, borderpad=0.2
     )
 
 
-def _beside(axes: Axes, p: PathPoint, points: float, text: str, **look: Any) -> None:
-    """Write beside a point of the path, `points` to starboard (to port when negative)."""
-    offset = points * math.cos(p.chi), -points * math.sin(p.chi)
-    axes.annotate(
-        text, (p.y, p.x), xytext=offset, textcoords="offset points", ha="center", va="center",
-        path_effects=HALO, **look,
-    )  # fmt: skip
+def _numbers(axes: Axes, path: CompositePath) -> None:
+    """Number the subpaths to port and name the joints to starboard, corners first, where there is room."""
+    labels = Labels(axes)
+    by_importance = sorted(path.joints, key=lambda joint: joint.geometric != "G0")
+    few = len(path.joints) <= _FEW
+    for joint in by_importance if few else ():
+        text = f"{joint.index}–{joint.index + 1} {joint.geometric}"
+        color = RED if joint.geometric == "G0" else MUTED
+        before, point = path.evaluate(joint.index - 1, 1.0), path.evaluate(joint.index, 0.0)
+        turn = wrap(point.chi - before.chi)
+        # Outside of a corner; where the course does not jump, to starboard.
+        side = -18.0 if turn > _STRAIGHT else 18.0
+        labels.write(text, (point.y, point.x), _beside(before.chi + 0.5 * turn, side), 8, color=color)
+    longest_first = sorted(range(path.n), key=lambda k: -path.segments[k].length)
+    for k in longest_first[:_NUMBERS]:
+        point = path.segments[k].evaluate(0.35)
+        look = {"color": MUTED, "fontweight": "bold"}
+        labels.write(str(k + 1), (point.y, point.x), _beside(point.chi, -14.0), 12, **look)
 
 
-def _current_arrow(axes: Axes, flown: Run) -> None:
-    """A mean current as an arrow of fixed length: its direction is drawn, its strength is written."""
+def _beside(chi: float, points: float) -> tuple[float, float]:
+    """An offset on the page to starboard of a course (to port when negative), points."""
+    return points * math.cos(chi), -points * math.sin(chi)
+
+
+def _current_arrow(axes: Axes, flown: Run, path: CompositePath) -> None:
+    """Draw the mean current: its direction as an arrow of fixed length, its strength in words."""
     for name, Vx, Vy in (
         ("current", flown.Vx_true, flown.Vy_true),
         ("estimated current", flown.Vx_est, flown.Vy_est),
     ):
         if np.isfinite(Vx).any():
-            north, east = float(np.nanmean(Vx)), float(np.nanmean(Vy))
-            strength = float(np.hypot(north, east))
-            if strength < 1e-3:
-                return
-            # In inches, and along the screen: axes of unequal sides must not bend its direction.
-            axes.quiver(
-                0.08, 0.1, east / strength, north / strength, transform=axes.transAxes, angles="uv",
-                pivot="middle", scale_units="inches", scale=1.6, units="inches", width=0.035, color=GREEN,
-            )  # fmt: skip
-            axes.text(
-                0.14, 0.1, f"{name}\n{strength:.2f} m/s", transform=axes.transAxes, color=GREEN, fontsize=10,
-                va="center",
-            )  # fmt: skip
+            arrow(axes, name, float(np.nanmean(Vx)), float(np.nanmean(Vy)), path)
             return
 
 
 def table(axes: Axes, summary: MissionSummary) -> None:
-    """The figures of each subpath; left empty when there are too many to be legible."""
+    """The figures of each subpath; of many, those on which the vehicle was farthest from the path."""
     axes.set_axis_off()
-    if len(summary.subpaths) > _TABLE_ROWS:
-        return
-    heads = ("subpath", "time (s)", "rms dist. (m)", "largest (m)", "rms heading (°)", "rudder (°/m)")
+    subpaths, head = summary.subpaths, "subpath"
+    if len(subpaths) > _TABLE_ROWS:
+        farthest = sorted(
+            subpaths, key=lambda k: -math.inf if math.isnan(k.largest_distance) else k.largest_distance
+        )
+        subpaths = tuple(sorted(farthest[-_TABLE_ROWS:], key=lambda k: k.number))
+        head = f"farthest {_TABLE_ROWS} of {len(summary.subpaths)}"
+    heads = (head, "time (s)", "rms dist. (m)", "largest (m)", "rms heading (°)", "rudder (°/m)")
     rows = [
         (
             f"{k.number}  {k.kind}",
@@ -97,7 +109,7 @@ def table(axes: Axes, summary: MissionSummary) -> None:
             k.rms_heading_error,
             k.rudder_travel_per_metre,
         )
-        for k in summary.subpaths
+        for k in subpaths
     ]
     forms = ("{:.1f}", "{:.3f}", "{:.3f}", "{:.2f}", "{:.2f}")
     look: dict[str, Any] = {"va": "top", "fontsize": 10, "transform": axes.transAxes}

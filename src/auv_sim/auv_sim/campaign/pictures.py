@@ -119,18 +119,19 @@ def _success(plan: StudyPlan, table: pa.Table, summary: Summary, axes: tuple[str
     x, y = (column(table, name) for name in axes)
     (x_edges, i), (y_edges, j) = _binned(x), _binned(y)
     judged = column(table, summary.judge)
-    share = np.full((len(y_edges) - 1, len(x_edges) - 1), np.nan)
-    median = share.copy()
+    share, median, largest = (np.full((len(y_edges) - 1, len(x_edges) - 1), np.nan) for _ in range(3))
     for row in range(share.shape[0]):
         for col in range(share.shape[1]):
             here = (i == col) & (j == row)
             if here.any():
                 share[row, col] = success[here].mean()
-                median[row, col] = np.nanmedian(judged[here]) if np.isfinite(judged[here]).any() else np.nan
-    lowest = float(np.nanmin(share))
-    floor = 0.0 if lowest < 0.5 else 0.5 if lowest < 0.9 else 0.9
-    mesh = left.pcolormesh(x_edges, y_edges, share, cmap="RdYlGn", vmin=floor, vmax=1.0)
-    figure.colorbar(mesh, ax=left, label="share of successes")
+                if np.isfinite(judged[here]).any():
+                    median[row, col], largest[row, col] = np.nanmedian(judged[here]), np.nanmax(judged[here])
+    if np.nanmin(share) < np.nanmax(share):
+        _map_of_shares(left, x_edges, y_edges, share)
+    else:  # the same everywhere is one number, which the title has
+        mesh = left.pcolormesh(x_edges, y_edges, largest, cmap="viridis")
+        figure.colorbar(mesh, ax=left, label=f"largest of {figure_label(summary.judge)}")
     failed = ~success
     if 0 < failed.sum() <= 2000:
         left.plot(x[failed], y[failed], "x", color=INK, markersize=4, label=f"{int(failed.sum())} failed")
@@ -142,6 +143,13 @@ def _success(plan: StudyPlan, table: pa.Table, summary: Summary, axes: tuple[str
         place.grid(visible=False)
         place.set_xlabel(label(axes[0]), color=INK)
     return figure
+
+
+def _map_of_shares(place: Any, x_edges: Any, y_edges: Any, share: Any) -> None:
+    lowest = float(np.nanmin(share))
+    floor = 0.0 if lowest < 0.5 else 0.5 if lowest < 0.9 else 0.9
+    mesh = place.pcolormesh(x_edges, y_edges, share, cmap="RdYlGn", vmin=floor, vmax=1.0)
+    place.get_figure().colorbar(mesh, ax=place, label="share of successes")
 
 
 def _binned(values: Any) -> tuple[Any, Any]:

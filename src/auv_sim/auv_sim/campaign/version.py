@@ -14,9 +14,9 @@ from auv_sim.batch.compiled import digest_of, files_of
 _FLOWN_BY = (
     (auv_msgs_py, "*.py"),
     (auv_path_following, "*.py"),
-    (auv_path_following, "control/*.py"),
-    (auv_path_following, "guidance/*.py"),
-    (auv_path_following, "paths/*.py"),
+    (auv_path_following, "control/**/*.py"),
+    (auv_path_following, "guidance/**/*.py"),
+    (auv_path_following, "paths/**/*.py"),
     (auv_sim, "closed_loop.py"),
     (auv_sim, "*parameters.py"),
     (auv_sim, "analysis/metrics.py"),

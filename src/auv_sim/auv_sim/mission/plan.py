@@ -18,6 +18,7 @@ from auv_path_following.paths import mission_file
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.closed_loop import Scenario
+from auv_sim.command_line import to_type
 from auv_sim.mission.vehicle_driver import DRIVERS, tell_driver
 from auv_sim.parameters import SUITE
 from auv_sim.planning.check import Verdicts, check, refusal
@@ -53,6 +54,16 @@ class Options:
     domain: int | None = None
     quiet: bool = False
     force: bool = False
+
+    @property
+    def command(self) -> str:
+        """What flies the same mission again: the options that differ from their defaults, for the shell."""
+        changed = {
+            field.name: getattr(self, field.name)
+            for field in dataclasses.fields(self)
+            if field.name not in ("out", "quiet") and getattr(self, field.name) != field.default
+        }
+        return to_type("mission.py", **changed)
 
     @property
     def simulator(self) -> bool:

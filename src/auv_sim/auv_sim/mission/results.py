@@ -47,6 +47,7 @@ def conclude(plan: Plan, directory: Path, outcome: Outcome) -> MissionSummary | 
         f"{plan.mission.name}, {plan.vehicle.name}",
         rudder_limit=rudder.max_angle,
         rudder_rate_limit=rudder.max_rate,
+        command=plan.options.command,
     )
     return summary
 

@@ -75,7 +75,8 @@ def _plan(options: argparse.Namespace) -> int:
     mission = mission_file.load(options.mission, hull)
     guidance = _guidance(options, mission)
     switching = as_wished(guidance.switching, options.switching, None)
-    verdicts = check(mission, hull, Current(*options.current), switching, guidance.lookahead)
+    current = Current(*options.current)
+    verdicts = check(mission, hull, current, switching, guidance.lookahead)
     console = Console(
         quiet=options.quiet, highlight=False, soft_wrap=True, width=None if sys.stdout.isatty() else 110
     )
@@ -83,7 +84,7 @@ def _plan(options: argparse.Namespace) -> int:
     png = options.out or (None if options.quiet else Path(f"plan-{mission.source.stem}.png"))
     if png is not None:
         try:
-            drawing.draw(mission, verdicts, hull.name, png)
+            drawing.draw(mission, verdicts, hull.name, png, current)
         except (OSError, ValueError) as error:  # ValueError: a suffix that is no picture
             raise ConfigurationError("--out", f"{png} ({error})", "a picture that can be written") from None
         wrote(console, png, "the plan in one picture")

@@ -10,9 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from auv_msgs_py.types import NO_CURRENT, Current
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.paths.outline import look, polygon
-from auv_sim.analysis.plot_style import BLUE, GREEN, HALO, INK, MUTED, ORANGE, RED, style
+from auv_sim.analysis.labels import arrow
+from auv_sim.analysis.plot_style import AREA, BLUE, GREEN, HALO, INK, MUTED, ORANGE, PATH, RED, style
 from auv_sim.planning.check import Verdicts
 
 CONTINUITY = {"G0": RED, "G1": ORANGE, "G2": GREEN}
@@ -22,7 +24,9 @@ _FEW = 60
 _ERROR = 0.05
 
 
-def draw(mission: Mission, verdicts: Verdicts, vehicle_name: str, png: Path) -> None:
+def draw(
+    mission: Mission, verdicts: Verdicts, vehicle_name: str, png: Path, current: Current = NO_CURRENT
+) -> None:
     """Draw the plan, 1200 x 1300 pixels.
 
     Args:
@@ -30,13 +34,14 @@ def draw(mission: Mission, verdicts: Verdicts, vehicle_name: str, png: Path) -> 
         verdicts: of its check.
         vehicle_name: whose tightest turn is drawn.
         png: the file to write.
+        current: that it was checked in, drawn as an arrow.
     """
     figure = Figure(figsize=(12.0, 13.0), dpi=100, facecolor="white")
     FigureCanvasAgg(figure)
     margins = {"left": 0.08, "right": 0.97, "top": 0.885, "bottom": 0.06}
     grid = figure.add_gridspec(2, 1, height_ratios=(2.7, 1.0), hspace=0.16, **margins)
     _headline(figure, mission, verdicts, vehicle_name)
-    _map(figure.add_subplot(grid[0]), mission)
+    _map(figure.add_subplot(grid[0]), mission, current)
     _curvature(figure.add_subplot(grid[1]), mission, verdicts, vehicle_name)
     figure.savefig(png)
 
@@ -61,13 +66,14 @@ def _headline(figure: Figure, mission: Mission, verdicts: Verdicts, vehicle_name
     figure.text(0.08, 0.935, told, fontsize=12, color=MUTED, va="center", parse_math=False)
 
 
-def _map(axes: Axes, mission: Mission) -> None:
+def _map(axes: Axes, mission: Mission, current: Current) -> None:
     style(axes, "north x (m)")
     axes.set_xlabel("east y (m)", color=INK)
     once = mission.path.segments[: mission.once]
     outlines = [polygon(segment, _ERROR) for segment in once]
     x, y = (np.concatenate(axis) for axis in zip(*outlines, strict=True))
     few = len(once) <= _FEW
+    _areas(axes, mission)
     if mission.waypoints:
         north, east = zip(*mission.waypoints, strict=True)
         axes.plot(
@@ -99,9 +105,22 @@ def _map(axes: Axes, mission: Mission) -> None:
     _ends(axes, mission)
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(0.06)
+    arrow(axes, "current", current.Vx, current.Vy, mission.path)
     axes.legend(
-        loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=6, fontsize=9, frameon=False, borderpad=0.1
+        loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=7, fontsize=9, frameon=False, borderpad=0.1
     )
+
+
+def _areas(axes: Axes, mission: Mission) -> None:
+    """Draw the surveyed polygon filled and the geofence as a dashed outline."""
+    if mission.area:
+        north, east = zip(*mission.area, strict=True)
+        axes.fill(
+            east, north, facecolor=AREA, edgecolor=PATH, linewidth=1.0, label="surveyed area", zorder=0.5
+        )
+    if mission.geofence:
+        north, east = zip(*mission.geofence, mission.geofence[0], strict=True)
+        axes.plot(east, north, color=RED, linewidth=1.2, linestyle=(0, (6, 3)), label="geofence", zorder=1)
 
 
 def _ends(axes: Axes, mission: Mission) -> None:
