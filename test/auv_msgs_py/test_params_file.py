@@ -104,6 +104,16 @@ def test_a_mistake_in_another_vehicles_block_is_a_mistake_all_the_same(loaded):
         loaded(text, namespace="/auv1")
 
 
+def test_mistakes_in_several_nodes_are_all_named(loaded):
+    text = "pilot:\n  ros__parameters: {gains: {k1: a}, name: 3}\nobserver:\n  ros__parameters: {k3: 1}\n"
+    with pytest.raises(ConfigurationError) as caught:
+        loaded(text)
+    assert str(caught.value).partition("params.yaml: ")[2] == (
+        "pilot: gains.k1: found 'a', expected a number; name: found 3, expected a text;"
+        " observer: k3: found an unknown key, expected only the documented keys (is it misspelt?)"
+    )
+
+
 def test_dotted_and_nested_keys_of_one_group_add_up(loaded):
     text = "/**/pilot:\n  ros__parameters:\n    gains.k1: 3\n    gains: {k2: 4}\n"
     assert loaded(text)["pilot"].gains == Gains(k1=3.0, k2=4.0)

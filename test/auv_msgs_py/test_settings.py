@@ -96,8 +96,26 @@ def test_a_wrong_value_gets_one_line_with_key_and_reason(cls, data, said):
 
 
 def test_a_misspelt_key_is_shown_as_it_stands_in_the_file_not_as_missing():
-    with pytest.raises(ConfigurationError, match=r"nmae: found an unknown key.*\(and 1 more"):
+    with pytest.raises(
+        ConfigurationError, match=r"^f.yaml: nmae: found an unknown key.*; name: found nothing"
+    ):
         validated(Strict, {"nmae": "x", "place": [1, 2]}, "f.yaml")
+
+
+def test_all_wrong_keys_are_named_in_one_line():
+    with pytest.raises(ConfigurationError) as caught:
+        validated(Outer, {"inner": {"gain": -1, "gian": 2}, "flag": "yes", "mode": "of"}, "f.yaml")
+    assert str(caught.value) == (
+        "f.yaml: mode: found 'of', expected one of 'off' or 'on'; flag: found 'yes', expected true or false;"
+        " inner.gain: found -1, expected a number greater than 0;"
+        " inner.gian: found an unknown key, expected only the documented keys (is it misspelt?)"
+    )
+
+
+def test_hundreds_of_wrong_keys_are_counted():
+    with pytest.raises(ConfigurationError, match=r"names\[30\]: found 30.*; and 69 more$") as caught:
+        validated(Outer, {"names": list(range(100))}, "f.yaml")
+    assert "names[31]" not in str(caught.value)
 
 
 def test_data_that_no_file_can_hold_is_refused_in_a_line():

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 #: A place or a finding longer than this is printed without its middle, characters.
 _LONGEST = 400
+#: More errors than this are counted, not listed.
+_MOST_JOINED = 30
 
 
 def printable(text: str) -> str:
@@ -51,6 +55,23 @@ class ConfigurationError(SuiteError):
         self.where = where
         self.found = found
         self.expected = expected
+
+
+def joined(errors: Sequence[ConfigurationError], file: str) -> ConfigurationError:
+    """One error for all that is wrong with a file: the first, with the others behind it.
+
+    Args:
+        errors: at least one.
+        file: what their places begin with; the others are named without it.
+    """
+    first, *others = errors
+    listed = [
+        f"{other.where.removeprefix(f'{file}: ')}: found {shortened(other.found)}, expected {other.expected}"
+        for other in others[:_MOST_JOINED]
+    ]
+    if len(others) > len(listed):
+        listed.append(f"and {len(others) - len(listed)} more")
+    return ConfigurationError(first.where, first.found, "; ".join([first.expected, *listed]))
 
 
 class MessageRefused(SuiteError):

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from auv_msgs_py import yaml_file
-from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.errors import ConfigurationError, joined
 from auv_msgs_py.settings import flattened, nested, validated
 
 
@@ -61,7 +61,16 @@ def load(path: Path, classes: Mapping[str, type[Any]], namespace: str | None = N
         here = "/".join(["", *_parts(namespace or "")])
         found, expected = f"another namespace than {here or '/'}", f"/**/{name} or {here}/{name}"
         raise ConfigurationError(f"{path}: {passed_over[name]}", found, expected)
-    return {name: validated(cls, nested(values[name]), f"{path}: {name}") for name, cls in classes.items()}
+    loaded: dict[str, Any] = {}
+    errors: list[ConfigurationError] = []
+    for name, cls in classes.items():
+        try:
+            loaded[name] = validated(cls, nested(values[name]), f"{path}: {name}")
+        except ConfigurationError as error:
+            errors.append(error)
+    if errors:
+        raise joined(errors, str(path))
+    return loaded
 
 
 def _told(path: Path, pattern: str, body: Any, classes: Mapping[str, type[Any]]) -> dict[str, Any]:

@@ -20,7 +20,7 @@ import pydantic
 from pydantic import ConfigDict, Field
 from pydantic.dataclasses import dataclass as _pydantic_dataclass
 
-from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.errors import ConfigurationError, joined
 
 T = TypeVar("T")
 
@@ -97,17 +97,13 @@ def validated(cls: type[T], data: object, where: str) -> T:
 
 def _readable(error: pydantic.ValidationError, where: str) -> ConfigurationError:
     errors = error.errors(include_url=False)
-    first = errors[0]
-    others = len(errors) - 1
-    if first["type"] in _ABSENT:
-        # A misspelt key is missing under one name and unknown under another: show what stands in the file.
-        siblings = [item for item in errors if item["loc"][:-1] == first["loc"][:-1]]
-        first = next((item for item in siblings if item["type"] in _UNKNOWN), first)
-    place = key_path(first["loc"])
-    found, expected = _explain(dict(first))
-    if others:
-        expected += f" (and {others} more of this file's keys are wrong)"
-    return ConfigurationError(f"{where}: {place}" if place else where, found, expected)
+    # A misspelt key is missing under one name and unknown under another: first what stands in the file.
+    errors.sort(key=lambda item: item["type"] in _ABSENT)
+    found = []
+    for item in errors:
+        place = key_path(item["loc"])
+        found.append(ConfigurationError(f"{where}: {place}" if place else where, *_explain(dict(item))))
+    return joined(found, where)
 
 
 def key_path(location: tuple[int | str, ...]) -> str:

@@ -30,6 +30,27 @@ def test_what_is_exported_lies_on_the_path(tmp_path, suffix):
     assert length == pytest.approx(mission.path.length, rel=2e-3)
 
 
+@pytest.mark.parametrize("suffix", [".geojson", ".kml"])
+@pytest.mark.parametrize(
+    ("points", "crossings"),
+    [("[[0, -300], [200, 400], [300, -500]]", 2), ("[[0, -300], [0, 0], [200, 400]]", 1)],
+)
+def test_a_path_over_the_antimeridian_is_cut_there_and_read_back_as_one(tmp_path, suffix, points, crossings):
+    origin = "origin: {latitude_deg: -17.0, longitude_deg: 180.0}"
+    route = f"waypoints: {{points: {points}, smoothing: {{kind: linear}}}}"
+    (tmp_path / "m.yaml").write_text(f"version: 1\nname: dateline\nframe: ned\nspeed: 1\n{origin}\n{route}\n")
+    mission = mission_file.load(str(tmp_path / "m.yaml"))
+    chart.export(mission, tmp_path / f"path{suffix}")
+    text = (tmp_path / f"path{suffix}").read_text()
+    assert text.count("LineString") == {".geojson": 1, ".kml": 4}[suffix] + (suffix == ".kml") * 2 * (
+        crossings - 1
+    )
+    line = waypoint_files.choose(waypoint_files.read(tmp_path / f"path{suffix}"), "waypoints").points
+    assert sum(abs(longitude) == 180.0 for _, longitude in line) == crossings
+    x, y = to_ned(mission.origin, *zip(*line, strict=True))
+    assert float(np.hypot(np.diff(x), np.diff(y)).sum()) == pytest.approx(mission.path.length, abs=0.01)
+
+
 def test_waypoints_and_joints_have_names(tmp_path):
     mission = mission_file.load("survey_wgs84")
     chart.export(mission, tmp_path / "path.geojson")

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import json
+import math
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -56,10 +58,36 @@ def _places(mission: Mission, north: Any, east: Any) -> list[Place]:
     return places
 
 
-def _line(mission: Mission) -> list[Place]:
-    parts = [polygon(segment, _ERROR) for segment in mission.path.segments[: mission.once]]
-    kept = [(x[:-1], y[:-1]) for x, y in parts[:-1]] + [parts[-1]]
-    return _places(mission, *(np.concatenate(axis) for axis in zip(*kept, strict=True)))
+def _line(mission: Mission) -> list[list[Place]]:
+    """The path in parts that end at the antimeridian, as RFC 7946, section 3.1.9, has it."""
+    pieces = [polygon(segment, _ERROR) for segment in mission.path.segments[: mission.once]]
+    kept = [(x[:-1], y[:-1]) for x, y in pieces[:-1]] + [pieces[-1]]
+    north, east = (np.concatenate(axis) for axis in zip(*kept, strict=True))
+    places = _places(mission, north, east)
+    parts = [places[:1]]
+    for k in range(1, len(places)):
+        (before, _), (after, _) = places[k - 1 : k + 1]
+        if abs(after - before) > 180.0:
+            edge = math.copysign(180.0, before)
+            latitude = _crossing(mission, north[k - 1 : k + 1], east[k - 1 : k + 1])
+            parts[-1].append([edge, latitude])
+            parts.append([[-edge, latitude]])
+        parts[-1].append(places[k])
+    # A point on the antimeridian itself is there twice, and alone in its part at an end of the path.
+    distinct = [[place for place, _ in itertools.groupby(part)] for part in parts]
+    return [part for part in distinct if len(part) > 1] or distinct
+
+
+def _crossing(mission: Mission, north: Any, east: Any) -> float:
+    """Latitude (deg) at which a straight piece of the path meets the antimeridian."""
+    begins_east = _places(mission, north[:1], east[:1])[0][0] > 0.0
+    low, high = 0.0, 1.0
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        x, y = (axis[:1] + middle * (axis[1:] - axis[:1]) for axis in (north, east))
+        longitude, latitude = _places(mission, x, y)[0]
+        low, high = (middle, high) if (longitude > 0.0) == begins_east else (low, middle)
+    return latitude
 
 
 def _points(mission: Mission) -> list[tuple[str, Place]]:
@@ -76,7 +104,13 @@ def _geojson(mission: Mission) -> str:
         geometry = {"type": kind, "coordinates": coordinates}
         return {"type": "Feature", "properties": properties, "geometry": geometry}
 
-    line = feature("LineString", _line(mission), name=mission.name, length_m=round(mission.path.length, 3))
+    parts = _line(mission)
+    line = feature(
+        "LineString" if len(parts) == 1 else "MultiLineString",
+        parts[0] if len(parts) == 1 else parts,
+        name=mission.name,
+        length_m=round(mission.path.length, 3),
+    )
     points = [feature("Point", place, name=name) for name, place in _points(mission)]
     return json.dumps({"type": "FeatureCollection", "features": [line, *points]}, indent=1) + "\n"
 
@@ -86,18 +120,20 @@ def _kml(mission: Mission) -> str:
     root = ElementTree.Element(f"{{{_KML}}}kml")
     document = ElementTree.SubElement(root, f"{{{_KML}}}Document")
 
-    def placemark(parent: ElementTree.Element, name: str, kind: str, places: list[Place]) -> None:
+    def placemark(parent: ElementTree.Element, name: str, kind: str, parts: list[list[Place]]) -> None:
         mark = ElementTree.SubElement(parent, f"{{{_KML}}}Placemark")
         ElementTree.SubElement(mark, f"{{{_KML}}}name").text = name
-        shape = ElementTree.SubElement(mark, f"{{{_KML}}}{kind}")
-        text = " ".join(f"{longitude},{latitude}" for longitude, latitude in places)
-        ElementTree.SubElement(shape, f"{{{_KML}}}coordinates").text = text
+        holder = mark if len(parts) == 1 else ElementTree.SubElement(mark, f"{{{_KML}}}MultiGeometry")
+        for places in parts:
+            shape = ElementTree.SubElement(holder, f"{{{_KML}}}{kind}")
+            text = " ".join(f"{longitude},{latitude}" for longitude, latitude in places)
+            ElementTree.SubElement(shape, f"{{{_KML}}}coordinates").text = text
 
     ElementTree.SubElement(document, f"{{{_KML}}}name").text = mission.name
     placemark(document, mission.name, "LineString", _line(mission))
     folder = ElementTree.SubElement(document, f"{{{_KML}}}Folder")
     ElementTree.SubElement(folder, f"{{{_KML}}}name").text = "waypoints and joints"
     for name, place in _points(mission):
-        placemark(folder, name, "Point", [place])
+        placemark(folder, name, "Point", [[place]])
     ElementTree.indent(root)
     return ElementTree.tostring(root, encoding="unicode", xml_declaration=True) + "\n"

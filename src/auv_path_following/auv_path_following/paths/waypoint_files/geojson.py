@@ -91,8 +91,7 @@ def _shapes(name: str, geometry: dict[str, Any]) -> Iterator[Shape]:
     try:
         listed: list[Any] = list(parts) if depth else [parts]  # type: ignore[arg-type]
         if kind == "line":
-            joined = _joined([[_place(at) for at in part] for part in listed])
-            yield from (shape("line", name, part) for part in joined)
+            yield from (shape("line", name, [_place(at) for at in part]) for part in listed)
         elif kind == "polygon":
             for rings in listed:
                 yield shape("polygon", name, [_place(at) for at in rings[0]], len(rings) - 1)
@@ -108,18 +107,3 @@ def _place(coordinates: Any) -> list[float]:
     """[longitude, latitude, height] -> [latitude, longitude, height]."""
     longitude, latitude, *height = map(number, coordinates[:3])
     return [latitude, longitude, *height]
-
-
-def _joined(parts: list[list[list[float]]]) -> list[list[list[float]]]:
-    """Join parts that were cut at the antimeridian, as RFC 7946 cuts lines there."""
-    joined = parts[:1]
-    for part in parts[1:]:
-        if joined[-1] and part and _meet(joined[-1][-1], part[0]):
-            joined[-1] = joined[-1] + part[1:]
-        else:
-            joined.append(part)
-    return joined
-
-
-def _meet(end: list[float], start: list[float]) -> bool:
-    return abs(end[0] - start[0]) < 1e-9 and abs(end[1]) == 180.0 and start[1] == -end[1]

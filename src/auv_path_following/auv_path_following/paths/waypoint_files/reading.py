@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from auv_msgs_py import user_files
 from auv_msgs_py.errors import ConfigurationError
 from auv_path_following.paths.waypoint_files import geojson, gpx, kml, plan, table, wpl
-from auv_path_following.paths.waypoint_files.content import Content, shown
+from auv_path_following.paths.waypoint_files.content import Content, Point, Shape, extent, shown
 
 #: Points of one file at most; a path through so many is checked in some seconds.
 MOST_POINTS = 50_000
@@ -45,13 +46,32 @@ def read(path: Path, called: str | None = None) -> Content:
         raise ConfigurationError(name, f"the suffix '{path.suffix}'", f"one of {', '.join(_READERS)}")
     try:
         content = reader(user_files.read_bytes(path, "a file with waypoints"))
-        content.shapes = [shape for shape in content.shapes if shape.points or shape.refusal]
+        content.shapes = _joined(shape for shape in content.shapes if shape.points or shape.refusal)
         _check(content)
     except ConfigurationError as error:
         inner = error.where.removeprefix(str(path))
         where = f"{name}: {inner}" if inner else name
         raise ConfigurationError(where, error.found, error.expected) from None
     return content
+
+
+def _joined(shapes: Iterable[Shape]) -> list[Shape]:
+    """Join lines of one name that were cut at the antimeridian."""
+    joined: list[Shape] = []
+    for shape in shapes:
+        last = joined[-1] if joined else shape
+        lines = joined and last.kind == shape.kind == "line" and last.name == shape.name
+        if lines and last.points and shape.points and _meet(last.points[-1], shape.points[0]):
+            heights = extent([*(last.heights or ()), *(shape.heights or ())])
+            points = last.points + shape.points[1:]
+            joined[-1] = dataclasses.replace(last, points=points, heights=heights)
+        else:
+            joined.append(shape)
+    return joined
+
+
+def _meet(end: Point, start: Point) -> bool:
+    return abs(end[0] - start[0]) < 1e-9 and abs(end[1]) == 180.0 and start[1] == -end[1]
 
 
 def _check(content: Content) -> None:
