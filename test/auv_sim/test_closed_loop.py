@@ -11,6 +11,7 @@ import pytest
 from auv_msgs_py import params_file, topics
 from auv_msgs_py.types import NO_CURRENT, Current
 from auv_path_following import config_files, vehicle
+from auv_path_following.guidance.approach import ApproachConfig
 from auv_path_following.guidance.switching import SwitchingConfig
 from auv_path_following.paths import mission_file
 from auv_path_following.paths.composite import CompositePath
@@ -30,7 +31,9 @@ RATES = (10, 20, 50)
 
 def scenario(mode="g0", rate=20, **changes):
     guidance = dataclasses.replace(
-        TABLE_4[topics.GUIDANCE].guidance, switching=SwitchingConfig(mode=mode, radius=6.0)
+        TABLE_4[topics.GUIDANCE].guidance,
+        switching=SwitchingConfig(mode=mode, radius=6.0),
+        approach=ApproachConfig(enabled=False),
     )
     given = {
         "path": MISSION.path,

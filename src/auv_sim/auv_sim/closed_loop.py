@@ -13,6 +13,7 @@ from auv_msgs_py import topics
 from auv_msgs_py.frames import flip_yaw, quaternion_of_yaw, yaw_of_quaternion
 from auv_msgs_py.types import NO_CURRENT, Current, Reference
 from auv_path_following.control.autopilot import AutopilotConfig, HeadingAutopilot
+from auv_path_following.guidance.approach import agility_of
 from auv_path_following.guidance.current_observer import CurrentObserver, CurrentObserverConfig
 from auv_path_following.guidance.path_follower import PathFollower, PathFollowerConfig
 from auv_path_following.paths.composite import CompositePath
@@ -38,7 +39,7 @@ class Scenario:
         seed: of everything that is random in the sea.
         step: time between odometries, s.
         guidance, observer, autopilot: laws and gains.
-        controller_vehicle: the hull as the autopilot knows it; the plant's own if None.
+        controller_vehicle: the hull that guidance and autopilot assume; the plant's own if None.
         time_limit: the flight ends here at the latest, s.
     """
 
@@ -93,8 +94,9 @@ def fly(scenario: Scenario, progress: Callable[[float], None] | None = None) -> 
     c = scenario
     plant = SimulatedVehicle(c.vehicle, c.initial or start_of(c.path), c.sea, c.seed, c.current)
     observer = CurrentObserver(c.observer)
-    follower = PathFollower(c.path, c.guidance)
-    autopilot = HeadingAutopilot(c.controller_vehicle or c.vehicle, c.autopilot)
+    hull = c.controller_vehicle or c.vehicle
+    follower = PathFollower(c.path, c.guidance, agility_of(hull, c.thrust))
+    autopilot = HeadingAutopilot(hull, c.autopilot)
     step_ns = round(c.step * 1e9)
     dt = step_ns * 1e-9
     rows: list[tuple[float, ...]] = []

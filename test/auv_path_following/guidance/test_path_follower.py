@@ -5,15 +5,17 @@ from __future__ import annotations
 import itertools
 import math
 
+import numpy as np
 import pytest
 
 from auv_msgs_py.angles import wrap
 from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
 from auv_path_following.guidance.adaptive_lookahead import AdaptiveLookaheadConfig
 from auv_path_following.guidance.ailos import AilosConfig
+from auv_path_following.guidance.approach import Agility, ApproachConfig
 from auv_path_following.guidance.ilos import IlosConfig
 from auv_path_following.guidance.los import LosConfig
-from auv_path_following.guidance.path_follower import PathFollower, PathFollowerConfig
+from auv_path_following.guidance.path_follower import LONGEST_STEP, PathFollower, PathFollowerConfig
 from auv_path_following.guidance.switching import SwitchingConfig
 from auv_path_following.guidance.virtual_point import VirtualPointConfig
 from auv_path_following.paths.arc import Arc
@@ -132,7 +134,9 @@ def test_where_it_turns_at_a_corner(mode, switches_at):
     assert len(switched) == 1
     navigation, output = switched[0]
     assert navigation.x == pytest.approx(switches_at, abs=SPEED * DT)
-    assert (output.i, output.s, output.x_p, output.y_p) == (1, 1.0, 60.0, 0.0)
+    assert output.i == 1
+    # P begins the second leg at its start, but for what a step of the first one led beyond.
+    assert (output.x_p, output.y_p) == pytest.approx((60.0, 0.0), abs=0.0 if mode == "g0" else SPEED * DT)
     indices = [output.i for _, output in steps]
     assert indices == sorted(indices)
 
@@ -141,6 +145,8 @@ def test_after_an_early_switch_p_waits_for_the_vehicle_without_feed_forward():
     path = CompositePath([Line(0.0, 0.0, 60.0, 0.0), Arc(30.0, 0.0, 30.0, 0.0, math.pi)])
     follower = PathFollower(path, config("g0"))
     # The next subpath begins eastwards; the vehicle is still 4 m west of it and points north.
+    follower.virtual_point.t = 0.95
+    follower.update(Navigation(57.0, -1.0, 0.0, 0.0), AHEAD, NO_CURRENT, 0.0)
     behind = Navigation(58.0, -4.0, 0.0, 0.0)
     for k in range(20):
         output = follower.update(behind, AHEAD, NO_CURRENT, DT)
@@ -187,7 +193,9 @@ def test_new_gains_keep_the_place_on_the_path_and_reset_does_not():
         pass
     before = follower.virtual_point.s
     assert before > 1.0
-    wide = PathFollowerConfig(ailos=AilosConfig(lookahead=12.0), virtual_point=VirtualPointConfig(k=0.5))
+    wide = PathFollowerConfig(
+        ailos=AilosConfig(lookahead=12.0), virtual_point=VirtualPointConfig(k=0.5, saturation=50.0)
+    )
     follower.configure(wide)
     assert follower.virtual_point.s == before
     y, x = 2.0, 60.0 + 12.0
@@ -231,3 +239,58 @@ def test_every_lap_is_flown(mode):
     assert [output.i for _, output in steps if output.switched] == [1, 2, 2]
     # The circle saves a few metres at each joint.
     assert len(steps) * DT * SPEED == pytest.approx(path.length, rel=0.1)
+
+
+def dense_circle(radius=30.0, spacing=0.05):
+    """Three quarters of a circle from its southern end on, given as points."""
+    angles = np.arange(0.0, 1.5 * math.pi, spacing / radius)
+    points = [(radius * math.sin(a), radius * (1.0 - math.cos(a))) for a in angles]
+    return CompositePath(
+        [
+            Line(*a, math.dist(a, b), math.atan2(b[1] - a[1], b[0] - a[0]))
+            for a, b in itertools.pairwise(points)
+        ]
+    )
+
+
+@pytest.mark.parametrize("spacing", [0.05, 0.5, 2.0])
+def test_a_circle_given_as_points_is_followed(spacing):
+    """P keeps up with the vehicle, and circles of acceptance wider than the subpaths do not send it ahead."""
+    path = dense_circle(spacing=spacing)
+    steps = list(glide(PathFollower(path, config("g0")), 0.0, 0.0))
+    assert steps[-1][1].finished
+    assert len(steps) * DT == pytest.approx(path.length / SPEED, rel=0.02)
+    assert max(abs(math.hypot(n.x, n.y - 30.0) - 30.0) for n, _ in steps) < 0.3
+
+
+def test_a_line_given_as_points_ends_at_its_end():
+    path = CompositePath([Line(0.05 * k, 0.0, 0.05, 0.0) for k in range(1200)])
+    steps = list(glide(PathFollower(path, config("g0")), 0.0, 0.0))
+    assert steps[-1][1].finished
+    assert steps[-1][0].x == pytest.approx(60.0, abs=0.2)
+
+
+def test_a_circle_of_acceptance_does_not_count_before_the_subpath_was_joined():
+    follower = PathFollower(corner(), config("g0"))
+    beside = Navigation(57.0, -4.0, 0.0, 0.0)  # inside the circle, 4 m beside the first leg
+    follower.virtual_point.t = 0.9
+    assert [follower.update(beside, STILL, NO_CURRENT, DT).i for _ in range(5)] == [0] * 5
+    near = Navigation(57.0, -1.0, 0.0, 0.0)
+    assert [follower.update(near, STILL, NO_CURRENT, DT).i for _ in range(2)] == [0, 1]
+
+
+def test_far_from_the_path_the_references_stay_what_a_hull_can_turn():
+    """P is drawn by 500 m of xe along a tight arc."""
+    path = CompositePath([Arc(0.0, 0.0, 15.0, 0.0, 6.0)])
+    agility = Agility(speed=2.0, turn_rate=0.3)
+    bare = PathFollowerConfig(approach=ApproachConfig(enabled=False))
+    for _, output in glide(PathFollower(path, bare, agility), 300.0, 400.0, seconds=60.0):
+        assert abs(output.r_d) <= 0.3
+        assert abs(output.U_P) <= SPEED + 6.0 + 1e-9
+
+
+def test_a_long_gap_counts_as_a_short_one():
+    follower = PathFollower(line(), config())
+    follower.update(Navigation(0.0, 0.0, 0.0, 0.0), AHEAD, NO_CURRENT, 0.0)
+    output = follower.update(Navigation(0.0, 0.0, 0.0, 0.0), AHEAD, NO_CURRENT, 75.0)
+    assert output.x_p == pytest.approx(SPEED * LONGEST_STEP)

@@ -9,10 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
-from auv_path_following.guidance.virtual_point import VirtualPoint, path_errors, tangential_speed
+from auv_path_following.guidance.virtual_point import VirtualPoint, path_errors, saturated, tangential_speed
 from auv_path_following.paths.arc import Arc
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.line import Line
+from auv_path_following.paths.polynomial import Polynomial
 from auv_path_following.paths.segment import PathPoint
 
 _place = st.floats(-100.0, 100.0)
@@ -103,18 +104,39 @@ def test_p_covers_metres_not_units_of_s(U_P, dt):
     assert P.s == pytest.approx(U_P * dt / 40.0)
 
 
-def test_reaching_the_end_of_a_subpath_sets_p_to_the_start_of_the_next():
+def test_at_the_end_of_a_subpath_the_rest_of_the_way_is_carried_over_as_length():
     P = VirtualPoint(two_legs())
     P.set_speed(39.0, P.point())
     assert not P.move(1.0)
     P.set_speed(7.0, P.point())
     assert P.move(1.0)
-    # 6 m too far on the first leg are not carried over: s is set to i, as Eq. (43) is to be used.
-    assert (P.i, P.t, P.s) == (1, 0.0, 1.0)
-    assert (P.point().x, P.point().y) == pytest.approx((40.0, 0.0))
-    # And it stays there until it is told a speed for the new subpath.
+    # 6 m beyond the first leg of 40 m are 6 m of the second one of 20 m.
+    assert P.i == 1
+    assert (P.point().x, P.point().y) == pytest.approx((40.0, 6.0))
+    # And it stays there until it has a speed for the new subpath.
     assert not P.move(1.0)
-    assert P.s == 1.0
+    assert P.s == pytest.approx(1.3)
+
+
+def test_any_number_of_subpaths_is_passed_in_a_step_and_what_is_left_beyond_the_end_is_known():
+    dense = CompositePath([Line(0.05 * k, 0.0, 0.05, 0.0) for k in range(4000)])
+    P = VirtualPoint(dense)
+    for step in range(1, 100):
+        P.set_speed(2.0, P.point())
+        P.move(1.0)
+        assert P.point().x == pytest.approx(2.0 * step, abs=1e-9)
+    P.set_speed(5.0, P.point())
+    assert P.move(1.0)
+    assert P.finished
+    assert P.beyond == pytest.approx(3.0)
+
+
+def test_the_way_is_length_where_the_speed_changes_along_a_subpath_too():
+    slow_start = Polynomial([0.0, 0.5, 0.0, 0.5], [0.0, 0.0, 0.0, 0.0])  # 1 m, dp/dt from 0.5 to 2
+    P = VirtualPoint(CompositePath([Line(-10.0, 0.0, 10.0, 0.0), slow_start, Line(1.0, 0.0, 10.0, 0.0)]))
+    P.set_speed(13.0, P.point())
+    P.move(1.0)
+    assert P.point().x == pytest.approx(3.0)
 
 
 def test_at_the_end_of_the_path_it_is_finished_and_stays():
@@ -168,7 +190,7 @@ def test_whatever_happens_the_subpath_never_decreases_and_s_stays_on_the_path(co
         assert P.i >= last
         assert 0.0 <= P.t <= 1.0
         assert P.t < 1.0 or P.finished
-        assert not moved_on or P.finished or (P.i, P.t) == (last + 1, 0.0)
+        assert not moved_on or P.finished or P.i == last + 1
         last = P.i
 
 
@@ -185,3 +207,11 @@ def test_reset_goes_back_to_the_beginning():
 
 def test_at_rest_p_is_drawn_towards_the_vehicle_only():
     assert tangential_speed(2.0, 3.0, 0.4, WaterVelocity(0.0, 0.0), 1.0, NO_CURRENT) == 6.0
+
+
+@given(st.floats(-1e3, 1e3), st.floats(1.0, 20.0))
+def test_near_the_path_xe_counts_as_it_is_and_farther_away_no_more(xe, limit):
+    if abs(xe) <= limit:
+        assert saturated(xe, limit) == xe
+    else:
+        assert saturated(xe, limit) == math.copysign(limit, xe)

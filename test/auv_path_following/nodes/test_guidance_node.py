@@ -34,7 +34,7 @@ def test_guidance_asks_for_nothing_before_the_start_and_for_thrust_after_it(benc
     assert bench.call("start").success
 
 
-@pytest.mark.parametrize(("east", "turn"), [(5.0, +1.0), (-5.0, -1.0)])
+@pytest.mark.parametrize(("east", "turn"), [(2.5, +1.0), (-2.5, -1.0)])
 def test_guidance_steers_back_from_either_side(bench: Bench, tmp_path: Any, east: float, turn: float) -> None:
     """Seen on the wire: right of a northward path the desired yaw is larger than north's."""
     mission = tmp_path / "north.yaml"
@@ -45,7 +45,7 @@ def test_guidance_steers_back_from_either_side(bench: Bench, tmp_path: Any, east
     bench.start(GuidanceNode, mission=str(mission))
     bench.call("start")
     bench.water(1.0, 1.9)
-    bench.odometry(1.0, Navigation(10.0, east, 0.0, 0.0))
+    bench.odometry(1.0, Navigation(0.0, east, 0.0, 0.0))
     bench.until(lambda: bench.values(topics.DESIRED_YAW) and bench.received["path_error"])
     assert math.copysign(1.0, bench.values(topics.DESIRED_YAW)[0] - math.pi / 2) == turn
     assert math.copysign(1.0, bench.received["path_error"][0].vector.y) == turn

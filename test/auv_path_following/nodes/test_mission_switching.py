@@ -26,7 +26,7 @@ def test_its_parameters_show_what_counts(
     node = bench.start(GuidanceNode, **wishes)
     names = ("guidance.switching.mode", "guidance.switching.radius")
     assert tuple(node.get_parameter(name).value for name in names) == expected
-    switching = node.follower.circle.config
+    switching = node.follower.progress.circle.config
     assert (switching.mode, switching.radius) == expected
 
 

@@ -3,24 +3,29 @@
 from __future__ import annotations
 
 import math
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from auv_msgs_py.angles import wrap
 from auv_msgs_py.settings import setting, settings
 from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
 from auv_path_following.guidance.ailos import Ailos, AilosConfig
+from auv_path_following.guidance.approach import Agility, ApproachConfig
 from auv_path_following.guidance.ilos import Ilos, IlosConfig
 from auv_path_following.guidance.law import GuidanceLaw, LawInputs
 from auv_path_following.guidance.los import Los, LosConfig
-from auv_path_following.guidance.rejoin import closest_ahead
-from auv_path_following.guidance.switching import CircleOfAcceptance, SwitchingConfig
+from auv_path_following.guidance.progress import Progress
+from auv_path_following.guidance.switching import SwitchingConfig
 from auv_path_following.guidance.virtual_point import (
     VirtualPoint,
     VirtualPointConfig,
     path_errors,
+    saturated,
     tangential_speed,
 )
 from auv_path_following.paths.composite import CompositePath
+
+#: A longer gap between two updates counts as this much, s: nothing is known of what happened in it.
+LONGEST_STEP = 1.0
 
 
 @settings
@@ -36,6 +41,7 @@ class PathFollowerConfig:
         ge=0.0,
         live=True,
     )
+    approach: ApproachConfig = setting(factory=ApproachConfig, doc="way to the path's start")
     rejoin_reach: float = setting(
         50.0, "after a hold P is looked for at most so far ahead", unit="m", ge=0.0, le=1000.0, live=True
     )
@@ -59,7 +65,11 @@ class PathFollowerConfig:
 
 
 class GuidanceOutput(NamedTuple):
-    """One update's result with every signal a plot wants (NED, m, rad, s)."""
+    """One update's result with every signal a plot wants (NED, m, rad, s).
+
+    During an approach P, its errors and its course are the approach's, s and i are 0. `approach` is what is
+    left of it, m, and part of `distance_to_go`.
+    """
 
     psi_d: float
     r_d: float
@@ -78,31 +88,36 @@ class GuidanceOutput(NamedTuple):
     alpha: float
     theta_n: float
     distance_to_go: float
+    approach: float
     switched: bool
     finished: bool
 
 
 class PathFollower:
-    """Follows one composite path from its beginning to its end.
+    """Follows one composite path from its beginning to its end, and leads to its beginning first.
 
     Args:
         path: the path.
         config: laws and gains.
+        agility: of the hull, for approach and bounds; None: the laws alone, with neither.
     """
 
-    def __init__(self, path: CompositePath, config: PathFollowerConfig | None = None) -> None:
+    def __init__(
+        self, path: CompositePath, config: PathFollowerConfig | None = None, agility: Agility | None = None
+    ) -> None:
         self.path = path
-        self.virtual_point = VirtualPoint(path)
-        self.circle = CircleOfAcceptance(path)
+        self.progress = Progress(path, agility)
         config = config or PathFollowerConfig()
         self.law: GuidanceLaw = _law(config)
-        self._at: tuple[float, float] | None = None
+        self._turn_rate = agility.turn_rate if agility is not None else math.inf
         self.configure(config)
 
     def configure(self, config: PathFollowerConfig) -> None:
         """Take new gains; the place on the path and, for the same law, its state are kept."""
         self.config = config
-        self.circle.config = config.switching
+        self.progress.circle.config = config.switching
+        self.progress.approach_config = config.approach
+        self.progress.lookahead = config.lookahead
         match config.law, self.law:
             case "ailos", Ailos():
                 self.law.config = config.ailos
@@ -113,34 +128,31 @@ class PathFollower:
             case _:
                 self.law = _law(config)
 
+    @property
+    def virtual_point(self) -> VirtualPoint:
+        """P on the path."""
+        return self.progress.on_path
+
     def reset(self) -> None:
-        """Back to the beginning of the path."""
-        self.virtual_point.reset()
+        """Return to the beginning of the path."""
+        self.progress.reset()
         self.law.reset()
-        self._at = None
 
     def rejoin(self, navigation: Navigation) -> None:
-        """After a hold: P goes ahead to the closest point of as much path as the vehicle may have come along.
-
-        It is looked for no farther ahead than the vehicle was carried, with half as much again for the
-        path's turns, and never behind: a leg that lies beside this one is not mistaken for it.
-        """
-        P, (x, y) = self.virtual_point, self._at or navigation[:2]
-        carried = math.hypot(navigation.x - x, navigation.y - y)
-        reach = min(1.5 * carried + 1.0, self.config.rejoin_reach)
-        P.advance_to(*closest_ahead(self.path, P.i, P.t, navigation.x, navigation.y, reach))
+        """Go on after a hold, from where the vehicle is now: `Progress.rejoin`."""
+        self.progress.rejoin(navigation, self.config.rejoin_reach)
         self.law.reset()
 
     def look(self, navigation: Navigation) -> GuidanceOutput:
         """The errors as they stand while no mission runs: P rests, the vehicle's own heading is desired."""
-        P = self.virtual_point
+        P = self.progress.point
         P.rest()
         point = P.point()
         xe, ye = path_errors(navigation, point, point.chi)
         return GuidanceOutput(
-            psi_d=navigation.psi, r_d=0.0, xe=xe, ye=ye, psi_e=0.0, s=P.s, i=P.i, x_p=point.x, y_p=point.y,
+            psi_d=navigation.psi, r_d=0.0, xe=xe, ye=ye, psi_e=0.0, **self._place(), x_p=point.x, y_p=point.y,
             chi_p=point.chi, kappa=point.kappa, U_P=0.0, beta_r=0.0, chi_r=0.0, alpha=0.0, theta_n=0.0,
-            distance_to_go=self.path.distance_to_go(P.i, P.t), switched=False, finished=P.finished,
+            switched=False,
         )  # fmt: skip
 
     def update(
@@ -152,20 +164,18 @@ class PathFollower:
             navigation: measured pose, NED.
             water: measured velocity through water, FRD.
             current: the observer's estimate.
-            dt: seconds since the last update (0 on the first one).
+            dt: seconds since the last update (0 on the first one); of a gap `LONGEST_STEP` at most counts.
         """
-        config, P = self.config, self.virtual_point
-        x, y, psi, _ = navigation
-        self._at = (x, y)
+        config, psi, dt = self.config, navigation.psi, min(dt, LONGEST_STEP)
         if not config.compensate_current:
             current = NO_CURRENT
 
-        switched = P.move(dt)
-        if not P.finished and self.circle.reached(x, y, P.i, P.t):
-            switched = P.go_on()
+        switched = self.progress.move(navigation, dt)
+        P = self.progress.point
         point = P.point()
         chi_p = point.chi
         xe, ye = path_errors(navigation, point, chi_p)
+        self.progress.judge(math.hypot(xe, ye))
 
         Ur = math.hypot(water.ur, water.vr)  # Eq. (17)
         beta_r = math.atan2(water.vr, water.ur)
@@ -173,19 +183,20 @@ class PathFollower:
             Ur = beta_r = 0.0
         law = self.law.update(LawInputs(ye, chi_p, Ur, beta_r, current), dt)
 
-        wanted = tangential_speed(config.virtual_point.k, xe, psi, water, chi_p, current)
-        U_P = P.set_speed(wanted, point)
+        drawn = saturated(xe, config.virtual_point.saturation)
+        desired = tangential_speed(config.virtual_point.k, drawn, psi, water, chi_p, current)
+        U_P = P.set_speed(desired, point)
         kappa = point.kappa
         # At the end of the path there is nothing more to turn to.
         psi_d, r_d = (psi, 0.0) if P.finished else (wrap(law.psi_d), kappa * U_P)  # Eq. (9)
+        r_d = min(max(r_d, -self._turn_rate), self._turn_rate)
         return GuidanceOutput(
             psi_d=psi_d,
             r_d=r_d,
             xe=xe,
             ye=ye,
             psi_e=wrap(psi - psi_d),
-            s=P.s,
-            i=P.i,
+            **self._place(),
             x_p=point.x,
             y_p=point.y,
             chi_p=chi_p,
@@ -195,10 +206,19 @@ class PathFollower:
             chi_r=law.chi_r,
             alpha=law.alpha,
             theta_n=law.theta_n,
-            distance_to_go=self.path.distance_to_go(P.i, P.t),
             switched=switched,
-            finished=P.finished,
         )
+
+    def _place(self) -> dict[str, Any]:
+        """Where P is, as `GuidanceOutput` has it."""
+        P, progress = self.progress.on_path, self.progress
+        return {
+            "s": P.s,
+            "i": P.i,
+            "distance_to_go": progress.distance_to_go,
+            "approach": progress.approach_to_go,
+            "finished": P.finished,
+        }
 
 
 def _law(config: PathFollowerConfig) -> GuidanceLaw:

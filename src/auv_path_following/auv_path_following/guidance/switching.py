@@ -8,6 +8,7 @@ from typing import Literal
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.outline import last_stretch
+from auv_path_following.paths.segment import Segment
 
 SwitchingMode = Literal["off", "g0", "all"]
 
@@ -32,11 +33,7 @@ def as_wished(config: SwitchingConfig, mode: SwitchingMode | None, radius: float
 
 
 class CircleOfAcceptance:
-    """Eq. (44) for a path whose joints are classified.
-
-    A subpath that comes back to its start has its joint there, and a vehicle that sets out is inside the
-    circle at once. So the circle counts from the last stretch of a subpath on; of a line, that is all of it.
-    """
+    """Eq. (44) for a path whose joints are classified, and for subpaths of any length and shape."""
 
     def __init__(self, path: CompositePath, config: SwitchingConfig | None = None) -> None:
         self.path = path
@@ -54,7 +51,17 @@ class CircleOfAcceptance:
         return math.hypot(joint.x - x, joint.y - y) <= self.config.radius and t >= self._stretch(i)
 
     def _stretch(self, i: int) -> float:
-        """Where the last stretch of subpath `i` begins; found when its circle is first entered."""
+        """From where on the circle of subpath `i` counts; found when it is first entered."""
         if i not in self._stretches:
-            self._stretches[i] = last_stretch(self.path.segments[i])
+            self._stretches[i] = counts_from(self.path.segments[i])
         return self._stretches[i]
+
+
+def counts_from(segment: Segment) -> float:
+    """Return the t from which on the circle at a subpath's end counts.
+
+    A subpath that comes back to its start has its joint there, and a vehicle that sets out is inside the
+    circle at once: only the last stretch counts. Of a subpath shorter than the circle, as between dense
+    waypoints, half is followed at least, so that P does not run ahead from one circle to the next.
+    """
+    return max(last_stretch(segment), 0.5)

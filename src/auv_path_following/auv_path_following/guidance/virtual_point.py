@@ -13,10 +13,13 @@ from auv_path_following.paths.segment import PathPoint
 
 @settings
 class VirtualPointConfig:
-    """Table 4's k."""
+    """Table 4's k, and how far from P it counts in full."""
 
     k: float = setting(
         1.0, "gain that draws P along the path towards the vehicle", unit="1/s", gt=0.0, le=10.0, live=True
+    )
+    saturation: float = setting(
+        6.0, "k xe of Eq. (22) grows no further beyond this |xe|", unit="m", ge=1.0, le=1000.0, live=True
     )
 
 
@@ -34,13 +37,23 @@ def path_errors(navigation: Navigation, point: PathPoint, chi_p: float) -> PathE
     return PathErrors(dx * cos_chi + dy * sin_chi, -dx * sin_chi + dy * cos_chi)
 
 
+def saturated(xe: float, limit: float) -> float:
+    """Return xe (m) held within +-limit, for Eq. (22): up to the limit it is xe itself.
+
+    Without a bound a vehicle far from P would drive it at any speed, and r_d = kappa U_P with it. Theorem 1
+    still holds: with psi = psi_d, Eq. (32) becomes xe' = -k sat(xe) + r_p ye. The terms with r_p cancel in
+    V1' as before, and -k xe sat(xe) is negative for every xe other than 0.
+    """
+    return min(max(xe, -limit), limit)
+
+
 def tangential_speed(
     k: float, xe: float, psi: float, water: WaterVelocity, chi_p: float, current: Current
 ) -> float:
-    """U_P, Eq. (22), m/s.
+    """Return U_P, Eq. (22), m/s.
 
-    Ur cos(psi + beta_r - chi_p) is written out as ur cos(psi - chi_p) - vr sin(psi - chi_p), which is the
-    same and needs no angle of drift, so it is also right at rest.
+    Ur cos(psi + beta_r - chi_p) is written as ur cos(psi - chi_p) - vr sin(psi - chi_p): the same value
+    without the drift angle, so it is valid at rest as well.
     """
     off = psi - chi_p
     through_water = water.ur * math.cos(off) - water.vr * math.sin(off)
@@ -55,11 +68,13 @@ class VirtualPoint:
         self.reset()
 
     def reset(self) -> None:
-        """Back to the beginning of the path."""
+        """Return to the beginning of the path."""
         self.i = 0
         self.t = 0.0
-        self._t_rate = 0.0
         self.finished = False
+        #: How far the last `move` led beyond the end of the path, m.
+        self.beyond = 0.0
+        self.rest()
 
     @property
     def s(self) -> float:
@@ -67,52 +82,64 @@ class VirtualPoint:
         return self.i + self.t
 
     def move(self, dt: float) -> bool:
-        """Eq. (43) with the speed set last; True when P has just come to a new subpath or to the end.
+        """Move by Eq. (43) with the speed set last; return whether P has left its subpath.
 
-        Reaching the end of a subpath sets P to the start of the next one: how far it would have
-        overshot has no meaning there, since every subpath has its own length per unit of s.
+        Departs from Eq. (43), which sets P to the start of the next subpath: the rest of the step's way is
+        carried over as length, over as many subpaths as it takes. The time is linear in the subpaths passed.
         """
-        self.t += self._t_rate * dt
-        if self.t < 0.0:
-            self.t = 0.0
+        self.t = max(self.t + self._t_rate * dt, 0.0)
         if self.t < 1.0 or self.finished:
             return False
-        return self.go_on()
+        way = (self.t - 1.0) * self._metres_per_t
+        self.go_on()
+        self.advance(way)
+        return True
 
-    def go_on(self) -> bool:
-        """To the start of the next subpath, or to the end of the path."""
-        self._t_rate = 0.0
+    def advance(self, way: float) -> None:
+        """Move on by `way` metres from the start of a subpath."""
+        while not self.finished:
+            segment = self.path.segments[self.i]
+            self.t = way / segment.evaluate(0.0).speed
+            if self.t < 1.0:
+                return
+            way = max(way - segment.length, 0.0)
+            self.go_on()
+        self.beyond = way
+
+    def go_on(self) -> None:
+        """Move to the start of the next subpath, or to the end of the path."""
+        self.rest()
         if self.i + 1 >= self.path.n:
             self.t = 1.0
             self.finished = True
         else:
             self.i += 1
             self.t = 0.0
-        return True
 
     def advance_to(self, i: int, t: float) -> None:
-        """To a place ahead (one behind is ignored), and stay there until the next `set_speed`."""
-        self._t_rate = 0.0
+        """Move to a place ahead (one behind is ignored), and stay there until the next `set_speed`."""
+        self.rest()
         if not self.finished and (i, t) > (self.i, self.t):
             self.i, self.t = i, t
 
     def rest(self) -> None:
         """Stay until the next `set_speed`, however long that takes."""
-        self._t_rate = 0.0
+        self._t_rate = self._metres_per_t = 0.0
 
     def point(self) -> PathPoint:
         """P and the path's derivatives there."""
         return self.path.evaluate(self.i, self.t)
 
     def set_speed(self, U_P: float, point: PathPoint) -> float:
-        """Take U_P (m/s) for the way to the next update, Eq. (42).
+        """Set the speed U_P (m/s) until the next update, Eq. (42).
 
         Returns:
-            The speed P really moves with: 0 where it waits at the start of a subpath for a vehicle
-            that is still behind it, and at the end of the path.
+            The speed of P: 0 where it waits at the start of a subpath for a vehicle that is still behind
+            it, and at the end of the path.
         """
         if self.finished or (self.t <= 0.0 and U_P < 0.0):
-            self._t_rate = 0.0
+            self.rest()
             return 0.0
-        self._t_rate = U_P / point.speed
+        self._metres_per_t = point.speed
+        self._t_rate = U_P / self._metres_per_t
         return U_P

@@ -10,21 +10,16 @@ from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 from auv_msgs_py import topics
-from auv_msgs_py.conversions import path_message
 from auv_msgs_py.runtime import SuiteNode, run_nodes
 from auv_path_following import vehicle
+from auv_path_following.guidance.approach import ApproachWatch, agility_of
 from auv_path_following.guidance.limits import Limits
 from auv_path_following.guidance.mission_state import MissionState, State
 from auv_path_following.guidance.path_follower import GuidanceOutput, PathFollower
-from auv_path_following.nodes.guidance_output import GuidanceMessages
+from auv_path_following.nodes.guidance_output import GuidanceMessages, whole_path
 from auv_path_following.nodes.navigation_input import Inputs, NavigationInput
 from auv_path_following.parameters import GuidanceParameters
 from auv_path_following.paths import mission_file
-
-#: Distance between the poses of `path`, m.
-_PATH_SPACING = 1.0
-#: A path longer than so many metres is published in larger steps.
-_PATH_POSES = 20_000
 
 
 class GuidanceNode(SuiteNode):
@@ -32,14 +27,19 @@ class GuidanceNode(SuiteNode):
 
     def __init__(self, **arguments: Any) -> None:
         super().__init__(topics.GUIDANCE, GuidanceParameters, **arguments)
-        self.mission = mission_file.load(self.parameters.mission, vehicle.load(self.parameters.vehicle))
-        self.follower = PathFollower(self.mission.path, self.parameters.guidance)
+        hull = vehicle.load(self.parameters.vehicle)
+        self.mission = mission_file.load(self.parameters.mission, hull)
+        agility = agility_of(hull, self.mission.thrust)
+        self.follower = PathFollower(self.mission.path, self.parameters.guidance, agility)
         self.state = MissionState(self.parameters.holding)
         self.limits = Limits(self.parameters.limits.stricter(self.mission.limits), self.mission.geofence)
         self._told: State | None = None
         self._output: GuidanceOutput | None = None
         self._last_usable: float | None = None
         self._rejoining = self._clock_went_back = self._begins = False
+        self._approach = ApproachWatch()
+        #: Time without usable navigation, by the odometry's stamps, s.
+        self._blind = 0.0
         self._messages = GuidanceMessages(self)
         self._mission_state = self.advertise(topics.MISSION_STATE)
         self._path = self.advertise(topics.PATH)
@@ -49,10 +49,7 @@ class GuidanceNode(SuiteNode):
         self.create_service(Trigger, topics.ABORT_SERVICE, self._on_abort)
         if not self.parameters.lockstep:
             self.every(0.1, self._watch)
-        path = self.mission.path
-        points = (path.at(float(s)) for s in path.polyline(max(_PATH_SPACING, path.length / _PATH_POSES))[2])
-        rows = [(point.x, point.y, point.chi) for point in points]
-        self._path.publish(path_message(rows, self.get_clock().now().nanoseconds))
+        self._path.publish(whole_path(self.mission.path, self.get_clock().now().nanoseconds))
         self._take_wishes()
         self._tell()
 
@@ -80,6 +77,7 @@ class GuidanceNode(SuiteNode):
         values = {"mission_state": self.state.state.value, "reason": self.state.reason}
         if self._output is not None:
             values |= {"s": f"{self._output.s:.3f}", "ye [m]": f"{self._output.ye:.3f}"}
+            values["phase"] = self._approach.phase
         return values
 
     def _on_start(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
@@ -103,6 +101,7 @@ class GuidanceNode(SuiteNode):
         self.follower.reset()
         self.limits.reset()
         self._last_usable, self._rejoining, self._clock_went_back = None, False, False
+        self._approach, self._blind = ApproachWatch(), 0.0
         self._begins = True
 
     def _restart(self) -> None:
@@ -116,18 +115,32 @@ class GuidanceNode(SuiteNode):
         if self._last_usable is None or now < self._last_usable:
             self._clock_went_back = self._last_usable is not None
             self._last_usable = now
-        if now - self._last_usable > self.state.config.hold_after:
-            why = self.health.last_refusal
-            reason = f"no usable navigation for {self.state.config.hold_after:g} s"
-            self.state.navigation_lost(f"{reason} ({why})" if why else reason, now)
+        self._hold_after(now - self._last_usable)
         self.state.tick(now)
         self._tell()
+
+    def _hold_after(self, blind: float) -> None:
+        """Hold if there has been no usable navigation for `blind` seconds, and that is too long."""
+        if blind > self.state.config.hold_after:
+            why = self.health.last_refusal
+            reason = f"no usable navigation for {self.state.config.hold_after:g} s"
+            self.state.navigation_lost(f"{reason} ({why})" if why else reason, self.now())
+
+    def _look_for_gap(self, dt: float, usable: bool) -> None:
+        """Hold after a gap between stamps as after one in time: which is noticed first must not matter."""
+        self._blind += dt
+        if not self.parameters.lockstep:
+            self._hold_after(self._blind)
+            self._tell()
+        if usable:
+            self._blind = 0.0
 
     def _step(self, inputs: Inputs) -> None:
         navigation, water = inputs.navigation, inputs.water
         begins, self._begins = self._begins, False
         dt = 0.0 if begins else inputs.dt
         self._rejoining = (self._rejoining or inputs.moved) and not begins
+        self._look_for_gap(dt, water is not None)
         if water is None:
             self.health.warn("water", f"no fresh {topics.WATER_VELOCITY.name}")
         else:
@@ -143,6 +156,9 @@ class GuidanceNode(SuiteNode):
                 self.limits.rest()
             output = self.follower.update(navigation, water, inputs.current, 0.0 if self._rejoining else dt)
             self._rejoining = False
+            if news := self._approach.update(output.approach, dt):
+                self.get_logger().info(news)
+            self.health.warn("approach", self._approach.complaint(self.parameters.guidance.approach.overdue))
             broken = self.limits.broken(navigation, output.xe, output.ye, output.distance_to_go, dt)
             if output.finished:
                 self.state.complete()

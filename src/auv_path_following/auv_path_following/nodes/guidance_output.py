@@ -1,13 +1,32 @@
-"""What guidance answers to an odometry: its result as the contract's messages."""
+"""What guidance publishes: its path, and its result for each odometry, as the contract's messages."""
 
 from __future__ import annotations
 
+from nav_msgs.msg import Path
+
 from auv_msgs_py import topics
-from auv_msgs_py.conversions import PATH_FRAME, fill_pose, set_stamp
+from auv_msgs_py.conversions import PATH_FRAME, fill_pose, path_message, set_stamp
 from auv_msgs_py.frames import flip_yaw
 from auv_msgs_py.runtime import SuiteNode
 from auv_msgs_py.wire import Float64, PoseStamped, Vector3Stamped
 from auv_path_following.guidance.path_follower import GuidanceOutput
+from auv_path_following.paths.composite import CompositePath
+
+#: Distance between the poses of `path`, m.
+_PATH_SPACING = 1.0
+#: A path longer than so many metres is published in larger steps.
+_PATH_POSES = 20_000
+
+
+def whole_path(path: CompositePath, stamp: int) -> Path:
+    """Return a path as the message `path`.
+
+    Args:
+        path: the mission's.
+        stamp: ns.
+    """
+    points = (path.at(float(s)) for s in path.polyline(max(_PATH_SPACING, path.length / _PATH_POSES))[2])
+    return path_message([(point.x, point.y, point.chi) for point in points], stamp)
 
 
 class GuidanceMessages:

@@ -76,9 +76,11 @@ class HeadingAutopilotNode(SuiteNode):
         topic = topics.ODOM.name
         self._intake.under_way = self._command.thrust > 0.0
         navigation, dt, stamp, _, moved = self._intake.take(message)
-        if moved:
+        free = not self.parameters.lockstep
+        # A gap between stamps as one in time: which is noticed first must not matter.
+        if moved or (free and dt > self.parameters.odometry_timeout):
             self.autopilot.reset()
-        if not self.parameters.lockstep and topic in self._pairing:
+        if free and topic in self._pairing:
             self._answer(*self._pairing.take())
         self._put(topic, (navigation, dt), stamp)
 

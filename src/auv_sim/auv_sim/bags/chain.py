@@ -6,6 +6,7 @@ that has travelled as yaw_enu is not the same number as before, in its last bit.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -20,6 +21,7 @@ from auv_msgs_py.frames import FrameTable, flip_yaw
 from auv_msgs_py.stamps import StampGuard, Verdict
 from auv_msgs_py.types import Reference, WaterVelocity
 from auv_path_following.control.autopilot import HeadingAutopilot
+from auv_path_following.guidance.approach import agility_of
 from auv_path_following.guidance.current_observer import CurrentObserver
 from auv_path_following.guidance.path_follower import PathFollower
 from auv_path_following.paths.mission_file import Mission
@@ -61,6 +63,14 @@ class _Step(NamedTuple):
     water: Any | None
 
 
+class _Phase(NamedTuple):
+    """Whether the mission runs at an odometry, and whether it began anew or resumed after a hold there."""
+
+    runs: bool
+    begins: bool
+    resumes: bool
+
+
 def answers(
     bag: Bag, parameters: dict[str, Any], mission: Mission, vehicle: Vehicle, namespace: str | None
 ) -> Answers:
@@ -88,7 +98,7 @@ def answers(
     rows, kept = [], []
     chain = _Chain(parameters, mission, vehicle)
     for k, step in enumerate(steps):
-        answer = chain.step(step, *running[k])
+        answer = chain.step(step, running[k])
         if answer is not None:
             rows.append(answer)
             kept.append(k)
@@ -109,15 +119,24 @@ class _Chain:
         self._frames = FrameTable(guidance.frames)
         self._guard = StampGuard(ordered=guidance.lockstep)
         self._observer = CurrentObserver(parameters[topics.OBSERVER].observer)
-        self._follower = PathFollower(mission.path, guidance.guidance)
+        agility = agility_of(vehicle, mission.thrust)
+        self._follower = PathFollower(mission.path, guidance.guidance, agility)
         self._autopilot = HeadingAutopilot(vehicle, parameters[topics.AUTOPILOT].autopilot)
         self._complete = False
+        # In lockstep a node's watchdogs rest, and so do these bounds.
+        self._longest_gap = math.inf if guidance.lockstep else guidance.holding.hold_after
+        self._autopilots_gap = (
+            math.inf if guidance.lockstep else parameters[topics.AUTOPILOT].odometry_timeout
+        )
+        self._blind, self._held = 0.0, False
 
-    def step(self, step: _Step, running: bool, begins: bool) -> Answer | None:
+    def step(self, step: _Step, mission: _Phase) -> Answer | None:
         """The answer; None to an odometry that the nodes refuse too."""
+        begins = mission.begins
         if begins:
             self._follower.reset()
             self._complete = False
+            self._blind, self._held = 0.0, False
         try:
             navigation = navigation_from(step.odometry, self._frames, topics.ODOM.name)
             water = self._water(step.water)
@@ -131,9 +150,18 @@ class _Chain:
             self._follower.reset()
             self._autopilot.reset()
         self._observer.update(navigation, water, dt)
-        running = running and not self._complete
+        since = 0.0 if begins else dt
+        self._blind += since
+        self._held = self._held or mission.resumes or self._blind > self._longest_gap
+        if dt > self._autopilots_gap:
+            self._autopilot.reset()
+        running = mission.runs and not self._complete
         if running and water is not None:
-            output = self._follower.update(navigation, water, self._observer.current, 0.0 if begins else dt)
+            if self._held and not begins:
+                self._follower.rejoin(navigation)
+                since = 0.0
+            self._blind, self._held = 0.0, False
+            output = self._follower.update(navigation, water, self._observer.current, since)
             self._complete = output.finished
             running = not output.finished
         else:
@@ -195,8 +223,8 @@ def _column(
     return column
 
 
-def _running(bag: Bag, namespace: str | None, thrust: NDArray[np.float64]) -> list[tuple[bool, bool]]:
-    """For each odometry whether the mission ran, and whether it began anew there.
+def _running(bag: Bag, namespace: str | None, thrust: NDArray[np.float64]) -> list[_Phase]:
+    """The mission's phase at each odometry.
 
     The thrust that guidance asked for tells exactly from which odometry on a mission ran. Where it falls to 0
     because the path's end was reached, that odometry was still guided; after an abort it was not.
@@ -206,16 +234,17 @@ def _running(bag: Bag, namespace: str | None, thrust: NDArray[np.float64]) -> li
     place, ran, rows = 0, False, []
     for value in thrust:
         runs = bool(value > 0.0)
-        begins = guided = False
+        begins = resumes = guided = False
         if runs and not ran:
             before = words[place - 1] if 0 < place <= len(words) else ""
             while place < len(words) and words[place] != "running":
                 before = words[place]
                 place += 1
-            begins = before != "holding"
+            resumes = before == "holding"
+            begins = not resumes
             place += 1
         elif ran and not runs:
             guided = place >= len(words) or words[place] == "complete"
-        rows.append((runs or guided, begins))
+        rows.append(_Phase(runs or guided, begins, resumes))
         ran = runs
     return rows

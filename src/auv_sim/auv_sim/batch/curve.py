@@ -14,11 +14,11 @@ import numpy.typing as npt
 from numpy.polynomial import chebyshev
 
 from auv_msgs_py.errors import ConfigurationError
+from auv_path_following.guidance.switching import counts_from
 from auv_path_following.paths.arc import Arc
 from auv_path_following.paths.closest import samples
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.line import Line
-from auv_path_following.paths.outline import last_stretch
 from auv_path_following.paths.reverse import Reversed
 from auv_path_following.paths.segment import Segment
 from auv_path_following.paths.spline import Spline
@@ -52,9 +52,10 @@ class Curve(NamedTuple):
 
 
 # Columns of `Curve.subpath`. A line: x0, y0, dx, dy; an arc: cx, cy, radius, a0, sweep; else the range of its
-# pieces and of its points. Then the joint at its end, whether that is G0, and from which t its circle counts.
-KIND, A, B, C, D, E, JOINT_X, JOINT_Y, CORNER, STRETCH = range(10)
-COLUMNS = 10
+# pieces and of its points. Then its length, the joint at its end, whether that is G0, and the t from which on
+# its circle counts.
+KIND, A, B, C, D, E, LENGTH, JOINT_X, JOINT_Y, CORNER, STRETCH = range(11)
+COLUMNS = 11
 FIRST_PIECE, END_OF_PIECES, FIRST_POINT, END_OF_POINTS = A, B, C, D
 START, SCALE, TABLE = 0, 1, 2
 SIGNALS = 6
@@ -89,8 +90,9 @@ def curve_of(path: CompositePath) -> Curve:
                     before[0], before[0] + len(pieces[-1]), before[1], before[1] + len(points[-1])
                 ]  # fmt: skip
             row[:E] = PIECES, *known[id(segment)]
+        row[LENGTH] = segment.length
     for row, segment, joint in zip(subpath, path.segments, path.joints, strict=False):
-        row[JOINT_X:] = joint.x, joint.y, joint.geometric == "G0", last_stretch(segment)
+        row[JOINT_X:] = joint.x, joint.y, joint.geometric == "G0", counts_from(segment)
     return Curve(subpath, np.concatenate(pieces), np.concatenate(points))
 
 

@@ -19,7 +19,9 @@ from typing import Any
 import numpy as np
 
 from auv_msgs_py import topics
+from auv_msgs_py.types import Navigation
 from auv_path_following import vehicle
+from auv_path_following.guidance.approach import approach_to
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.line import Line
 from auv_sim import closed_loop
@@ -66,11 +68,13 @@ def fly(
             curves[id(scenario.path)] = curve_of(scenario.path)
 
     def one(scenario: Scenario) -> dict[str, Any]:
+        figures = None
         if scenario.sea is None:
             flight = flights[id(scenario)]
             end, whole, subpaths, _ = _flown(flight, scenario, curves[id(scenario.path)], 0)
-            figures = figures_of(end, whole, subpaths, flight.dt)
-        else:
+            if not end.lost:
+                figures = figures_of(end, whole, subpaths, flight.dt)
+        if figures is None:
             figures = judged(closed_loop.fly(scenario), scenario)
         if done is not None:
             done(figures["steps"])
@@ -103,10 +107,11 @@ def track(scenario: Scenario, every: int = 1) -> Run:
     Raises:
         ConfigurationError: a scenario that cannot be flown.
     """
-    if scenario.sea is not None:
-        return closed_loop.fly(scenario).select(slice(None, None, every))
     flight = flight_of(scenario)
-    *_, rows = _flown(flight, scenario, curve_of(scenario.path), every)
+    if scenario.sea is None:
+        end, *_, rows = _flown(flight, scenario, curve_of(scenario.path), every)
+    if scenario.sea is not None or end.lost:
+        return closed_loop.fly(scenario).select(slice(None, None, every))
     step_ns = round(scenario.step * 1e9)
     t = [(topics.FIRST_STAMP_NS + int(k) * step_ns) * 1e-9 for k in rows[:, 0]]
     columns = {"t": t} | {name: rows[:, j] for j, name in enumerate(_TRACK, 1)}
@@ -116,10 +121,15 @@ def track(scenario: Scenario, every: int = 1) -> Run:
 
 def _flown(flight: Any, scenario: Scenario, curve: Curve, every: int) -> tuple[End, Any, Any, Any]:
     start = PlantState(*map(float, scenario.initial or start_of(scenario.path)))
+    path = None
+    if scenario.guidance.approach.enabled:
+        navigation = Navigation(start.x, start.y, start.psi, start.r)
+        path = approach_to(scenario.path.start_pose, navigation, flight.guidance.approach_radius)
+    approach = curve if path is None else curve_of(path)
     whole = np.empty(tally.FLIGHT_TALLIES)
     subpaths = np.empty((len(curve.subpath), tally.SUBPATH_TALLIES))
     rows = math.ceil(flight.steps / every) if every else 0
     kept = np.empty((rows, TRACK_COLUMNS))
     with np.errstate(all="ignore"):  # a state that runs away is a result
-        end = fly_one(flight, curve, start, whole, subpaths, kept, every)
+        end = fly_one(flight, approach, path is not None, curve, start, whole, subpaths, kept, every)
     return end, whole, subpaths, kept[: math.ceil(end.rows / every)] if every else kept

@@ -12,7 +12,7 @@ from auv_msgs_py.types import Current, Navigation, WaterVelocity
 from auv_sim.batch import tally
 from auv_sim.batch.compiled import compiled
 from auv_sim.batch.curve import Curve
-from auv_sim.batch.follow import FollowerState, follow
+from auv_sim.batch.follow import first_state, follow
 from auv_sim.batch.numbers import Flight
 from auv_sim.batch.path_point import distance_to
 from auv_sim.batch.shared import wrap
@@ -26,22 +26,40 @@ TRACK_COLUMNS = 18
 
 
 class End(NamedTuple):
-    """How a flight ended: its odometries, s, whether the state stayed finite, and the last state."""
+    """How a flight ended.
+
+    Attributes:
+        rows: odometries.
+        s: of Eq. (1).
+        finite: whether the state stayed finite.
+        lost: it needs an approach anew, and was not flown on.
+        state: the last one.
+    """
 
     rows: int
     s: float
     finite: bool
+    lost: bool
     state: PlantState
 
 
 @compiled
 def fly_one(
-    c: Flight, curve: Curve, state: PlantState, whole: Array, subpaths: Array, track: Array, every: int
+    c: Flight,
+    approach: Curve,
+    approaches: bool,
+    curve: Curve,
+    state: PlantState,
+    whole: Array,
+    subpaths: Array,
+    track: Array,
+    every: int,
 ) -> End:
     """Fly until the end of the path, the last step, or a state that is not finite.
 
     Args:
         c, curve: what is flown.
+        approach: flown before it, where it `approaches`; else any curve.
         state: the plant's first state.
         whole, subpaths: tallies, shape (FLIGHT_TALLIES,) and (n, SUBPATH_TALLIES); written.
         track: shape (rows, TRACK_COLUMNS), every `every`-th odometry; written; `every` 0 for none.
@@ -49,7 +67,7 @@ def fly_one(
     n = len(curve.subpath)
     current = Current(c.Vx, c.Vy)
     seen = ObserverState(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    follower = FollowerState(0, 0.0, 0.0, False, 0.0)
+    follower = first_state(approaches)
     pilot = AutopilotState(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     rudder = commanded = 0.0
     i, clear = -1, 0.0
@@ -60,16 +78,19 @@ def fly_one(
         water = WaterVelocity(state.ur, state.vr)
         seen = observe(c.observer, seen, navigation, water, since)
         follower, guided = follow(
-            c.guidance, curve, follower, navigation, water, Current(seen.Vx, seen.Vy), since
+            c.guidance, approach, curve, follower, navigation, water, Current(seen.Vx, seen.Vy), since
         )
+        if follower.lost:
+            return End(k + 1, 0.0, True, True, state)
         psi_e = wrap(state.psi - guided.psi_d)
         finished = follower.finished
         if not finished:
             pilot = steer(c.autopilot, pilot, navigation, guided.psi_d, guided.r_d, since)
         command = 0.0 if finished else pilot.rudder
-        s = follower.i + follower.t
-        if follower.i != i:
-            i, clear = follower.i, 0.0
+        at = 0 if follower.approaching else follower.i
+        s = 0.0 if follower.approaching else at + follower.t
+        if at != i:
+            i, clear = at, 0.0
         distance = distance_to(curve, i, state.x, state.y)
         if distance > clear:
             clear = _clearance(curve, n, i, state.x, state.y)
@@ -78,15 +99,15 @@ def fly_one(
         if finite:
             tally.count(whole, subpaths, i, k * c.dt, distance, psi_e, seen.Vx - c.Vx, seen.Vy - c.Vy)
         if every > 0 and k % every == 0:
-            at = k // every
-            track[at, 0], track[at, 1], track[at, 2], track[at, 3] = k, state.x, state.y, state.psi
-            track[at, 4], track[at, 5], track[at, 6], track[at, 7] = state.r, state.ur, state.vr, rudder
-            track[at, 8], track[at, 9] = command, 0.0 if finished else c.thrust
-            track[at, 10], track[at, 11] = guided.psi_d, guided.r_d
-            track[at, 12], track[at, 13], track[at, 14] = guided.xe, guided.ye, psi_e
-            track[at, 15], track[at, 16], track[at, 17] = s, seen.Vx, seen.Vy
+            row = track[k // every]
+            row[0], row[1], row[2], row[3] = k, state.x, state.y, state.psi
+            row[4], row[5], row[6], row[7] = state.r, state.ur, state.vr, rudder
+            row[8], row[9] = command, 0.0 if finished else c.thrust
+            row[10], row[11] = guided.psi_d, guided.r_d
+            row[12], row[13], row[14] = guided.xe, guided.ye, psi_e
+            row[15], row[16], row[17] = s, seen.Vx, seen.Vy
         if finished or not finite:
-            return End(k + 1, s, finite, state)
+            return End(k + 1, s, finite, False, state)
         if k > 0:
             tally.count_command(
                 whole, (command - commanded) / c.dt, abs(command) >= c.autopilot.max_angle - 1e-12
@@ -99,7 +120,7 @@ def fly_one(
         clear -= covered
         if k + 1 < c.steps:
             tally.count_step(subpaths, i, c.dt, abs(rudder - rudder_before), covered)
-    return End(c.steps, s, finite, before)  # the way after the last odometry is nobody's
+    return End(c.steps, s, finite, False, before)  # the way after the last odometry is nobody's
 
 
 @compiled

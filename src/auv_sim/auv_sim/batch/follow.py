@@ -6,20 +6,44 @@ import math
 from typing import NamedTuple
 
 from auv_msgs_py.types import Current, Navigation, WaterVelocity
+from auv_path_following.guidance.approach import NEAR
 from auv_path_following.guidance.law import LawInputs
+from auv_path_following.guidance.path_follower import LONGEST_STEP
 from auv_sim.batch.compiled import compiled
-from auv_sim.batch.curve import CORNER, JOINT_X, JOINT_Y, STRETCH, Curve
+from auv_sim.batch.curve import CORNER, JOINT_X, JOINT_Y, LENGTH, STRETCH, Curve
 from auv_sim.batch.numbers import Guidance
 from auv_sim.batch.path_point import evaluate
-from auv_sim.batch.shared import ailos_update, los_update, path_errors, tangential_speed, wrap
+from auv_sim.batch.shared import (
+    ailos_update,
+    is_at,
+    los_update,
+    path_errors,
+    saturated,
+    tangential_speed,
+    wrap,
+)
 
 
 class FollowerState(NamedTuple):
-    """Of `VirtualPoint` (subpath i, t on it, its rate, whether the path ended) and of ILOS (its integral)."""
+    """Of `PathFollower`, its `VirtualPoint` and ILOS.
 
+    Attributes:
+        approaching: P is on the approach, not on the path; i and t are of the approach then.
+        lost: the vehicle needs another approach, which compiled code does not plan.
+        joined: the vehicle has been near P on this subpath.
+        i, t: subpath (from 0) and place on it.
+        t_rate, metres_per_t: P's speed in t, and the path's there.
+        finished: the path has ended.
+        integral: of ILOS.
+    """
+
+    approaching: bool
+    lost: bool
+    joined: bool
     i: int
     t: float
     t_rate: float
+    metres_per_t: float
     finished: bool
     integral: float
 
@@ -34,8 +58,15 @@ class Guided(NamedTuple):
 
 
 @compiled
+def first_state(approaches: bool) -> FollowerState:
+    """As after `PathFollower.reset`, the approach being planned."""
+    return FollowerState(approaches, False, False, 0, 0.0, 0.0, 0.0, False, 0.0)
+
+
+@compiled
 def follow(
     c: Guidance,
+    approach: Curve,
     curve: Curve,
     state: FollowerState,
     navigation: Navigation,
@@ -43,23 +74,17 @@ def follow(
     current: Current,
     dt: float,
 ) -> tuple[FollowerState, Guided]:
-    """One step of guidance."""
-    n = len(curve.subpath)
-    i, t, finished = state.i, state.t, state.finished
+    """One step of guidance: `PathFollower.update`."""
+    dt = min(dt, LONGEST_STEP)
     if not c.compensate_current:
         current = Current(0.0, 0.0)
-
-    t += state.t_rate * dt  # VirtualPoint.move
-    if t < 0.0:
-        t = 0.0
-    go_on = t >= 1.0 and not finished
-    if go_on:
-        i, t, finished = _next(n, i)
-    if not finished and _reached(c, curve, navigation, i, t):
-        i, t, finished = _next(n, i)
-    point = evaluate(curve, i, t)
+    approaching, lost, joined, i, t, finished = _moved(c, approach, curve, state, navigation, dt)
+    point = evaluate(approach, i, t) if approaching else evaluate(curve, i, t)
     chi_p = math.atan2(point.dy, point.dx)
     xe, ye = path_errors(navigation, point, chi_p)
+    off = math.hypot(xe, ye)
+    lost = lost or (approaching and off > c.approach_radius)
+    joined = joined or (not approaching and off <= NEAR)
 
     Ur = math.hypot(water.ur, water.vr)
     beta_r = math.atan2(water.vr, water.ur)
@@ -74,24 +99,67 @@ def follow(
     else:
         psi_d = los_update(c.los, inputs, dt).psi_d
 
-    U_P = tangential_speed(c.k, xe, navigation.psi, water, chi_p, current)
+    U_P = tangential_speed(c.k, saturated(xe, c.saturation), navigation.psi, water, chi_p, current)
     speed = math.hypot(point.dx, point.dy)
     t_rate = U_P / speed
     if finished or (t <= 0.0 and U_P < 0.0):
-        t_rate = U_P = 0.0
+        t_rate = U_P = speed = 0.0
+    after = FollowerState(approaching, lost, joined, i, t, t_rate, speed, finished, integral)
     if finished:
-        return FollowerState(i, t, t_rate, finished, integral), Guided(navigation.psi, 0.0, xe, ye)
+        return after, Guided(navigation.psi, 0.0, xe, ye)
     squared = point.dx * point.dx + point.dy * point.dy
     kappa = (point.dx * point.ddy - point.dy * point.ddx) / (squared * math.sqrt(squared))
-    return FollowerState(i, t, t_rate, finished, integral), Guided(wrap(psi_d), kappa * U_P, xe, ye)
+    r_d = min(max(kappa * U_P, -c.turn_rate), c.turn_rate)
+    return after, Guided(wrap(psi_d), r_d, xe, ye)
 
 
 @compiled
-def _next(n: int, i: int) -> tuple[int, float, bool]:
-    """`VirtualPoint.go_on`: subpath, t, whether the path ended."""
-    if i + 1 >= n:
-        return i, 1.0, True
-    return i + 1, 0.0, False
+def _moved(
+    c: Guidance, approach: Curve, curve: Curve, state: FollowerState, navigation: Navigation, dt: float
+) -> tuple[bool, bool, bool, int, float, bool]:
+    """`Progress.move`: whether approaching, lost and joined; subpath, t on it, whether the path ended."""
+    along = approach if state.approaching else curve
+    t = max(state.t + state.t_rate * dt, 0.0)
+    if t < 1.0 or state.finished:
+        i, finished, beyond = state.i, state.finished, 0.0
+    else:
+        i, t, finished, beyond = _next(along, state.i, (t - 1.0) * state.metres_per_t)
+    if state.approaching:
+        if not finished:
+            return True, False, False, i, t, False
+        start = evaluate(curve, 0, 0.0)
+        x, y, psi, _ = navigation
+        if not is_at(x, y, psi, start.x, start.y, math.atan2(start.dy, start.dx)):
+            return True, True, False, i, t, False
+        i, t, finished, _ = _onwards(curve, 0, beyond)
+        return False, False, False, i, t, finished
+    joined = state.joined and i == state.i
+    if not finished and state.joined and _reached(c, curve, navigation, i, t):
+        i, t, finished, _ = _next(curve, i, 0.0)
+        joined = False
+    return False, False, joined, i, t, finished
+
+
+@compiled
+def _onwards(curve: Curve, i: int, way: float) -> tuple[int, float, bool, float]:
+    """`VirtualPoint.advance`: subpath, t, whether the path ended, and how many metres beyond."""
+    while True:
+        start = evaluate(curve, i, 0.0)
+        t = way / math.hypot(start.dx, start.dy)
+        if t < 1.0:
+            return i, t, False, 0.0
+        way = max(way - curve.subpath[i, LENGTH], 0.0)
+        if i + 1 >= len(curve.subpath):
+            return i, 1.0, True, way
+        i += 1
+
+
+@compiled
+def _next(curve: Curve, i: int, way: float) -> tuple[int, float, bool, float]:
+    """`VirtualPoint.go_on`, and on by `way` metres: as `_onwards`."""
+    if i + 1 >= len(curve.subpath):
+        return i, 1.0, True, way
+    return _onwards(curve, i + 1, way)
 
 
 @compiled

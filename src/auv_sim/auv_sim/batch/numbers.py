@@ -112,12 +112,15 @@ class Plant(NamedTuple):
 
 
 class Guidance(NamedTuple):
-    """`PathFollowerConfig`; `law` and `switching` are indices of `LAWS` and `SWITCHING`."""
+    """`PathFollowerConfig` and `Agility`; `law` and `switching` are indices of `LAWS` and `SWITCHING`."""
 
     law: int
     compensate_current: bool
     minimum_speed: float
     k: float
+    saturation: float
+    approach_radius: float
+    turn_rate: float
     switching: int
     radius: float
     ailos: Configured

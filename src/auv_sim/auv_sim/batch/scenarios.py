@@ -6,6 +6,7 @@ from auv_msgs_py.errors import ConfigurationError
 from auv_path_following.control.autopilot import HeadingAutopilot
 from auv_path_following.control.hull_model import HullModel
 from auv_path_following.control.nism import Nism
+from auv_path_following.guidance.approach import Agility, agility_of, turn_radius
 from auv_path_following.guidance.current_observer import transition
 from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_sim.batch.numbers import (
@@ -49,7 +50,7 @@ def flight_of(scenario: Scenario) -> Flight:
             max_step=RemusPlant.MAX_STEP,
             thrust=float(min(ordered, c.vehicle.thrust_max)),
         ),
-        guidance=_guidance(c.guidance),
+        guidance=_guidance(c.guidance, agility_of(believed, c.thrust)),
         observer=Observer(*transition(c.observer.k_ob1, c.observer.k_ob2, dt)),
         autopilot=Autopilot(
             controller=CONTROLLERS.index(c.autopilot.controller),
@@ -72,12 +73,15 @@ def flight_of(scenario: Scenario) -> Flight:
     )
 
 
-def _guidance(config: PathFollowerConfig) -> Guidance:
+def _guidance(config: PathFollowerConfig, agility: Agility) -> Guidance:
     return Guidance(
         law=LAWS.index(config.law),
         compensate_current=config.compensate_current,
         minimum_speed=float(config.minimum_speed),
         k=float(config.virtual_point.k),
+        saturation=float(config.virtual_point.saturation),
+        approach_radius=float(turn_radius(config.approach, agility, config.lookahead)),
+        turn_rate=float(agility.turn_rate),
         switching=SWITCHING.index(config.switching.mode),
         radius=float(config.switching.radius),
         ailos=Configured(numbers_of(config.ailos)),

@@ -9,6 +9,7 @@ from auv_path_following.control import nism
 from auv_path_following.control.hull_model import HullModel
 from auv_path_following.control.reference_model import ReferenceModel
 from auv_path_following.guidance import adaptive_lookahead, ailos, virtual_point
+from auv_path_following.guidance import approach as guidance_approach
 from auv_path_following.guidance.ailos import Ailos
 from auv_path_following.guidance.los import Los
 from auv_sim.batch.compiled import part
@@ -16,7 +17,9 @@ from auv_sim.plant import remus
 from auv_sim.plant.remus import RemusDynamics
 
 wrap = part(angles.wrap)
+is_at = part(guidance_approach.is_at)
 path_errors = part(virtual_point.path_errors)
+saturated = part(virtual_point.saturated)
 tangential_speed = part(virtual_point.tangential_speed)
 adaptive_delta = part(adaptive_lookahead.adaptive_lookahead)
 adaptive_offset = part(ailos.adaptive_offset)

@@ -85,6 +85,7 @@ class Flight:
         autopilot = parameters[topics.AUTOPILOT].autopilot
         switching = dataclasses.replace(guidance.switching, mode=self.switching)
         guidance = dataclasses.replace(guidance, switching=switching, compensate_current=self.compensated)
+        guidance = changed(guidance, {"approach.enabled": False})  # the paper's P waits at the path's start
         if self.law is not None:
             guidance = dataclasses.replace(guidance, law=self.law)
         if self.controller is not None:

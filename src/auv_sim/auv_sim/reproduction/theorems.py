@@ -42,8 +42,8 @@ def theorem_1(config: PathFollowerConfig, current: Current) -> dict[str, Checked
     path = CompositePath([Line(0.0, 0.0, 400.0, 0.0)])
     follower = PathFollower(path, config)
     water = WaterVelocity(_SPEED, 0.0)
-    x, y, rows = 20.0, 4.0, []
-    # P starts at the line's beginning: xe = 20 m and ye = 4 m decay side by side.
+    x, y, rows = 5.0, 4.0, []
+    # P starts at the line's beginning: xe = 5 m (k xe is not saturated) and ye = 4 m decay side by side.
     for k in range(int(60.0 / _STEP)):
         psi = 0.0
         for _ in range(2):  # psi_d does not depend on psi: the second look is with psi = psi_d
