@@ -8,7 +8,7 @@ from typing import NamedTuple
 from auv_msgs_py.angles import wrap
 from auv_msgs_py.settings import setting, settings
 from auv_msgs_py.types import Navigation
-from auv_path_following.control.hull_model import HullModel
+from auv_path_following.control.hull_model import tightest_turn
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.dubins import Pose, connect
 from auv_path_following.vehicle import Vehicle
@@ -52,12 +52,10 @@ def agility_of(vehicle: Vehicle, thrust: float) -> Agility:
     """Return what a vehicle's file says of its agility at a thrust in N.
 
     Raises:
-        ConfigurationError: neither its hull nor its turning is known.
+        ConfigurationError: no turn of the hull is steady, and none was measured.
     """
-    speed = vehicle.speed_at(min(thrust, vehicle.thrust_max))
-    if vehicle.turning is not None:
-        return Agility(speed, speed / vehicle.turning.radius)
-    return Agility(speed, HullModel(vehicle).steady_turn(speed))
+    thrust = min(thrust, vehicle.thrust_max)
+    return Agility(vehicle.speed_at(thrust), tightest_turn(vehicle, thrust).rate)
 
 
 def turn_radius(config: ApproachConfig, agility: Agility, lookahead: float) -> float:
