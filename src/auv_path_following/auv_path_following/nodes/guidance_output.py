@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nav_msgs.msg import Path
+from typing import Any
 
 from auv_msgs_py import topics
 from auv_msgs_py.conversions import PATH_FRAME, fill_pose, path_message, set_stamp
@@ -18,7 +18,7 @@ _PATH_SPACING = 1.0
 _PATH_POSES = 20_000
 
 
-def whole_path(path: CompositePath, stamp: int) -> Path:
+def whole_path(path: CompositePath, stamp: int) -> Any:
     """Return a path as the message `path`.
 
     Args:
