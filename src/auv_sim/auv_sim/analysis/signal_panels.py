@@ -17,7 +17,8 @@ def cross_track(axes: Axes, time: Column, flown: Run, path: CompositePath) -> No
     """How far from the path: the geometric distance, and the error that guidance works on, Eq. (20)."""
     style(axes, "distance (m)")
     distance = path.distance(*flown.track, flown.subpath(path.n))
-    axes.fill_between(time, distance, color=PATH, alpha=0.6, linewidth=0.0, label="distance to the path")
+    label = "true distance to the path" if np.isfinite(flown.x_true).any() else "distance to the path"
+    axes.fill_between(time, distance, color=PATH, alpha=0.6, linewidth=0.0, label=label)
     _line(axes, time, flown.ye, BLUE, "cross-track error ye (starboard positive)")
     _spread(axes, 0.1)
     _legend(axes)

@@ -11,14 +11,15 @@ from rich import box
 from rich.markup import escape
 from rich.table import Table
 
-from auv_msgs_py import yaml_file
 from auv_msgs_py.errors import ConfigurationError
+from auv_sim.analysis.by_odometry import ByOdometry
 from auv_sim.analysis.metrics import MissionSummary
 from auv_sim.bags.arguments import add_choice
 from auv_sim.bags.compare_picture import draw
-from auv_sim.bags.flight import PARAMS, Flight, configuration, flight_of
+from auv_sim.bags.flight import flight_of
+from auv_sim.bags.flown_settings import differences
 from auv_sim.command_line import console as terminal
-from auv_sim.command_line import target
+from auv_sim.command_line import go_on, target, to_type, wrote
 from auv_sim.recording.bag import read_bag
 
 #: Field of the summary, heading, digits.
@@ -31,6 +32,10 @@ _FIGURES = (
     ("rudder_travel_per_metre", "rudder °/m", 4),
     ("mean_speed", "speed m/s", 3),
 )
+
+
+#: Longer values are cut in the table, characters.
+_LONG = 60
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -64,7 +69,8 @@ def run(arguments: argparse.Namespace) -> int:
         flights.append(flight)
     labels = _labels(arguments.bag)
     summaries = [flight.summary for flight in flights if flight.summary is not None]
-    settings = _settings(flights)
+    opinions = [flight.by_odometry for flight in flights]
+    settings = differences([flight.bag for flight in flights])
     try:
         draw(flights, labels, arguments.png)
     except OSError as error:
@@ -74,18 +80,23 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         data = {
             "runs": {label: json.loads(s.to_json()) for label, s in zip(labels, summaries, strict=True)},
+            "by_odometry": {
+                label: {"rms_distance": found.rms, "largest_distance": found.largest} if found else None
+                for label, found in zip(labels, opinions, strict=True)
+            },
             "settings": settings,
         }
         print(json.dumps(data, indent=2, allow_nan=False))
         return 0
     console = terminal()
-    console.print(_table(labels, summaries))
+    console.print(_table(labels, summaries, opinions))
     console.print(_subpaths(labels, summaries))
     if settings:
         console.print(_settings_table(labels, settings))
     else:
         console.print("[dim]the same parameters in all of them[/dim]")
-    console.print(str(arguments.png), soft_wrap=True)
+    wrote(console, arguments.png, "tracks and signals laid over each other")
+    go_on(console, "Look into one of them", to_type("bag.py", "report", arguments.bag[-1]))
     return 0
 
 
@@ -96,13 +107,15 @@ def _labels(paths: list[Path]) -> list[str]:
     return names if len(set(names)) == len(names) else [str(path) for path in paths]
 
 
-def _table(labels: list[str], summaries: list[MissionSummary]) -> Table:
+def _table(labels: list[str], summaries: list[MissionSummary], opinions: list[ByOdometry | None]) -> Table:
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     table.add_column("run")
     for _, heading, _ in _FIGURES:
         table.add_column(heading, justify="right")
+    if any(opinions):
+        table.add_column("rms by odometry m", justify="right")
     first = summaries[0]
-    for label, summary in zip(labels, summaries, strict=True):
+    for label, summary, opinion in zip(labels, summaries, opinions, strict=True):
         cells = []
         for name, _, digits in _FIGURES:
             value, base = getattr(summary, name), getattr(first, name)
@@ -111,6 +124,8 @@ def _table(labels: list[str], summaries: list[MissionSummary]) -> Table:
                 change = 100.0 * (value - base) / abs(base)
                 text += f"\n[dim]{change:+.1f} %[/dim]"
             cells.append(text)
+        if any(opinions):
+            cells.append(f"{opinion.rms:.4f}" if opinion else "-")
         table.add_row(escape(label), *cells)
     return table
 
@@ -127,29 +142,16 @@ def _subpaths(labels: list[str], summaries: list[MissionSummary]) -> Table:
     return table
 
 
-def _settings(flights: list[Flight]) -> dict[str, list[str | None]]:
-    """Parameters that are not the same in all runs: name -> value in each."""
-    flat: list[dict[str, str]] = []
-    for flight in flights:
-        values: dict[str, str] = {}
-        with configuration(flight.bag) as directory:
-            if (directory / PARAMS).exists():
-                for node, body in yaml_file.parse(directory / PARAMS).items():
-                    for name, value in body.get("ros__parameters", {}).items():
-                        values[f"{str(node).rsplit('/', 1)[-1]} {name}"] = str(value)
-        flat.append(values)
-    names = sorted(set().union(*flat))
-    # Where files lay on the disk is no setting.
-    names = [n for n in names if n.split()[-1] not in ("directory", "mission", "vehicle")]
-    found = {name: [values.get(name) for values in flat] for name in names}
-    return {name: values for name, values in found.items() if len(set(values)) > 1}
-
-
 def _settings_table(labels: list[str], settings: dict[str, list[str | None]]) -> Table:
     table = Table(title="parameters that differ", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
     table.add_column("parameter")
     for label in labels:
         table.add_column(escape(label), justify="right")
     for name, values in settings.items():
-        table.add_row(name, *[value if value is not None else "-" for value in values])
+        table.add_row(escape(name), *["-" if value is None else _cell(value) for value in values])
     return table
+
+
+def _cell(value: str) -> str:
+    """A value in a table: long lists are cut, for only their difference counts."""
+    return escape(value if len(value) <= _LONG else f"{value[:_LONG]}…")

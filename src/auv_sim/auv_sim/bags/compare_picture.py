@@ -19,6 +19,8 @@ _COLOURS = (BLUE, ORANGE, GREEN, RED, "#7b4fa3", "#8a6d3b", "#2b8c9e", "#55606b"
 def draw(flights: list[Flight], labels: list[str], png: Path) -> None:
     """Tracks over the path, and signals over s, so that runs of different speed lie on each other.
 
+    Track and distance are the true ones, where they were recorded, with the odometry's beside them.
+
     Raises:
         OSError: the picture cannot be written.
     """
@@ -44,8 +46,19 @@ def draw(flights: list[Flight], labels: list[str], png: Path) -> None:
             tracks.plot(y, x, color=PATH, linewidth=6.0, solid_capstyle="round", zorder=1)
         flown = under_way(run, mission.path.n)
         look: dict[str, Any] = {"color": _COLOURS[k % len(_COLOURS)], "linewidth": 1.3, "label": label}
-        tracks.plot(flown.y, flown.x, **look)
-        distance = mission.path.distance(flown.x, flown.y, flown.subpath(mission.path.n))
+        x, y = flown.track
+        index = flown.subpath(mission.path.n)
+        tracks.plot(y, x, **look)
+        distance = mission.path.distance(x, y, index)
+        if np.isfinite(flown.x_true).any():
+            assumed = {
+                **look,
+                "linewidth": 0.9,
+                "linestyle": (0, (2, 2)),
+                "label": f"{label}, by its odometry",
+            }
+            tracks.plot(flown.y, flown.x, **assumed)
+            rows[0].plot(flown.s, mission.path.distance(flown.x, flown.y, index), **assumed)
         rudder = flown.rudder if np.isfinite(flown.rudder).any() else flown.rudder_cmd
         signals = (
             distance,

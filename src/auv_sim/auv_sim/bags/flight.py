@@ -14,6 +14,7 @@ from auv_path_following import config_files, vehicle
 from auv_path_following.paths import mission_file
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
+from auv_sim.analysis.by_odometry import ByOdometry, by_odometry
 from auv_sim.analysis.metrics import MissionSummary, summarise
 from auv_sim.analysis.run import Run
 from auv_sim.parameters import SUITE
@@ -50,6 +51,13 @@ class Flight:
         if self.run is None or self.mission is None:
             return None
         return summarise(self.run, self.mission.path)
+
+    @property
+    def by_odometry(self) -> ByOdometry | None:
+        """The distances that the vehicle's odometry shows, where the true ones are known beside them."""
+        if self.run is None or self.mission is None:
+            return None
+        return by_odometry(self.run, self.mission.path)
 
 
 def flight_of(bag: Bag, mission: str | None = None, namespace: str | None = None) -> Flight:

@@ -21,6 +21,7 @@ from auv_sim.bags.events import Event, events_of
 from auv_sim.bags.flight import Flight, flight_of
 from auv_sim.bags.topic_facts import TopicFacts, facts_of
 from auv_sim.command_line import console as terminal
+from auv_sim.command_line import go_on, to_type
 from auv_sim.recording.bag import Bag, read_bag
 from auv_sim.recording.bag_files import storage_of
 from auv_sim.recording.metadata import METADATA_FILE
@@ -54,7 +55,17 @@ def run(arguments: argparse.Namespace) -> int:
         print(json.dumps(as_data(flight, facts, events), indent=2, allow_nan=False))
     else:
         inspect_tables.show(flight, facts, events, console)
+        go_on(console, *_next(flight, arguments.bag[0]))
     return 0
+
+
+def _next(flight: Flight, path: Path) -> tuple[str, str]:
+    """What follows, and its command."""
+    if flight.bag.notes:
+        return "Make it whole", to_type("bag.py", "repair", path)
+    if flight.run is not None:
+        return "Look further", to_type("bag.py", "report", path)
+    return "Play it into a live graph", to_type("bag.py", "replay", path)
 
 
 def _wanted(_: str, type_name: str) -> bool:
@@ -99,6 +110,9 @@ def _many(bags: list[Path], arguments: argparse.Namespace, console: Console) -> 
         print(json.dumps(data, indent=2, allow_nan=False))
     else:
         inspect_tables.show_many(rows, console)
+        readable = [path for path, flight, _ in rows if flight is not None]
+        if readable:
+            go_on(console, "Look into one of them", to_type("bag.py", "inspect", readable[-1]))
     if all(flight is None for _, flight, _ in rows):
         print("none of them can be read", file=sys.stderr)
         return 2
@@ -109,7 +123,7 @@ def as_data(flight: Flight, facts: list[TopicFacts], events: list[Event]) -> dic
     """Everything that the tables show, for programs; unknown values are null."""
     bag: Bag = flight.bag
     first, last = bag.span_ns
-    summary = flight.summary
+    summary, own = flight.summary, flight.by_odometry
     return {
         "path": str(bag.path),
         "files": [file.name for file in bag.files],
@@ -120,5 +134,6 @@ def as_data(flight: Flight, facts: list[TopicFacts], events: list[Event]) -> dic
         "notes": [*bag.notes, *flight.notes],
         "topics": [dataclasses.asdict(fact) for fact in facts],
         "mission": json.loads(summary.to_json()) if summary is not None else None,
+        "by_odometry": {"rms_distance": own.rms, "largest_distance": own.largest} if own else None,
         "events": [dataclasses.asdict(event) for event in events],
     }

@@ -40,6 +40,8 @@ def show(flight: Flight, facts: list[TopicFacts], events: list[Event], console: 
     summary = flight.summary
     if summary is not None and flight.mission is not None:
         console.print(mission(summary, flight.mission.name))
+        if (own := flight.by_odometry) is not None:
+            console.print(f"distance by odometry: rms {own.rms:.3f} m, largest {own.largest:.3f} m")
     elif flight.run is not None and flight.run.steps > 1:
         run = flight.run
         length = float(np.hypot(np.diff(run.x), np.diff(run.y)).sum())
@@ -56,9 +58,9 @@ def _topics(facts: list[TopicFacts]) -> Table:
         table.add_column(heading, justify="right", no_wrap=True)
     for f in facts:
         table.add_row(
-            f.name, f.type.replace("/msg/", "/"), str(f.count), _number(f.rate, 2), _alarm(f.gaps),
-            _number(f.longest_gap, 3), _number(f.jitter, 2), _alarm(f.out_of_order), _alarm(f.lost),
-            size(f.bytes),
+            escape(f.name), escape(f.type.replace("/msg/", "/")), str(f.count), _number(f.rate, 2),
+            _alarm(f.gaps), _number(f.longest_gap, 3), _number(f.jitter, 2), _alarm(f.out_of_order),
+            _alarm(f.lost), size(f.bytes),
         )  # fmt: skip
     return table
 

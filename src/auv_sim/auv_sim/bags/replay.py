@@ -9,6 +9,7 @@ import argparse
 from pathlib import Path
 
 from auv_msgs_py.errors import ConfigurationError
+from auv_sim.command_line import console as terminal
 from auv_sim.command_line import not_negative, positive
 from auv_sim.recording.bag import read_bag
 from auv_sim.recording.playback import Player, Selected, select
@@ -59,5 +60,5 @@ def run(arguments: argparse.Namespace) -> int:
     )
     length = f"{chosen.length:.1f} s at {arguments.rate:g}x"
     print(f"{len(chosen.topics)} topics, {len(chosen.messages)} messages, {length}")
-    with Player(chosen, arguments.rate, arguments.clock) as player:
+    with Player(chosen, arguments.rate, arguments.clock, terminal()) as player:
         return player.play(arguments.delay, arguments.loop, arguments.start_paused)

@@ -16,9 +16,18 @@ from auv_sim.bags.events import events_of
 from auv_sim.bags.flight import Flight, flight_of
 from auv_sim.bags.report_data import page_data
 from auv_sim.bags.report_pictures import pictures
+from auv_sim.command_line import console as terminal
+from auv_sim.command_line import go_on, to_type, wrote
 from auv_sim.recording.bag import Bag, read_bag
 
 PAGE = "report.html"
+#: What each file is for.
+_WHAT = {
+    PAGE: "everything, for a browser",
+    "overview.png": "the mission in one picture",
+    "track.png": "the track",
+    "signals.png": "the signals over time",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -47,8 +56,13 @@ def run(arguments: argparse.Namespace) -> int:
         written = [page, *pictures(flight, directory, _title(flight))]
     except OSError as error:
         raise ConfigurationError(str(directory), f"{error.strerror}", "a place to write to") from None
+    console = terminal()
     for file in written:
-        print(file)
+        wrote(console, file, _WHAT[file.name])
+    if flight.summary is not None:
+        go_on(console, "Try other gains on it", to_type("bag.py", "rerun", arguments.bag, params="NEW.yaml"))
+    else:
+        go_on(console, "Every number in one table", to_type("bag.py", "export", arguments.bag))
     return 0
 
 

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from auv_msgs_py import topics
 from auv_msgs_py.errors import ConfigurationError
+from auv_path_following.paths.composite import CompositePath
+from auv_sim.analysis.by_odometry import ByOdometry
 from auv_sim.analysis.metrics import MissionSummary, SubpathSummary
 from auv_sim.analysis.run import Run
 from auv_sim.bags.events import Event, diagnostic_spans
@@ -18,7 +20,7 @@ from auv_sim.bags.flight import Flight, texts_of
 from auv_sim.recording.bag import Bag
 from auv_sim.recording.load import messages_of
 
-_DEGREES = ("psi", "r", "rudder", "rudder_cmd", "psi_d", "r_d", "psi_e")
+_DEGREES = ("psi", "psi_true", "r", "rudder", "rudder_cmd", "psi_d", "r_d", "psi_e")
 
 
 def page_data(flight: Flight, events: list[Event], title: str) -> dict[str, Any]:
@@ -26,12 +28,12 @@ def page_data(flight: Flight, events: list[Event], title: str) -> dict[str, Any]
     run = flight.run
     start = float(run.t[0]) if run is not None and run.steps else flight.bag.span_ns[0] * 1e-9
     columns = _columns(flight) if run is not None and run.steps else {}
-    summary = flight.summary
+    summary, opinion = flight.summary, flight.by_odometry
     path = _path(flight)
     joints = flight.mission.path.joints if flight.mission is not None else ()
     return {
         "title": title,
-        "facts": _facts(flight, summary),
+        "facts": _facts(flight, summary, opinion),
         "notes": [*flight.bag.notes, *flight.notes],
         "columns": {name: _packed(values) for name, values in columns.items()},
         "path": {"x": _packed(path[0]), "y": _packed(path[1])} if path is not None else None,
@@ -40,7 +42,7 @@ def page_data(flight: Flight, events: list[Event], title: str) -> dict[str, Any]
         "begin": 0.0,
         "now": [n for n in _NOW if n["name"] in columns],
         "panels": _panels(flight, columns, start),
-        "table": _table(summary),
+        "table": _table(summary, opinion),
         "events": [{"t": e.time - start, "kind": e.kind, "text": e.text, "level": e.level} for e in events],
         "config": texts_of(flight.bag),
     }
@@ -63,14 +65,27 @@ def _columns(flight: Flight) -> dict[str, NDArray[np.float64]]:
     rudder = columns.get("rudder", columns.get("rudder_cmd"))
     if rudder is not None and run.steps > 1:
         columns["rudder_rate"] = np.r_[np.nan, np.diff(rudder) / np.diff(run.t)]
+    erring = "x_true" in columns
+    if erring:
+        columns["track_x"], columns["track_y"] = run.track
+        heading = np.where(np.isfinite(run.psi_true), run.psi_true, run.psi)
+        columns["track_psi"] = np.degrees(heading)
     if flight.mission is not None and "s" in columns:
-        path = flight.mission.path
-        index = run.subpath(path.n)
-        known = index >= 0
-        distance = np.full(run.steps, np.nan)
-        distance[known] = path.distance(run.x[known], run.y[known], index[known])
-        columns["distance"] = distance
+        columns["distance"] = _distance(run, flight.mission.path, *run.track)
+        if erring:
+            columns["distance_by_odometry"] = _distance(run, flight.mission.path, run.x, run.y)
     return columns
+
+
+def _distance(
+    run: Run, path: CompositePath, x: NDArray[np.float64], y: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Distance of the positions to the subpath of their row, m, shape (n,); NaN where that is not known."""
+    index = run.subpath(path.n)
+    known = index >= 0
+    distance = np.full(run.steps, np.nan)
+    distance[known] = path.distance(x[known], y[known], index[known])
+    return distance
 
 
 def _path(flight: Flight) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
@@ -93,7 +108,9 @@ def _published_path(bag: Bag) -> tuple[NDArray[np.float64], NDArray[np.float64]]
     return np.array([p.y for p in points]), np.array([p.x for p in points])
 
 
-def _facts(flight: Flight, summary: MissionSummary | None) -> list[tuple[str, str]]:
+def _facts(
+    flight: Flight, summary: MissionSummary | None, opinion: ByOdometry | None
+) -> list[tuple[str, str]]:
     first, last = flight.bag.span_ns
     facts = [("recorded", f"{(last - first) * 1e-9:.1f} s"), ("messages", f"{flight.bag.count:,}")]
     if flight.vehicle is not None:
@@ -108,10 +125,12 @@ def _facts(flight: Flight, summary: MissionSummary | None) -> list[tuple[str, st
             ("largest", f"{_number(summary.largest_distance, 2)} m"),
             ("rudder", f"{_number(summary.rudder_travel, 1)}°"),
         ]
+    if opinion is not None:
+        facts.append(("by its odometry", f"rms {opinion.rms:.3f} m, largest {opinion.largest:.2f} m"))
     return facts
 
 
-def _table(summary: MissionSummary | None) -> list[list[str]]:
+def _table(summary: MissionSummary | None, opinion: ByOdometry | None) -> list[list[str]]:
     if summary is None:
         return []
 
@@ -123,7 +142,12 @@ def _table(summary: MissionSummary | None) -> list[list[str]]:
 
     heads = ["subpath", "time (s)", "rms dist. (m)", "largest (m)", "rms heading (°)", "rudder (°/m)"]
     rows = [[f"{part.number} {part.kind}", *figures(part)] for part in summary.subpaths]
-    return [heads, *rows, ["all", *figures(summary)]]
+    rows.append(["all", *figures(summary)])
+    if opinion is not None:
+        heads.append("rms by odometry (m)")
+        for row, rms in zip(rows, (*opinion.subpaths, opinion.rms), strict=True):
+            row.append(_number(rms, 3))
+    return [heads, *rows]
 
 
 def _number(value: float, digits: int) -> str:
@@ -136,12 +160,13 @@ def _series(name: str, label: str, color: str, width: float = 1.5, wraps: bool =
 
 def _panels(flight: Flight, columns: dict[str, Any], start: float) -> list[dict[str, Any]]:
     """Only signals that were recorded, and only panels that have one."""
-    hull = flight.vehicle
+    hull, erring = flight.vehicle, "x_true" in columns
     angle = [math.degrees(hull.rudder.max_angle)] if hull is not None else []
     rate = [math.degrees(hull.rudder.max_rate)] if hull is not None else []
     wanted = [
         ("Distance to the path (m)", 0.2, [], [
-            _series("distance", "geometric distance", "path", 4.0),
+            _series("distance", "true distance" if erring else "geometric distance", "path", 4.0),
+            _series("distance_by_odometry", "by odometry", "orange", 1.2),
             _series("ye", "cross-track error ye", "blue"),
         ]),
         ("Along-track error xe (m)", 0.2, [], [_series("xe", "xe", "blue")]),
@@ -180,11 +205,14 @@ _NOW = [
     {"name": "s", "label": "s", "unit": "", "digits": 3},
     {"name": "x", "label": "north x", "unit": "m", "digits": 2},
     {"name": "y", "label": "east y", "unit": "m", "digits": 2},
+    {"name": "x_true", "label": "true north", "unit": "m", "digits": 2},
+    {"name": "y_true", "label": "true east", "unit": "m", "digits": 2},
     {"name": "psi", "label": "heading ψ", "unit": "°", "digits": 1},
     {"name": "psi_d", "label": "desired ψd", "unit": "°", "digits": 1},
     {"name": "psi_e", "label": "error", "unit": "°", "digits": 2},
     {"name": "ye", "label": "ye", "unit": "m", "digits": 3},
     {"name": "distance", "label": "distance", "unit": "m", "digits": 3},
+    {"name": "distance_by_odometry", "label": "by odometry", "unit": "m", "digits": 3},
     {"name": "rudder_cmd", "label": "rudder cmd", "unit": "°", "digits": 2},
     {"name": "rudder", "label": "rudder", "unit": "°", "digits": 2},
     {"name": "ur", "label": "speed ur", "unit": "m/s", "digits": 2},

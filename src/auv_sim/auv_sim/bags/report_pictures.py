@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from auv_sim.analysis import overview
 from auv_sim.analysis.metrics import under_way
-from auv_sim.analysis.plot_style import BLUE, INK, style
+from auv_sim.analysis.plot_style import BLUE, INK, ORANGE, style
 from auv_sim.analysis.signal_panels import cross_track, current, heading_error, rudder, rudder_rate, switches
 from auv_sim.analysis.track_panel import track
 from auv_sim.bags.flight import Flight
@@ -54,7 +55,11 @@ def _track_alone(figure: Figure, flight: Flight) -> None:
     axes = figure.add_subplot()
     style(axes, "north x (m)")
     axes.set_xlabel("east y (m)", color=INK)
-    axes.plot(run.y, run.x, color=BLUE, linewidth=1.6)
+    x, y = run.track
+    if np.isfinite(run.x_true).any():
+        axes.plot(run.y, run.x, color=ORANGE, linewidth=0.8, label="odometry")
+    axes.plot(y, x, color=BLUE, linewidth=1.6, label="track")
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, frameon=False)
     axes.set_aspect("equal", adjustable="datalim")
 
 

@@ -24,6 +24,7 @@ from auv_path_following.paths import mission_file
 from auv_sim.bags.arguments import add_choice
 from auv_sim.bags.chain import Answers, answers
 from auv_sim.bags.flight import MISSION, PARAMS, configuration, known_hull
+from auv_sim.bags.flown_settings import dotted
 from auv_sim.command_line import console as terminal
 from auv_sim.command_line import target
 from auv_sim.parameters import SUITE
@@ -147,14 +148,7 @@ def _flat(path: Path) -> dict[str, dict[str, Any]]:
     """Node name -> dotted name -> value."""
     flat: dict[str, dict[str, Any]] = {}
     for pattern, body in yaml_file.parse(path).items():
-        flat.setdefault(str(pattern).rsplit("/", 1)[-1], {}).update(_dotted(body["ros__parameters"]))
-    return flat
-
-
-def _dotted(values: dict[str, Any], prefix: str = "") -> dict[str, Any]:
-    flat: dict[str, Any] = {}
-    for key, value in values.items():
-        flat |= _dotted(value, f"{prefix}{key}.") if isinstance(value, dict) else {f"{prefix}{key}": value}
+        flat.setdefault(str(pattern).rsplit("/", 1)[-1], {}).update(dotted(body["ros__parameters"]))
     return flat
 
 

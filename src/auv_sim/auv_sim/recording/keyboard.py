@@ -19,6 +19,11 @@ class Keyboard:
             tty.setcbreak(sys.stdin)
         return self
 
+    @property
+    def there(self) -> bool:
+        """Whether keys can come."""
+        return self._before is not None
+
     def pressed(self) -> str:
         """The key that was pressed since the last call; empty for none."""
         if self._before is None or not select.select([sys.stdin], [], [], 0.0)[0]:

@@ -10,6 +10,7 @@ import rclpy
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
+from rich.console import Console
 from rosbags.interfaces import QosDurability, QosReliability
 from rosbags.rosbag2.metadata import parse_qos
 from rosgraph_msgs.msg import Clock as ClockMessage
@@ -20,6 +21,7 @@ from auv_msgs_py.qos import message_class
 from auv_msgs_py.topics import CLOCK
 from auv_sim.recording.bag import Bag, RecordedTopic
 from auv_sim.recording.keyboard import Keyboard
+from auv_sim.recording.play_bar import PlayBar
 
 #: What nodes say of themselves: repeating it would only pretend that they are there.
 _NOT_REPEATED = ("/rosout", "/parameter_events")
@@ -114,13 +116,14 @@ class Player:
         selected: what to play.
         rate: times the recorded speed.
         clock: whether to publish /clock.
+        console: where the position is shown.
 
     Raises:
         ConfigurationError: a type is not installed.
     """
 
-    def __init__(self, selected: Selected, rate: float, clock: bool) -> None:
-        self._selected, self._rate = selected, rate
+    def __init__(self, selected: Selected, rate: float, clock: bool, console: Console) -> None:
+        self._selected, self._rate, self._console = selected, rate, console
         rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
         self._node = rclpy.create_node("replay")
         self._publishers: dict[str, Publisher] = {}
@@ -139,10 +142,10 @@ class Player:
     def play(self, delay: float, loop: bool, paused: bool) -> int:
         """Play to the end (again and again); returns the exit code."""
         time.sleep(delay)
-        with Keyboard() as keys:
+        with Keyboard() as keys, PlayBar(self._console, self._selected.length, keys.there) as bar:
             try:
                 while True:
-                    if not self._once(keys, paused) or not loop:
+                    if not self._once(keys, bar, paused) or not loop:
                         break
             except KeyboardInterrupt:
                 return _INTERRUPTED
@@ -150,11 +153,10 @@ class Player:
             publisher.wait_for_all_acked()
         return 0
 
-    def _once(self, keys: Keyboard, paused: bool) -> bool:
+    def _once(self, keys: Keyboard, bar: PlayBar, paused: bool) -> bool:
         """One pass; False when a person has ended it."""
         begin, shift = self._selected.first_ns, time.monotonic()
-        if paused:
-            print("paused")
+        bar.show(0.0, paused, at_once=True)
         for at, name, data in self._selected.messages:
             step = False
             while True:
@@ -163,7 +165,7 @@ class Player:
                     return False
                 if key == " ":
                     paused = not paused
-                    print("paused" if paused else "playing")
+                    bar.show((at - begin) * 1e-9, paused, at_once=True)
                     shift = time.monotonic() - (at - begin) * 1e-9 / self._rate
                 step = step or (paused and key == "s")
                 if step:
@@ -173,10 +175,14 @@ class Player:
                 if not paused and wait <= 0.0:
                     break
                 if not paused:
-                    self._tell_time(min(at, begin + round((now - shift) * self._rate * 1e9)))
+                    reached = min(at, begin + round((now - shift) * self._rate * 1e9))
+                    self._tell_time(reached)
+                    bar.show((reached - begin) * 1e-9, paused)
                 time.sleep(_CLOCK_PERIOD if paused else min(wait, _CLOCK_PERIOD))
             self._tell_time(at)
             self._publishers[name].publish(data)
+            bar.show((at - begin) * 1e-9, paused, at_once=step)
+        bar.show(self._selected.length, paused, at_once=True)
         return True
 
     def _tell_time(self, ns: int) -> None:
