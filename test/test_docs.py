@@ -18,13 +18,14 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from auv_msgs_py import yaml_file
+from auv_msgs_py import params_file, topics, yaml_file
 from auv_msgs_py.settings import flattened, nested, validated
-from auv_path_following import config_files
+from auv_path_following import config_files, vehicle
 from auv_path_following.paths import mission_file
 from auv_sim.bags import cli as bag_cli
 from auv_sim.batch import engine
 from auv_sim.campaign.plan import StudyPlan
+from auv_sim.driver_parameters import MavlinkDriverParameters
 from auv_sim.mission import cli as mission_cli
 from auv_sim.parameters import SUITE, FaultRelayParameters
 from auv_sim.planning import cli as plan_cli
@@ -258,3 +259,17 @@ def test_the_first_mission_of_the_page_is_one(tmp_path: Path) -> None:
     file.write_text(re.sub(r"(?m)^    ", "", block), encoding="utf-8")
     assert mission_file.load(str(file)).path.length > 250.0
     assert yaml_file.parse(file)["name"] == "harbour round"
+
+
+def test_the_vehicle_in_per_cent_of_the_page_is_one(tmp_path: Path) -> None:
+    (text,) = listings("docs/missions.md", "yaml")
+    (tmp_path / "own.yaml").write_text(text, encoding="utf-8")
+    assert vehicle.load(str(tmp_path / "own.yaml")).thrust_symbol == "%"
+
+
+def test_the_signing_key_of_the_page_is_a_parameter(tmp_path: Path) -> None:
+    (text,) = listings("docs/driver.md", "yaml")
+    (tmp_path / "signed.yaml").write_text(text, encoding="utf-8")
+    node = topics.MAVLINK_DRIVER
+    read = params_file.load(tmp_path / "signed.yaml", {node: MavlinkDriverParameters})
+    assert read[node].signing_key == "mavlink.key"

@@ -138,6 +138,34 @@ def test_a_measured_vehicle_does_without_a_hull(tmp_path):
         _ = measured.coefficients
 
 
+PERCENT = MEASURED.replace("thrust_max: 10", "thrust_max: 100\nthrust_unit: percent").replace(
+    "thrust: 8", "thrust: 60"
+)
+
+
+def test_thrust_may_be_known_in_per_cent(tmp_path):
+    path = tmp_path / "percent.yaml"
+    path.write_text(PERCENT)
+    measured = vehicle.load(str(path))
+    assert measured.speed_at(60.0) == pytest.approx(2.0)
+    assert measured.thrust_at(1.0) == pytest.approx(15.0)
+    assert measured.thrust_symbol == "%"
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        (PERCENT.replace("thrust_max: 100", "thrust_max: 90"), "percent with thrust_max: 90"),
+        (GOOD.replace("thrust_max: 6.48", "thrust_max: 100\nthrust_unit: percent"), "percent with a hull"),
+    ],
+)
+def test_per_cent_are_of_the_largest_and_need_no_hull(tmp_path, text, found):
+    path = tmp_path / "percent.yaml"
+    path.write_text(text)
+    with pytest.raises(ConfigurationError, match=f"found {found}, expected thrust_max: 100 and no hull"):
+        vehicle.load(str(path))
+
+
 def test_what_was_measured_counts_before_the_hull(tmp_path):
     path = tmp_path / "both.yaml"
     path.write_text(GOOD + "\ncruise: {thrust: 6.48, speed: 1.8}\n")

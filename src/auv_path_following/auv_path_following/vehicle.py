@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Literal
 
 import pydantic
 from pydantic_core import PydanticCustomError
@@ -104,6 +105,10 @@ class Vehicle:
     name: str = setting(doc="what people call it")
     length: float = setting(doc="length of the hull", unit="m", gt=0.0)
     thrust_max: float = setting(doc="largest thrust", unit="N", gt=0.0)
+    thrust_unit: Literal["N", "percent"] = setting(
+        "N",
+        "of every thrust of this vehicle, in files and on the wire; percent: of its largest, which is 100",
+    )
     rudder: Rudder = setting(doc="limits of the rudder")
     hull: Hull | None = setting(
         None, "coefficients of the hull; a real vehicle can do without, if it was measured"
@@ -122,6 +127,21 @@ class Vehicle:
             }
             raise PydanticCustomError("unfit", "vehicle", context)
         return self
+
+    @pydantic.model_validator(mode="after")
+    def _percent_are_of_the_largest(self) -> Vehicle:
+        if self.thrust_unit == "percent" and (self.hull is not None or self.thrust_max != 100.0):
+            found = (
+                f"percent with {'a hull' if self.hull is not None else f'thrust_max: {self.thrust_max:g}'}"
+            )
+            context = {"found": found, "expected": "thrust_max: 100 and no hull, whose coefficients need N"}
+            raise PydanticCustomError("unfit", "thrust_unit", context)
+        return self
+
+    @property
+    def thrust_symbol(self) -> str:
+        """The unit of thrust as it stands behind a number."""
+        return "%" if self.thrust_unit == "percent" else "N"
 
     @property
     def coefficients(self) -> Hull:

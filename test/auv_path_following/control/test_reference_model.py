@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import re
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from auv_msgs_py.angles import wrap
+from auv_msgs_py.errors import ConfigurationError
 from auv_path_following import vehicle
 from auv_path_following.control.hull_model import HullModel, tightest_turn
 from auv_path_following.control.reference_model import ReferenceConfig, ReferenceModel, limits_of
@@ -104,3 +106,34 @@ def test_a_fast_servo_makes_no_larger_rudder():
     slow, fast = (limits_of(CONFIG, REMUS, rate) for rate in (RATE, 20.0 * RATE))
     assert fast.jerk == pytest.approx(20.0 * slow.jerk)
     assert fast.acceleration == pytest.approx(HullModel(REMUS).b * REMUS.rudder.max_angle / 3.0)
+
+
+BARE = vehicle.Vehicle(
+    name="measured",
+    length=1.6,
+    thrust_max=100.0,
+    thrust_unit="percent",
+    rudder=REMUS.rudder,
+    cruise=vehicle.Cruise(thrust=100.0, speed=2.0),
+    turning=vehicle.Turning(radius=4.2),
+)
+
+
+def test_without_a_hull_all_missing_limits_are_named_with_numbers_to_begin_with():
+    names = ["max_rate", "max_acceleration", "max_jerk"]
+    listed = ", ".join(f"reference.{name}" for name in names)
+    with pytest.raises(
+        ConfigurationError, match=f"measured: hull: .* derive {listed} from, which are 0"
+    ) as error:
+        limits_of(CONFIG, BARE, RATE)
+    advised = dict(re.findall(r"(max_\w+): ([\d.]+)", error.value.expected))
+    assert list(advised) == names
+    given = dataclasses.replace(CONFIG, **{name: float(value) for name, value in advised.items()})
+    for number, by_hull in zip(limits_of(given, BARE, RATE), limits_of(CONFIG, REMUS, RATE), strict=True):
+        assert (
+            0.5 * by_hull < number < by_hull
+        )  # narrower, as b may be anything from once to three times so much
+    with pytest.raises(
+        ConfigurationError, match=r"reference\.max_jerk from, which is 0, .* turning: max_jerk: 0\.37$"
+    ):
+        limits_of(dataclasses.replace(given, max_jerk=0.0), BARE, RATE)

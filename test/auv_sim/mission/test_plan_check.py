@@ -5,14 +5,18 @@ from __future__ import annotations
 import dataclasses
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from auv_msgs_py import params_file, topics
 from auv_msgs_py.errors import ConfigurationError
+from auv_path_following import config_files, vehicle
 from auv_path_following.paths import mission_file
+from auv_sim.closed_loop import Scenario, fly
 from auv_sim.mission import cli, plan
 from auv_sim.mission.plan import Options
 from auv_sim.parameters import SUITE
+from auv_sim.plant.remus import PlantState
 
 TIGHT = Path(__file__).parents[1] / "planning" / "wrong_missions" / "20_turn_too_tight.yaml"
 
@@ -113,7 +117,52 @@ def test_a_vehicle_without_a_hull_can_be_planned_for_but_not_simulated(tmp_path,
         "name: measured\nlength: 2.0\nthrust_max: 10\nrudder: {max_angle_deg: 25, max_rate_deg_s: 10}\n"
         "cruise: {thrust: 8, speed: 2}\nturning: {radius: 9.5}\n"
     )
-    options = Options(vehicle=str(path), no_sim=True)
+    options = Options(vehicle=str(path), no_sim=True, params="paper")
     assert plan.make(options, tmp_path / "run").vehicle.hull is None
     with pytest.raises(ConfigurationError, match="hull: found nothing, expected the hull's coefficients"):
         plan.make(dataclasses.replace(options, no_sim=False), tmp_path / "run")
+
+
+BARE = """
+name: measured
+length: 1.6
+thrust_max: 100
+thrust_unit: percent
+rudder: {max_angle_deg: 35, max_rate_deg_s: 15}
+cruise: {thrust: 100, speed: 2.0}
+turning: {radius: 4.2}
+"""
+
+
+def test_a_vehicle_without_a_hull_needs_limits_and_flies_by_those_that_the_launcher_advises(tmp_path):
+    file, params = tmp_path / "bare.yaml", tmp_path / "limits.yaml"
+    file.write_text(BARE, encoding="utf-8")
+    asked = Options(mission=_mission(tmp_path), vehicle=str(file), no_sim=True)
+    with pytest.raises(ConfigurationError) as error:
+        plan.make(asked, tmp_path / "run")
+    advised = error.value.expected.rsplit("turning: ", 1)[1]
+    assert advised == "max_rate: 0.42, max_acceleration: 0.29, max_jerk: 0.37"
+    assert error.value.where.endswith("robust.yaml: heading_autopilot: measured: hull")
+    robust = config_files.find("params", "robust")
+    text = robust.read_text(encoding="utf-8").replace("damping: 0.8", f"damping: 0.8, {advised}")
+    params.write_text(text, encoding="utf-8")
+    by_rule = plan.make(dataclasses.replace(asked, params=str(params)), tmp_path / "run").parameters
+    # The same vehicle as its hull has it, and what it then does with either.
+    hull, mission = vehicle.load("remus100"), mission_file.load("paper_composite")
+    beside = PlantState(0.0, 40.0, 3.0, 2.0, 0.0, 0.0)
+    common = {
+        "path": mission.path,
+        "vehicle": hull,
+        "thrust": mission.thrust,
+        "initial": beside,
+        "time_limit": 90.0,
+    }
+    runs = [
+        fly(Scenario(**common, autopilot=parameters[topics.AUTOPILOT].autopilot, controller_vehicle=known))
+        for parameters, known in (
+            (params_file.load(robust, SUITE), hull),
+            (by_rule, vehicle.load(str(file))),
+        )
+    ]
+    errors = [float(np.sqrt(np.mean(run.ye**2))) for run in runs]
+    assert errors[1] < 1.2 * errors[0] + 0.01

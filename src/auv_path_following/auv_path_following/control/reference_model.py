@@ -67,6 +67,8 @@ JERK_SHARE = 0.9
 BUILD_UP = 0.8
 #: Share of the full rudder that the acceleration may take.
 RUDDER_SHARE = 1.0 / 3.0
+#: b L^2/u^2 of a torpedo of length L at the speed u: the least of 14, of which the largest has 3.1.
+LEAST_EFFECT = 1.0
 
 
 def limits_of(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> Limits:
@@ -89,20 +91,32 @@ def limits_of(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> 
     """
     if config.max_rate and config.max_acceleration and config.max_jerk:
         return Limits(config.max_rate, config.max_acceleration, config.max_jerk)
-    if vehicle.hull is None:
-        limits = ("max_rate", "max_acceleration", "max_jerk")
-        name = next(limit for limit in limits if not getattr(config, limit))
-        found = f"nothing to derive reference.{name} from, which is 0"
-        raise ConfigurationError(
-            f"{vehicle.name}: hull", found, "its coefficients, or a limit greater than 0"
-        )
-    model = HullModel(vehicle)
-    jerk = config.max_jerk or JERK_SHARE * model.b * rudder_rate
-    largest = RUDDER_SHARE * model.b * vehicle.rudder.max_angle
+    if vehicle.hull is not None:
+        return _derived(config, vehicle, HullModel(vehicle).b, rudder_rate)
+    advice = _derived(config, vehicle, _least_b(vehicle), rudder_rate)._asdict()
+    missing = [name for name in advice if not getattr(config, f"max_{name}")]
+    names = ", ".join(f"reference.max_{name}" for name in missing)
+    numbers = ", ".join(f"max_{name}: {advice[name]:.2g}" for name in missing)
+    raise ConfigurationError(
+        f"{vehicle.name}: hull",
+        f"nothing to derive {names} from, which {'is' if len(missing) == 1 else 'are'} 0",
+        f"the hull's coefficients, or limits; by length, cruise and turning: {numbers}",
+    )
+
+
+def _derived(config: ReferenceConfig, vehicle: Vehicle, b: float, rudder_rate: float) -> Limits:
+    """The limits given, and the others by the rule of `limits_of` for b = |dr/dt per rad|, 1/s^2."""
+    jerk = config.max_jerk or JERK_SHARE * b * rudder_rate
+    largest = RUDDER_SHARE * b * vehicle.rudder.max_angle
     acceleration = config.max_acceleration or min(BUILD_UP * jerk, largest)
     fastest = vehicle.top_speed / tightest_turn(vehicle).radius
     rate = config.max_rate or min(acceleration / config.bandwidth, fastest)
     return Limits(rate, acceleration, jerk)
+
+
+def _least_b(vehicle: Vehicle) -> float:
+    """The b of a sluggish torpedo of this length and speed: limits by it are narrow rather than wide."""
+    return LEAST_EFFECT * (vehicle.top_speed / vehicle.length) ** 2
 
 
 class ReferenceModel:

@@ -14,6 +14,8 @@ from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.settings import Pair
 from auv_msgs_py.types import NO_CURRENT, Current
 from auv_path_following import config_files, vehicle
+from auv_path_following.control.autopilot import HeadingAutopilot
+from auv_path_following.parameters import AutopilotParameters
 from auv_path_following.paths import mission_file
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
@@ -188,6 +190,7 @@ def make(options: Options, directory: Path) -> Plan:
     timing["recorded"] = timing["lockstep"]
     for name in parameters:
         parameters[name] = dataclasses.replace(parameters[name], **timing)
+    _try_gains(believed, parameters[topics.AUTOPILOT], sources["params"])
     wishes = parameters[topics.GUIDANCE].with_wishes_of(mission).guidance
     _tell(parameters, topics.GUIDANCE, guidance=wishes, mission_switching=False)
     _tell(parameters, topics.GUIDANCE, mission=str(sources["mission"]), vehicle=known)
@@ -238,6 +241,15 @@ def scenario(options: Options) -> Scenario:
         ConfigurationError: one line with the place, what was found and what was expected.
     """
     return make(options, Path("runs")).scenario()
+
+
+def _try_gains(known: Vehicle, settings: AutopilotParameters, file: Path) -> None:
+    """Find here what the autopilot's node would end with."""
+    try:
+        HeadingAutopilot(known, settings.autopilot)
+    except ConfigurationError as error:
+        place = f"{file}: {topics.AUTOPILOT}: {error.where}"
+        raise ConfigurationError(place, error.found, error.expected) from None
 
 
 def _sea(options: Options, parameters: dict[str, Any], sources: dict[str, Path]) -> Pair:

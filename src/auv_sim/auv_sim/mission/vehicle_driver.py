@@ -10,6 +10,9 @@ from typing import Any
 
 from auv_msgs_py import topics
 from auv_msgs_py.errors import ConfigurationError
+from auv_sim.driver_parameters import MavlinkDriverParameters
+from auv_sim.drivers.mavlink_peer import Configured
+from auv_sim.drivers.mavlink_signing import load_key
 from auv_sim.parameters import PlantParameters
 
 #: What `--vehicle-driver` may say -> the driver's node.
@@ -34,7 +37,14 @@ def tell_driver(
 
     Returns:
         The command line of the emulated vehicle, None when `address` is given.
+
+    Raises:
+        ConfigurationError: a key or a peer that the driver would refuse.
     """
+    given: MavlinkDriverParameters = parameters[driver]
+    load_key(given.signing_key, f"{driver}.signing_key")
+    if given.peer:
+        Configured(given.peer, f"{driver}.peer")
     told: dict[str, Any] = {"vehicle": vehicle}
     emulator = None
     if address is not None:
@@ -51,7 +61,7 @@ def tell_driver(
             "--surge", repr(start.surge),
             "--current", *map(repr, (current.Vx, current.Vy)),
             "--speed", repr(speed or 1.0),
-            "--signing-key", parameters[driver].signing_key,
+            "--signing-key", given.signing_key,
         )  # fmt: skip
     parameters[driver] = dataclasses.replace(parameters[driver], **told)
     return emulator

@@ -136,8 +136,9 @@ def _thrust(mission: Mission, vehicle: Vehicle) -> Iterator[Verdict]:
             limit = f"at most {fastest:.2f} m/s, all that {vehicle.name} reaches"
             yield Verdict("refused", "speed", f"{mission.speed:g} m/s", limit)
         else:
-            limit = f"at most {vehicle.thrust_max:g} N, all that {vehicle.name} has"
-            yield Verdict("refused", "thrust", f"{mission.thrust:g} N", limit)
+            unit = vehicle.thrust_symbol
+            limit = f"at most {vehicle.thrust_max:g} {unit}, all that {vehicle.name} has"
+            yield Verdict("refused", "thrust", f"{mission.thrust:g} {unit}", limit)
 
 
 def _geofence(mission: Mission) -> Iterator[Verdict]:

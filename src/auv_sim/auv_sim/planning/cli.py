@@ -133,7 +133,8 @@ def _tell(console: Console, mission: Mission, hull: Vehicle, verdicts: Verdicts)
     )
     lasts = f"{verdicts.duration:.0f} s" if math.isfinite(verdicts.duration) else "no end"
     console.print(
-        f"  duration  {lasts} at {verdicts.speed:.2f} m/s through the water ({mission.thrust:.2f} N)"
+        f"  duration  {lasts} at {verdicts.speed:.2f} m/s through the water"
+        f" ({mission.thrust:.2f} {hull.thrust_symbol})"
     )
     turn = f"{verdicts.turn.radius:.2f} m, {verdicts.turn.source}"
     console.print(f"  vehicle   {escape(hull.name)}, tightest turn {turn}")
