@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import signal
+import sys
 from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
@@ -17,7 +18,7 @@ from auv_sim import closed_loop
 from auv_sim.mission import plan
 from auv_sim.mission.cli import main
 from auv_sim.mission.plan import Options
-from auv_sim.recording.load import load
+from auv_sim.recording.load import load, load_messages
 
 CommandLine = Callable[..., list[str]]
 
@@ -81,8 +82,28 @@ def test_two_runs_are_bit_identical_in_one_process_or_five(
     assert five == one
 
 
-def test_free_running_follows_the_mission_too(short_mission: Path, tmp_path: Path, domain: int) -> None:
+#: Says in the middle of a mission, once each, that it is over.
+FORGER = """
+import rclpy
+from std_msgs.msg import Float64, String
+from auv_msgs_py import qos, topics
+rclpy.init()
+node = rclpy.create_node("forger", namespace="/auv")
+state = node.create_publisher(String, "mission_state", qos.offered(topics.MISSION_STATE))
+words = ["complete", "idle"]
+def forge(message):
+    if words and message.data > 2 - len(words) + 0.5 and state.get_subscription_count() >= 4:
+        state.publish(String(data=words.pop(0)))
+node.create_subscription(Float64, "path_parameter", forge, 10)
+rclpy.spin(node)
+"""
+
+
+def test_free_running_follows_the_mission_too_and_one_forged_state_ends_nothing(
+    short_mission: Path, tmp_path: Path, domain: int, spawn: Callable[..., object]
+) -> None:
     """Against the wall clock: how near the track is depends on the machine, so the bound is wide."""
+    spawn([sys.executable, "-c", FORGER])
     asked = ["--mission", str(short_mission), "--quiet", "--domain", str(domain)]
     before = signal.getsignal(signal.SIGINT)
     assert main([*asked, "--out", str(tmp_path / "free"), "--speed", "2"]) == 0
@@ -90,6 +111,8 @@ def test_free_running_follows_the_mission_too(short_mission: Path, tmp_path: Pat
     summary = json.loads((tmp_path / "free" / "summary.json").read_text())
     assert (summary["completed"], summary["timing"]) == (True, "free running")
     assert summary["largest_distance"] < 5.0
+    said = [message.data for _, message in load_messages(tmp_path / "free" / "bag", "mission_state")]
+    assert {"complete", "idle"} <= set(said[said.index("running") : len(said) - said[::-1].index("running")])
 
 
 def test_a_vehicle_that_somebody_else_runs_is_driven_through_the_same_mission(

@@ -16,8 +16,11 @@ RECORDER_DEPTH = 1000
 
 
 def offered(topic: Topic) -> QoSProfile:
-    """What a publisher offers: always reliable, transient local for latched topics."""
-    return _profile(ReliabilityPolicy.RELIABLE, topic.latched, DEPTH)
+    """What a publisher offers: reliable; a latched topic is transient local and keeps its newest message.
+
+    With more a late reader is given the oldest of them first, which is what `ros2 topic echo --once` prints.
+    """
+    return _profile(ReliabilityPolicy.RELIABLE, topic.latched, 1 if topic.latched else DEPTH)
 
 
 def requested(topic: Topic, reliable: bool, depth: int = DEPTH) -> QoSProfile:

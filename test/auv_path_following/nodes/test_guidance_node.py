@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+import time
 from typing import Any
 
 import pytest
 
-from auv_msgs_py import topics
+from auv_msgs_py import qos, topics
 from auv_msgs_py.types import Navigation
 from auv_path_following.nodes.guidance_node import GuidanceNode
 from node_bench import Bench
@@ -184,3 +185,22 @@ def test_abort_works_without_any_navigation(bench: Bench, state: str) -> None:
     bench.until(lambda: states(bench)[-1:] == [state])
     assert bench.call("abort").success
     bench.until(lambda: states(bench)[-1] == "aborted")
+
+
+def test_a_late_reader_gets_the_present_state_and_everybody_gets_it_once_a_second(bench: Bench) -> None:
+    bench.start(GuidanceNode)
+    bench.until(lambda: states(bench))
+    bench.call("start")
+    bench.until(lambda: "running" in states(bench))
+    heard: list[str] = []
+    topic = topics.MISSION_STATE
+    late = qos.requested(topic, reliable=True, depth=100)
+    bench.node.create_subscription(
+        qos.message_class(topic.type), topic.name, lambda m: heard.append(m.data), late
+    )
+    bench.until(lambda: heard)
+    assert heard == ["running"]
+    begin = time.monotonic()
+    bench.until(lambda: len(heard) >= 3)
+    assert time.monotonic() - begin > 0.9
+    assert len(heard) == 3

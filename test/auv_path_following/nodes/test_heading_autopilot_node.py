@@ -123,10 +123,11 @@ def test_a_pose_that_froze_is_believed_again_when_a_mission_is_started(bench: Be
 
     bench.send(topics.MISSION_STATE, String(data="running"))
     assert not [answered(1.0 + 0.1 * k) for k in range(15)][-1]
-    for words, believed in ((["holding", "running"], False), (["aborted", "running"], True)):
+    stops = ((["holding", "holding", "running"], False), (["aborted", "aborted", "running"], True))
+    for words, believed in stops:
         for word in words:
             bench.send(topics.MISSION_STATE, String(data=word))
-        bench.until(lambda: node._mission == "running")
+        bench.until(lambda: node._mission.at(time.monotonic()) == "running")
         bench.spin(0.2)
         assert answered(2.5 + 0.1 * believed) is believed
 
@@ -140,7 +141,7 @@ def test_a_mission_state_that_is_repeated_is_no_start(bench: Bench) -> None:
         bench.reference(math.pi / 2 + 0.3, 0.0, 6.0)
         bench.until(lambda k=k: len(bench.values(topics.RUDDER_CMD)) > k)
         if k == 6:
-            bench.until(lambda: node._mission == "running")
+            bench.until(lambda: node._mission.at(time.monotonic()) == "running")
             bench.send(topics.MISSION_STATE, String(data="running"))
             bench.spin(0.2)
     before, after = bench.values(topics.RUDDER_CMD)[-2:]
@@ -185,3 +186,23 @@ def test_whoever_stops_the_autopilot_stops_the_vehicle(bench: Bench) -> None:
     node.close()
     bench.until(lambda: bench.values(topics.THRUST_CMD) == [6.0, 0.0])
     assert bench.values(topics.RUDDER_CMD)[-1] == 0.0
+
+
+def test_one_forged_state_does_not_stop_the_vehicle(bench: Bench) -> None:
+    """Guidance repeats its own once a second; the forged one is counted and named."""
+    node = bench.start(HeadingAutopilotNode, reference_timeout=0.3)
+    bench.send(topics.MISSION_STATE, String(data="running"))
+    begin = time.monotonic()
+    for k in range(24):
+        if k == 2:
+            bench.send(topics.MISSION_STATE, String(data="idle"))
+        if k == 20:
+            bench.send(topics.MISSION_STATE, String(data="running"))
+        at = time.monotonic() - begin
+        bench.odometry(1.0 + at, Navigation(at, 0.0, 0.0, 0.0))
+        bench.reference(math.pi / 2, 0.0, 6.0)
+        bench.spin(0.05)
+    assert bench.values(topics.THRUST_CMD)[-1] == 6.0
+    assert 0.0 not in bench.values(topics.THRUST_CMD)[1:]
+    assert node.health.refused["mission_state"] == 1
+    bench.until(lambda: bench.diagnosed("found 'idle' once among 'running'"))

@@ -25,7 +25,10 @@ class Simulator:
     def gate_waits_for(self) -> str:
         return ""
 
-    def publish_step(self) -> None: ...
+    def publish_step(self) -> None:
+        self.published = getattr(self, "published", 0) + 1
+
+    def advance(self, command: Any) -> None: ...
 
     def fail(self, text: str) -> None:
         self.fault = text
@@ -70,3 +73,54 @@ def test_the_node_that_owes_something_is_named(waiting: dict[str, str], named: s
     lockstep._on_diagnostics(reports(**waiting))
     lockstep._check()
     assert simulator.fault == f"step 7 (t = 1.35 s) got no answer within 0 s: {named}"
+
+
+def answer(lockstep: Lockstep, thrust: float) -> None:
+    lockstep.on_command("rudder_cmd", 0.0)
+    lockstep.on_command("thrust_cmd", thrust)
+
+
+def say(simulator: Any, lockstep: Lockstep, running: bool) -> None:
+    simulator.mission_running = running
+    lockstep.on_mission_state()
+
+
+def test_under_thrust_a_forged_state_holds_nothing_up() -> None:
+    simulator: Any = Simulator()
+    lockstep = Lockstep(simulator)
+    say(simulator, lockstep, True)
+    answer(lockstep, 6.0)
+    assert simulator.published == 2
+    say(simulator, lockstep, False)
+    for step in range(3, 6):
+        answer(lockstep, 6.0)
+        assert simulator.published == step
+
+
+def test_the_end_of_a_mission_is_waited_for_though_it_was_forged_before() -> None:
+    """The step without thrust is the last one, in whatever order it and the state arrive."""
+    simulator: Any = Simulator()
+    lockstep = Lockstep(simulator)
+    say(simulator, lockstep, True)
+    say(simulator, lockstep, False)
+    answer(lockstep, 6.0)
+    say(simulator, lockstep, True)
+    answer(lockstep, 0.0)
+    assert simulator.published == 2  # guidance has not said yet that its mission is over
+    say(simulator, lockstep, False)
+    assert simulator.published == 2
+    say(simulator, lockstep, True)
+    assert simulator.published == 3
+
+
+def test_a_forged_start_costs_one_step_at_rest() -> None:
+    """Guidance answers it without thrust and says its state again."""
+    simulator: Any = Simulator()
+    lockstep = Lockstep(simulator)
+    say(simulator, lockstep, True)
+    answer(lockstep, 0.0)
+    say(simulator, lockstep, False)
+    assert simulator.published == 1
+    say(simulator, lockstep, True)
+    answer(lockstep, 6.0)
+    assert simulator.published == 3

@@ -60,6 +60,20 @@ def test_the_plant_waits_for_the_mission_and_begins_its_clock_at_one_second(benc
     bench.until(lambda: nanoseconds(bench.received["odom"][-1].header.stamp) < stamps[-1])
 
 
+def test_a_state_stops_the_plant_when_it_is_said_twice(bench: Bench) -> None:
+    node = bench.start(RemusPlantNode, hold_until_running=False, command_timeout=60.0)
+    word = qos.message_class(topics.MISSION_STATE.type)
+    bench.send(topics.MISSION_STATE, word(data="running"))
+    bench.send(topics.RUDDER_CMD, Float64(data=0.2))
+    bench.send(topics.THRUST_CMD, Float64(data=6.0))
+    bench.until(lambda: node.command.thrust == 6.0)
+    bench.send(topics.MISSION_STATE, word(data="complete"))
+    bench.spin(0.3)
+    assert node.command.thrust == 6.0
+    bench.send(topics.MISSION_STATE, word(data="complete"))
+    bench.until(lambda: node.command.thrust == 0.0)
+
+
 _BLIND = """
 name: blind
 sensors:

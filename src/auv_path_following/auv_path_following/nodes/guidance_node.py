@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import Any
 
 from rclpy.parameter import Parameter
-from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 from auv_msgs_py import topics
@@ -16,7 +15,7 @@ from auv_path_following.guidance.approach import ApproachWatch, agility_of
 from auv_path_following.guidance.limits import Limits
 from auv_path_following.guidance.mission_state import MissionState, State
 from auv_path_following.guidance.path_follower import GuidanceOutput, PathFollower
-from auv_path_following.nodes.guidance_output import GuidanceMessages, whole_path
+from auv_path_following.nodes.guidance_output import GuidanceMessages, StateMessages, whole_path
 from auv_path_following.nodes.navigation_input import Inputs, NavigationInput
 from auv_path_following.parameters import GuidanceParameters
 from auv_path_following.paths import mission_file
@@ -41,7 +40,7 @@ class GuidanceNode(SuiteNode):
         #: Time without usable navigation, by the odometry's stamps, s.
         self._blind = 0.0
         self._messages = GuidanceMessages(self)
-        self._mission_state = self.advertise(topics.MISSION_STATE)
+        self._mission_state = StateMessages(self)
         self._path = self.advertise(topics.PATH)
         self.close_gate()
         self._input = NavigationInput(self, self._step, self._restart, with_current=True)
@@ -174,6 +173,7 @@ class GuidanceNode(SuiteNode):
     def _publish(self) -> None:
         self._messages.publish()
         self._tell()
+        self._mission_state.answered(self.state.running)
 
     def _tell(self) -> None:
         """Publish the state when it has changed."""
@@ -183,7 +183,7 @@ class GuidanceNode(SuiteNode):
         stopped = self._told in (State.HOLDING, State.ABORTED)
         self.health.error("mission", "")
         self.health.error("mission", f"{self._told.value}: {self.state.reason}" if stopped else "", log=False)
-        self._mission_state.publish(String(data=self._told.value))
+        self._mission_state.tell(self._told.value)
         self.get_logger().info(f"{self._told.value}: {self.state.reason}")
 
 

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
+from rclpy.clock import Clock, ClockType
+from std_msgs.msg import String
+
 from auv_msgs_py import topics
 from auv_msgs_py.conversions import PATH_FRAME, fill_pose, path_message, set_stamp
 from auv_msgs_py.frames import flip_yaw
+from auv_msgs_py.mission_word import PERIOD, TIMES
 from auv_msgs_py.runtime import SuiteNode
 from auv_msgs_py.wire import Float64, PoseStamped, Vector3Stamped
 from auv_path_following.guidance.path_follower import GuidanceOutput
@@ -27,6 +31,45 @@ def whole_path(path: CompositePath, stamp: int) -> Any:
     """
     points = (path.at(float(s)) for s in path.polyline(max(_PATH_SPACING, path.length / _PATH_POSES))[2])
     return path_message([(point.x, point.y, point.chi) for point in points], stamp)
+
+
+class StateMessages:
+    """Publish the mission's state as `mission_word` says: a new one twice, any once every `PERIOD`.
+
+    Free running by wall time, because a state must come when the ROS clock stands still. In lockstep by
+    mission time and as part of an answer, so that a run has the same messages each time.
+
+    Args:
+        node: whose publisher it is.
+    """
+
+    def __init__(self, node: SuiteNode) -> None:
+        self._node = node
+        self._publisher = node.advertise(topics.MISSION_STATE)
+        self._lockstep = bool(node.parameters.lockstep)
+        self._word = ""
+        self._said = 0.0
+        if not self._lockstep:
+            node.create_timer(PERIOD, self._publish, clock=Clock(clock_type=ClockType.STEADY_TIME))
+
+    def tell(self, word: str) -> None:
+        """Publish a new state."""
+        self._word = word
+        for _ in range(TIMES):
+            self._publish()
+
+    def answered(self, running: bool) -> None:
+        """An odometry was answered.
+
+        In lockstep an answer without thrust is always followed by the state: the simulator waits for it.
+        """
+        if self._lockstep and (not running or abs(self._node.now() - self._said) >= PERIOD):
+            self._publish()
+
+    def _publish(self) -> None:
+        self._said = self._node.now()
+        if self._word:
+            self._publisher.publish(String(data=self._word))
 
 
 class GuidanceMessages:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -11,6 +12,7 @@ from auv_msgs_py import topics
 from auv_msgs_py.conversions import finite
 from auv_msgs_py.errors import MessageRefused
 from auv_msgs_py.frames import flip_yaw
+from auv_msgs_py.mission_word import MissionWord
 from auv_msgs_py.pairing import Pairing
 from auv_msgs_py.runtime import SuiteNode, run_nodes
 from auv_msgs_py.topics import Topic
@@ -25,7 +27,6 @@ from auv_path_following.parameters import AutopilotParameters
 
 _REFERENCES = (topics.DESIRED_YAW, topics.DESIRED_YAW_RATE, topics.DESIRED_THRUST)
 _STOPPED = "rudder and thrust are 0"
-_STATES = tuple(state.value for state in State)
 
 
 class HeadingAutopilotNode(SuiteNode):
@@ -48,7 +49,7 @@ class HeadingAutopilotNode(SuiteNode):
         self._references = ReferenceWatch()
         self._command = STOP
         self._missing = ""
-        self._mission = ""
+        self._mission = MissionWord(State)
         self._rudder, self._rudder_message = self.advertise(topics.RUDDER_CMD), Float64()
         self._thrust, self._thrust_message = self.advertise(topics.THRUST_CMD), Float64()
         self.close_gate()
@@ -96,13 +97,15 @@ class HeadingAutopilotNode(SuiteNode):
         return callback
 
     def _on_mission_state(self, message: String) -> None:
-        if message.data not in _STATES:
-            raise MessageRefused(topics.MISSION_STATE.name, f"'{message.data}'", ", ".join(_STATES))
-        starts = message.data == State.RUNNING and self._mission not in (State.RUNNING, State.HOLDING)
+        now = time.monotonic()
+        before = self._mission.at(now)
+        refused = self._mission.hear(message.data, now)
+        starts = message.data == State.RUNNING and before not in (State.RUNNING, State.HOLDING)
         if starts and not self.parameters.lockstep:
             self._intake.believe_anew()
             self.autopilot.reset()
-        self._mission = message.data
+        if refused is not None:
+            raise refused
 
     def _put(self, topic: str, value: Any, stamp: int | None) -> None:
         if self._pairing.put(topic, value, stamp):
@@ -130,7 +133,9 @@ class HeadingAutopilotNode(SuiteNode):
         references = self._references
         if self.parameters.lockstep:
             return references.newest
-        reference = references.allowed(self.now(), self._mission, self.parameters.reference_timeout)
+        reference = references.allowed(
+            self.now(), self._mission.at(time.monotonic()), self.parameters.reference_timeout
+        )
         silent = f"guidance is silent (no {self._missing}): {_STOPPED}" if references.silent else ""
         self.health.error("guidance", silent)
         odd = references.contradiction

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import groupby
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -230,7 +231,8 @@ def _running(bag: Bag, namespace: str | None, thrust: NDArray[np.float64]) -> li
     because the path's end was reached, that odometry was still guided; after an abort it was not.
     """
     topic = bag.find(topics.MISSION_STATE.name, namespace)
-    words = [str(message.data) for _, message in messages_of(topic)] if topic is not None else []
+    said = [str(message.data) for _, message in messages_of(topic)] if topic is not None else []
+    words = [word for word, _ in groupby(said)]  # the state is repeated once a second
     place, ran, rows = 0, False, []
     for value in thrust:
         runs = bool(value > 0.0)

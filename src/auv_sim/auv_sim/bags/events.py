@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 from dataclasses import dataclass
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -58,8 +60,16 @@ def _messages(bag: Bag, name: str) -> list[tuple[int, Any]]:
 
 
 def _states(bag: Bag) -> list[Event]:
-    words = [(at, str(message.data)) for at, message in _messages(bag, topics.MISSION_STATE.name)]
-    return [Event(at * 1e-9, "state", word, {"holding": 1, "aborted": 2}.get(word, 0)) for at, word in words]
+    """Each change of a mission's state; its repetitions, once a second, are no events."""
+    events = []
+    for topic in bag.topics.values():
+        if topic.name.rsplit("/", 1)[-1] != topics.MISSION_STATE.name:
+            continue
+        with contextlib.suppress(ConfigurationError):
+            for word, same in groupby(messages_of(topic), key=lambda item: str(item[1].data)):
+                at = next(same)[0]
+                events.append(Event(at * 1e-9, "state", word, {"holding": 1, "aborted": 2}.get(word, 0)))
+    return events
 
 
 def _diagnostics(bag: Bag) -> list[Event]:

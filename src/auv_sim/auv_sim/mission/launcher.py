@@ -203,8 +203,10 @@ class _Flight:
                     f"time stood still at {m.mission_time:.2f} s of the mission for {_STALL_BOUND:g} s"
                 )
             self._progress.update(m.s, m.ye, m.mission_time, time.monotonic() - begin)
-            if m.state in ("complete", "aborted"):
-                return str(m.state)
+            if m.completed(self._plan.mission.path.n):
+                return "complete"
+            if m.state == "aborted":
+                return "aborted"
         return "interrupted"
 
     def _stop_vehicle(self) -> None:

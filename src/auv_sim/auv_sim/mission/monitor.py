@@ -1,7 +1,9 @@
-"""The launcher's own eyes and hands on the graph: it starts and aborts the mission and reads its progress."""
+"""The launcher's node on the graph: it starts and aborts the mission and reads its progress."""
 
 from __future__ import annotations
 
+import contextlib
+import math
 import time
 from typing import Any
 
@@ -15,8 +17,16 @@ from std_msgs.msg import Float64, String
 from std_srvs.srv import Trigger
 
 from auv_msgs_py import qos, topics
-from auv_msgs_py.conversions import nanoseconds
+from auv_msgs_py.conversions import finite, stamp_of
+from auv_msgs_py.errors import MessageRefused
+from auv_msgs_py.mission_word import PERIOD, MissionWord
 from auv_msgs_py.topics import Topic
+from auv_path_following.guidance.mission_state import State
+
+#: A path that has no more than this left is flown to its end, m.
+_ARRIVED = 1e-3
+#: `complete` without the evidence for it counts after this, s of wall time.
+_UNDISPUTED = 4.0 * PERIOD
 
 
 class Monitor:
@@ -35,7 +45,10 @@ class Monitor:
         self.ye = 0.0
         self.first_stamp: int | None = None
         self.stamp = 0
-        self.state = ""
+        #: Metres of path left; infinite before the first `distance_to_go`.
+        self.to_go = math.inf
+        self._word = MissionWord(State)
+        self._completed_at: float | None = None
         self.odometry_seen = False
         self._start = self.node.create_client(Trigger, topics.START_SERVICE)
         self._abort = self.node.create_client(Trigger, topics.ABORT_SERVICE)
@@ -43,6 +56,7 @@ class Monitor:
             Odometry, topics.ODOM.name, self._on_odometry, qos.requested(topics.ODOM, reliable=False, depth=1)
         )
         self._listen(topics.PATH_PARAMETER, Float64, self._on_parameter)
+        self._listen(topics.DISTANCE_TO_GO, Float64, self._on_to_go)
         self._listen(topics.PATH_ERROR, Vector3Stamped, self._on_error)
         self._listen(topics.MISSION_STATE, String, self._on_state)
 
@@ -58,16 +72,48 @@ class Monitor:
         self.node.destroy_subscription(self._odometry)
 
     def _on_parameter(self, message: Float64) -> None:
-        self.s = message.data
+        if 0.0 <= message.data < math.inf:  # a NaN is not
+            self.s = message.data
+
+    def _on_to_go(self, message: Float64) -> None:
+        self.to_go = message.data
 
     def _on_error(self, message: Vector3Stamped) -> None:
-        self.ye = message.vector.y
-        self.stamp = nanoseconds(message.header.stamp)
-        if self.first_stamp is None:
-            self.first_stamp = self.stamp
+        with contextlib.suppress(MessageRefused):
+            self.stamp = stamp_of(message.header.stamp, topics.PATH_ERROR.name)
+            self.ye = finite(message.vector.y, topics.PATH_ERROR.name)
+            if self.first_stamp is None:
+                self.first_stamp = self.stamp
 
     def _on_state(self, message: String) -> None:
-        self.state = message.data
+        now = time.monotonic()
+        with contextlib.suppress(MessageRefused):
+            self._word.hear(message.data, now)
+            if message.data != State.COMPLETE:
+                self._completed_at = None
+            elif self._completed_at is None:
+                self._completed_at = now
+
+    @property
+    def state(self) -> str:
+        """The mission's state that counts, see `MissionWord`; empty before the first word."""
+        return self._word.at(time.monotonic())
+
+    def completed(self, subpaths: int) -> bool:
+        """Whether the mission has reached the end of its path.
+
+        `complete` counts with the path parameter and the distance to go of a path's end beside it. These come
+        best effort, and the last ones may be lost: without them it counts when nothing else was said for
+        `_UNDISPUTED` s, in which guidance would have repeated another state several times.
+
+        Args:
+            subpaths: of the path, which is the last path parameter.
+        """
+        if self._completed_at is None:
+            return False
+        if self.s >= subpaths and abs(self.to_go) <= _ARRIVED:
+            return True
+        return time.monotonic() - self._completed_at >= _UNDISPUTED
 
     @property
     def mission_time(self) -> float:

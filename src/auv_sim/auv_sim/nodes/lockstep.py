@@ -36,6 +36,8 @@ class Lockstep:
         self._open_since: float | None = None
         self._left_running = False
         self._awaits_state = False
+        #: Whether the newest command has thrust.
+        self._under_thrust = False
         self._begun = False
         self._command: Command | None = None
         self._recorded, self._recorded_at = 0, time.monotonic()
@@ -59,9 +61,13 @@ class Lockstep:
             return
         self._command = Command(*self._pairing.take())
         self._open_since = None
-        # Zero thrust says that the mission did not run at this step. Its state travels on another topic
-        # and may be late: wait for it, or the number of steps would depend on the race.
-        self._awaits_state = self._command.thrust == 0.0 and not self._left_running
+        # With thrust the mission ran at this step, whatever else was said meanwhile (by another publisher, or
+        # by an abort that the next step will show). Without thrust it did not run. Its state travels on
+        # another topic and may be late: wait for it, or the number of steps would depend on the race.
+        self._under_thrust = self._command.thrust > 0.0
+        if self._under_thrust:
+            self._left_running = False
+        self._awaits_state = not (self._under_thrust or self._left_running)
         self._proceed()
 
     def on_mission_state(self) -> None:
@@ -76,7 +82,9 @@ class Lockstep:
         self._proceed()
 
     def _proceed(self) -> None:
-        if self._open_since is not None or self._awaits_state or not self._node.mission_running:
+        if self._open_since is not None or self._awaits_state:
+            return
+        if not (self._under_thrust or self._node.mission_running):
             return
         if self._node.parameters.recorded and self._published - self._recorded >= topics.RECORDING_LEAD:
             return
@@ -112,7 +120,8 @@ class Lockstep:
             self._node.fail(f"{self._where()} got no answer within {bound:g} s: {self._culprit()}")
 
     def _check_recorder(self) -> None:
-        waits = self._published - self._recorded >= topics.RECORDING_LEAD and self._node.mission_running
+        under_way = self._under_thrust or self._node.mission_running
+        waits = self._published - self._recorded >= topics.RECORDING_LEAD and under_way
         if not (self._node.parameters.recorded and waits):
             return
         bound = self._node.parameters.answer_timeout

@@ -15,10 +15,12 @@ from auv_msgs_py import topics
 from auv_msgs_py.conversions import fill_current, fill_odometry, fill_water_velocity, finite, set_stamp
 from auv_msgs_py.errors import ConfigurationError, MessageRefused
 from auv_msgs_py.frames import FrameIds, FrameTable
+from auv_msgs_py.mission_word import MissionWord
 from auv_msgs_py.runtime import SuiteNode, run_nodes
 from auv_msgs_py.types import STOP, Command
 from auv_msgs_py.wire import Clock, Float64, Odometry, TwistWithCovarianceStamped, Vector3Stamped
 from auv_path_following import vehicle
+from auv_path_following.guidance.mission_state import State
 from auv_sim.nodes.lockstep import Lockstep
 from auv_sim.nodes.pacing import Pacer
 from auv_sim.parameters import PlantParameters
@@ -26,7 +28,7 @@ from auv_sim.plant import sea
 from auv_sim.plant.simulated import SimulatedVehicle
 
 #: States of a mission in which the vehicle, free running, obeys no command: it may have come late.
-_OVER = ("holding", "complete", "aborted")
+_OVER = (State.HOLDING, State.COMPLETE, State.ABORTED)
 #: A rudder command may miss the stop by rounding, rad.
 _ROUNDING = 1e-9
 
@@ -43,7 +45,7 @@ class RemusPlantNode(SuiteNode):
         self.step_ns = round(p.step * 1e9)
         self.steps = 0
         self.mission_running = False
-        self._mission_over = False
+        self._mission = MissionWord(State)
         self.command = STOP
         self._released = not p.hold_until_running
         self._commands: dict[str, tuple[float, int]] = {}
@@ -147,11 +149,13 @@ class RemusPlantNode(SuiteNode):
             self._lockstep.on_command(topic, value)
 
     def _on_mission_state(self, message: String) -> None:
-        self.mission_running = message.data == "running"
-        self._mission_over = message.data in _OVER
+        refused = self._mission.hear(message.data, time.monotonic())
+        self.mission_running = message.data == State.RUNNING
         self._released = self._released or self.mission_running
         if self._lockstep is not None:
             self._lockstep.on_mission_state()
+        if refused is not None:
+            raise refused
 
     def _on_reset(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         # In lockstep a step may be under way; its answer must not meet the new first step.
@@ -178,7 +182,8 @@ class RemusPlantNode(SuiteNode):
         held = [self._commands.get(name, (0.0, self.stamp)) for name in names]
         silent = [name for name, (_, at) in zip(names, held, strict=True) if at < self.stamp - bound * 1e9]
         self.health.warn("commands", f"no {', '.join(silent)} for {bound:g} s: stopped" if silent else "")
-        return STOP if silent or self._mission_over else Command(held[0][0], held[1][0])
+        over = self._mission.at(time.monotonic()) in _OVER
+        return STOP if silent or over else Command(held[0][0], held[1][0])
 
 
 def main(args: Sequence[str] | None = None) -> int:
