@@ -19,7 +19,9 @@ ROS = re.compile(
 )
 #: Where that may be imported: these folders, and the ROS half of auv_msgs_py.
 ROS_FOLDERS = {"nodes", "recording", "mission", "drivers", "bags", "faults", "benchmark"}
-ROS_HALF = {"conversions", "health", "lockstep_gate", "params", "qos", "run", "runtime", "transport"}
+ROS_HALF = {
+    "conversions", "graph_look", "health", "lockstep_gate", "params", "qos", "run", "runtime", "transport",
+}  # fmt: skip
 #: A law that looks at a clock or rolls unseeded dice cannot be repeated.
 UNREPEATABLE = {"time", "datetime", "random"}
 

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import gc
+import os
+import select
 import signal
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
 from auv_msgs_py.errors import SuiteError
+from auv_msgs_py.graph_look import GraphLook
 
 try:
     from rclpy.experimental import EventsExecutor
@@ -26,6 +30,8 @@ if TYPE_CHECKING:
 
 #: Exit code for input that cannot be used; 1 is for everything else that went wrong.
 EXIT_BAD_INPUT = 2
+#: Set in the environment of nodes that a launcher starts: they wait for `OPEN` on their standard input.
+GATE, OPEN = "AUV_START_GATE", "open\n"
 #: How long nodes may go on after a stop was requested, s of wall time.
 _GRACE = 5.0
 
@@ -84,6 +90,43 @@ def _spin_some(executor: Any, nodes: Sequence[SuiteNode]) -> None:
     executor.spin_until_future_complete(attention, timeout_sec=0.1)
 
 
+def _let_in(stop: StopRequest) -> bool:
+    """Wait at the gate of a launcher that looks at the graph first; False: the nodes are not to be made.
+
+    Until then this process is not in the graph at all. Without a launcher the gate is open.
+    """
+    if GATE not in os.environ:
+        return True
+    while not stop.requested:
+        if select.select([sys.stdin], [], [], 0.1)[0]:
+            return sys.stdin.readline() == OPEN
+    return False
+
+
+def _look_around(nodes: Sequence[SuiteNode], stop: StopRequest) -> Iterator[Node]:
+    """Look at the graph for simulators that were started by hand, while nothing has been published yet.
+
+    Returns:
+        The nodes that hold their claims.
+
+    Raises:
+        GraphTaken: there is another.
+    """
+    for node in nodes:
+        claim = node.claim()
+        if claim is None or GATE in os.environ:
+            continue
+        name = node.get_fully_qualified_name()
+        watcher = rclpy.create_node("_graph_look", use_global_arguments=False, start_parameter_services=False)
+        yield watcher
+        executor = SingleThreadedExecutor()
+        executor.add_node(watcher)
+        look = GraphLook(watcher, claim, (name,))
+        while not (look.ended() or stop.requested):
+            executor.spin_once(timeout_sec=0.02)
+        executor.remove_node(watcher)
+
+
 def run_nodes(factories: Sequence[Callable[[], SuiteNode]], args: Sequence[str] | None = None) -> int:
     """The body of every executable: make the nodes, run them, leave nothing behind.
 
@@ -93,9 +136,13 @@ def run_nodes(factories: Sequence[Callable[[], SuiteNode]], args: Sequence[str] 
     rclpy.init(args=list(args) if args is not None else None, signal_handler_options=SignalHandlerOptions.NO)
     stop = StopRequest()
     nodes: list[SuiteNode] = []
+    watchers: list[Node] = []
     try:
+        if not _let_in(stop):
+            return 0
         for factory in factories:
             nodes.append(factory())
+        watchers.extend(_look_around(nodes, stop))
         return spin(nodes, stop)
     except SuiteError as error:
         print(error, file=sys.stderr)
@@ -104,4 +151,6 @@ def run_nodes(factories: Sequence[Callable[[], SuiteNode]], args: Sequence[str] 
         for node in nodes:
             node.close()
             node.destroy_node()
+        for watcher in watchers:
+            watcher.destroy_node()
         rclpy.try_shutdown()

@@ -12,6 +12,7 @@ from rclpy.publisher import Publisher
 from rclpy.time import Time
 
 from auv_msgs_py import params, qos, topics
+from auv_msgs_py.claim import Claim
 from auv_msgs_py.conversions import stamp_of
 from auv_msgs_py.errors import LockstepBroken, MessageRefused
 from auv_msgs_py.health import Health
@@ -61,6 +62,10 @@ class SuiteNode(Node):  # type: ignore[misc]
     def waiting_for(self) -> str:
         """The topic that the current step still lacks, for /diagnostics."""
         return ""
+
+    def claim(self) -> Claim | None:
+        """What a simulator takes for itself in the graph; None for every other node."""
+        return None
 
     def configure(self) -> None:
         """Called after `self.parameters` was changed in flight."""

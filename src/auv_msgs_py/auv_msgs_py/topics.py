@@ -9,8 +9,15 @@ OBSERVER = "current_observer"
 GUIDANCE = "ailos_guidance"
 AUTOPILOT = "heading_autopilot"
 RECORDER = "recorder"
+#: The node of `scripts/mission.py`.
+LAUNCHER = "mission_launcher"
 #: Takes the simulator's place in front of a real vehicle.
 MAVLINK_DRIVER = "mavlink_driver"
+
+
+def full_name(namespace: str, name: str) -> str:
+    """`/auv`, `odom` -> ``/auv/odom``; the root namespace is `/`."""
+    return f"{namespace.rstrip('/')}/{name}"
 
 
 class Topic(NamedTuple):
@@ -53,6 +60,9 @@ DIAGNOSTICS = Topic("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", "ever
 #: Extension of the contract, lockstep only: how many steps the recorder has in full, so that the simulator
 #: never outruns it.
 RECORDED_STEPS = Topic("recorded_steps", "std_msgs/msg/UInt64", RECORDER, (PLANT,))
+#: Extension of the contract: what each launcher and simulator takes for itself, see `claim`. Absolute,
+#: because a domain has one /clock.
+GRAPH_CLAIMS = Topic("/graph_claims", "std_msgs/msg/String", "every launcher and simulator", latched=True)
 
 #: Published once per odometry while the mission runs: every one of them has one message a step.
 PER_STEP = (

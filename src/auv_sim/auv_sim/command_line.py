@@ -123,9 +123,9 @@ finite.__name__ = positive.__name__ = not_negative.__name__ = "number"
 
 
 def ros_namespace(text: str) -> str:
-    """A ROS namespace with one slash in front."""
+    """A ROS namespace with one slash in front; `/` is the root."""
     name = "/" + text.strip("/")
-    if not re.fullmatch(r"(/[A-Za-z_][A-Za-z0-9_]*)+", name):
+    if not text or not re.fullmatch(r"/|(/[A-Za-z_][A-Za-z0-9_]*)+", name):
         raise argparse.ArgumentTypeError(f"found '{text}', expected a ROS namespace such as /auv")
     return name
 

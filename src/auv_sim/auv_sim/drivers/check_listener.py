@@ -24,7 +24,7 @@ _DEPTH = 1000
 #: The diagonal of a 6 x 6 covariance.
 _DIAGONAL = slice(0, 36, 7)
 #: Who listens to commands without being the vehicle.
-_BYSTANDERS = {topics.RECORDER, topics.AUTOPILOT, "mission_launcher"}
+_BYSTANDERS = {topics.RECORDER, topics.AUTOPILOT, topics.LAUNCHER}
 #: The small test ends at once without odometry for so long (s), or so far from where it began (m).
 _SILENCE, _FAR = 1.0, 100.0
 #: Without odometry a command is sent so often, s.
@@ -62,7 +62,7 @@ class VehicleListener:
         self.recording = Recording()
         self.cut_short = ""
         self._answered = 0
-        self._namespace = namespace.rstrip("/")
+        self._namespace = namespace
         self._wiggle = Wiggle.of(vehicle) if vehicle is not None else None
         self._begin: float | None = None
         self._origin: OdometrySample | None = None
@@ -81,7 +81,7 @@ class VehicleListener:
 
     def name(self, topic: Topic) -> str:
         """The topic's full name."""
-        return f"{self._namespace}/{topic.name}"
+        return topics.full_name(self._namespace, topic.name)
 
     def now(self) -> float:
         """ROS time, s."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import shutil
 import sys
 import time
 from collections.abc import Sequence
@@ -12,6 +13,7 @@ from typing import Any
 from rich.markup import escape
 
 from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.graph_look import GraphTaken
 from auv_path_following import config_files
 from auv_sim.command_line import (
     EXIT_DONE,
@@ -174,8 +176,12 @@ def _fly(options: Options) -> int:
             console.print(f"[yellow]{level}[/yellow] {escape(str(verdict))}", highlight=False, soft_wrap=True)
     for notice in resolved.verdicts.notices:
         console.print(f"[cyan]notice[/cyan] {escape(notice)}", highlight=False, soft_wrap=True)
-    with Progress(path, console, options.quiet) as progress:
-        outcome = launcher.fly(resolved, directory, domain, progress)
+    try:
+        with Progress(path, console, options.quiet) as progress:
+            outcome = launcher.fly(resolved, directory, domain, progress)
+    except GraphTaken:
+        shutil.rmtree(directory)  # nothing was flown, and the same command is to work again
+        raise
     if outcome.state != "complete":
         print(f"mission {outcome.state}: {outcome.reason}", file=sys.stderr)
     summary = results.conclude(resolved, directory, outcome)

@@ -117,10 +117,11 @@ def _start_nodes(plan: Plan, children: Children, parameters: Path) -> None:
         children.start(EMULATOR, EMULATOR_MODULE, plan.emulator)
     names = [name for name in NODES if name in plan.parameters]
     if plan.options.composed:
-        children.start(_COMPOSED, "auv_sim.mission.composed", [json.dumps(dict.fromkeys(names, ros))])
+        arguments = [json.dumps(dict.fromkeys(names, ros))]
+        children.start(_COMPOSED, "auv_sim.mission.composed", arguments, gated=True)
         return
     for name in names:
-        children.start(name, NODES[name].split(":")[0], ["--ros-args", *ros])
+        children.start(name, NODES[name].split(":")[0], ["--ros-args", *ros], gated=True)
 
 
 class _Flight:
@@ -138,9 +139,10 @@ class _Flight:
 
     def run(self) -> Outcome:
         begin = time.monotonic()
-        if not self._all_listening() or not self._vehicle_there():
+        if not self._graph_free() or not self._all_listening() or not self._vehicle_there():
             return Outcome("interrupted", "stopped before the mission began", time.monotonic() - begin, 0.0)
         self._processor.place(self._children.ids)
+        self._look.check()
         refused = self._monitor.start()
         if refused:
             raise MissionFailed(f"the mission could not be started: {refused}")
@@ -158,6 +160,21 @@ class _Flight:
         elif state == "aborted":
             reason = self._why_aborted()
         return Outcome(state, reason, wall, self._monitor.mission_time)
+
+    def _graph_free(self) -> bool:
+        """Look at the graph while the nodes start, which enter it only then; False when interrupted.
+
+        Raises:
+            GraphTaken: another has what this mission needs.
+        """
+        self._look = self._monitor.look_around(self._plan.claim())
+        while not self._look.ended():
+            if self._interrupt.requested:
+                return False
+            self._check_children()
+            self._monitor.look(0.02)
+        self._children.open_gate()
+        return True
 
     def _all_listening(self) -> bool:
         """Wait until every node listens to what it needs; False when interrupted."""
@@ -177,7 +194,7 @@ class _Flight:
     def _vehicle_there(self) -> bool:
         """Without our simulator: wait for somebody's odometry; False when interrupted."""
         deadline = time.monotonic() + _VEHICLE_BOUND
-        topic = f"{self._plan.options.namespace}/{topics.ODOM.name}"
+        topic = topics.full_name(self._plan.options.namespace, topics.ODOM.name)
         while not self._plan.options.simulator and not self._monitor.odometry_seen:
             if self._interrupt.requested:
                 return False

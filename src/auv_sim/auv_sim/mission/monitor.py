@@ -17,8 +17,10 @@ from std_msgs.msg import Float64, String
 from std_srvs.srv import Trigger
 
 from auv_msgs_py import qos, topics
+from auv_msgs_py.claim import Claim
 from auv_msgs_py.conversions import finite, stamp_of
 from auv_msgs_py.errors import MessageRefused
+from auv_msgs_py.graph_look import GraphLook
 from auv_msgs_py.mission_word import PERIOD, MissionWord
 from auv_msgs_py.topics import Topic
 from auv_path_following.guidance.mission_state import State
@@ -38,7 +40,7 @@ class Monitor:
 
     def __init__(self, namespace: str) -> None:
         rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
-        self.node = Node("mission_launcher", namespace=namespace, start_parameter_services=False)
+        self.node = Node(topics.LAUNCHER, namespace=namespace, start_parameter_services=False)
         self._executor = SingleThreadedExecutor()
         self._executor.add_node(self.node)
         self.s = 0.0
@@ -126,6 +128,10 @@ class Monitor:
         for _ in range(8):
             self._executor.spin_once(timeout_sec=0.0)
         time.sleep(max(0.0, deadline - time.monotonic()))
+
+    def look_around(self, claim: Claim) -> GraphLook:
+        """Begin to look whether the graph has room for a mission; `look` lets it see."""
+        return GraphLook(self.node, claim)
 
     def missing_nodes(self, names: set[str], recorded: bool) -> set[str]:
         """Which of the named nodes do not yet listen to the topics they need."""

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from auv_msgs_py import params_file, topics, yaml_file
+from auv_msgs_py.claim import Claim
 from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.settings import Pair
 from auv_msgs_py.types import NO_CURRENT, Current
@@ -106,10 +107,22 @@ class Plan:
         return self.options.simulator and self.options.speed is None
 
     @property
+    def own_clock(self) -> bool:
+        """Whether this mission publishes /clock."""
+        return self.options.simulator or (self.options.emulator and self.options.speed is not None)
+
+    @property
     def use_sim_time(self) -> bool:
         """Whether the nodes follow /clock."""
-        emulated = self.options.emulator and self.options.speed is not None
-        return self.options.use_sim_time or self.options.simulator or emulated
+        return self.options.use_sim_time or self.own_clock
+
+    def claim(self) -> Claim:
+        """What the mission takes for itself in the graph."""
+        namespace = self.options.namespace
+        vehicle = () if self.options.no_sim else (topics.PLANT, *DRIVERS.values())
+        names = {*self.parameters, *vehicle, topics.LAUNCHER}
+        holder = topics.full_name(namespace, topics.LAUNCHER)
+        return Claim(holder=holder, namespace=namespace, names=tuple(sorted(names)), clock=self.own_clock)
 
     def scenario(self) -> Scenario:
         """The same flight for `closed_loop`.

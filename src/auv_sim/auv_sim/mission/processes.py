@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import os
 import signal
@@ -11,6 +12,8 @@ import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+
+from auv_msgs_py.run import GATE, OPEN
 
 _PR_SET_PDEATHSIG = 1
 _LIBC = ctypes.CDLL(None)
@@ -54,20 +57,31 @@ class Children:
         self._children: dict[str, Child] = {}
         log_directory.mkdir(parents=True, exist_ok=True)
 
-    def start(self, name: str, module: str, arguments: Sequence[str]) -> None:
-        """Run ``python -m module arguments`` in its own session: Ctrl-C reaches only the launcher."""
+    def start(self, name: str, module: str, arguments: Sequence[str], gated: bool = False) -> None:
+        """Run ``python -m module arguments`` in its own session: Ctrl-C reaches only the launcher.
+
+        A gated process runs nodes of the suite and makes them when `open_gate` is called.
+        """
         log = self._directory / f"{name}.log"
         with log.open("wb") as stream:
             process = subprocess.Popen(  # noqa: S603 - our own interpreter, our own modules
                 [sys.executable, "-m", module, *arguments],
-                stdin=subprocess.DEVNULL,
+                stdin=subprocess.PIPE if gated else subprocess.DEVNULL,
                 stdout=stream,
                 stderr=subprocess.STDOUT,
-                env=self._environment,
+                env={**self._environment, GATE: "1"} if gated else self._environment,
                 start_new_session=True,
                 preexec_fn=_die_with_parent,
             )
         self._children[name] = Child(name, process, log)
+
+    def open_gate(self) -> None:
+        """Let the gated processes make their nodes."""
+        for child in self._children.values():
+            if child.process.stdin is not None:
+                with contextlib.suppress(BrokenPipeError):  # it has ended, which `dead` reports
+                    child.process.stdin.write(OPEN.encode())
+                    child.process.stdin.flush()
 
     def __iter__(self):  # type: ignore[no-untyped-def]
         return iter(self._children.values())
@@ -94,3 +108,6 @@ class Children:
             except subprocess.TimeoutExpired:
                 child.process.kill()
                 child.process.wait()
+            if child.process.stdin is not None:
+                with contextlib.suppress(BrokenPipeError):
+                    child.process.stdin.close()

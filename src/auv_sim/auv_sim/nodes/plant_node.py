@@ -12,6 +12,7 @@ from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 from auv_msgs_py import topics
+from auv_msgs_py.claim import Claim, of_simulator
 from auv_msgs_py.conversions import fill_current, fill_odometry, fill_water_velocity, finite, set_stamp
 from auv_msgs_py.errors import ConfigurationError, MessageRefused
 from auv_msgs_py.frames import FrameIds, FrameTable
@@ -84,6 +85,9 @@ class RemusPlantNode(SuiteNode):
             raise ConfigurationError(
                 f"{self.get_name()}: world_frame, body_frame", error.found, error.expected
             ) from None
+
+    def claim(self) -> Claim:
+        return of_simulator(self.get_namespace(), self.get_name())
 
     def waiting_for(self) -> str:
         return self.gate_waits_for() or (self._lockstep.waiting_for() if self._lockstep else "")
