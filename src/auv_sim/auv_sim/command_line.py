@@ -18,6 +18,7 @@ from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from auv_msgs_py.errors import ConfigurationError, MessageRefused, SuiteError
+from auv_sim.analysis.flown_share import LEAST_SHARE
 
 P = ParamSpec("P")
 
@@ -90,6 +91,14 @@ def not_negative(text: str) -> float:
     return value
 
 
+def percentage(text: str) -> float:
+    """A number from 0 to 100."""
+    value = finite(text)
+    if not 0.0 <= value <= 100.0:
+        raise argparse.ArgumentTypeError(f"found {text}, expected a percentage from 0 to 100")
+    return value
+
+
 def whole(text: str) -> int:
     """A whole number of at least 0."""
     if not text.isdecimal():
@@ -119,7 +128,7 @@ def target(text: str) -> Path:
 
 
 # argparse names the type in its message when float() itself fails.
-finite.__name__ = positive.__name__ = not_negative.__name__ = "number"
+finite.__name__ = positive.__name__ = not_negative.__name__ = percentage.__name__ = "number"
 
 
 def ros_namespace(text: str) -> str:
@@ -167,6 +176,17 @@ def wrote(console: Console, path: object, what: str) -> None:
 def go_on(console: Console, words: str, line: str) -> None:
     """Tell the next command, as it can be copied, and what it is for."""
     console.print(f"\n{words}:  {line}", soft_wrap=True, highlight=False, markup=False)
+
+
+def add_flown_option(parser: argparse.ArgumentParser, default: float = 100.0 * LEAST_SHARE) -> None:
+    """The option of every command that judges missions: how much of the path has to be flown."""
+    parser.add_argument(
+        "--flown",
+        type=percentage,
+        default=default,
+        metavar="PERCENT",
+        help="a mission of which a smaller share of the path was flown is incomplete (default: %(default)g)",
+    )
 
 
 def progress_bar(console: Console, disable: bool = False) -> Progress:

@@ -14,7 +14,7 @@ from auv_sim.analysis.run import Run
 from auv_sim.analysis.trials import Trial, judge, together
 
 PATH = CompositePath([Line(0.0, 0.0, 100.0, 0.0)])
-GOOD = Trial("robust", 0, True, 100.0, 1.0, math.nan, 0.4, 1.2, 3.0, 8.0)
+GOOD = Trial("robust", 0, True, 0.97, 100.0, 1.0, math.nan, 0.4, 1.2, 3.0, 8.0)
 
 
 def test_a_flight_has_its_figures() -> None:
@@ -28,6 +28,7 @@ def test_a_flight_has_its_figures() -> None:
     )  # fmt: skip
     trial = judge(run, PATH, "robust", 7)
     assert (trial.params, trial.seed, trial.completed) == ("robust", 7, True)
+    assert trial.flown_share == 1.0
     assert trial.largest_distance == pytest.approx(0.3)
     assert trial.navigation_error == pytest.approx(0.3)
     assert math.isnan(trial.largest_at_corners)
@@ -36,18 +37,20 @@ def test_a_flight_has_its_figures() -> None:
     assert trial.rudder_rate == pytest.approx(20.0 / math.sqrt(2.0), rel=0.01)
 
 
-def test_only_a_completed_flight_within_the_limit_counts() -> None:
+def test_only_a_flight_that_flew_the_path_to_its_end_within_the_limit_counts() -> None:
     trials = [
         GOOD,
         dataclasses.replace(GOOD, seed=1, largest_distance=2.0),
         dataclasses.replace(GOOD, seed=2, largest_distance=2.6),
         dataclasses.replace(GOOD, seed=3, completed=False),
+        dataclasses.replace(GOOD, seed=4, flown_share=0.94),
         dataclasses.replace(GOOD, params="rough"),
     ]
-    robust, rough = together(trials, 2.5)
-    assert (robust.params, robust.flights, robust.completed, robust.within) == ("robust", 4, 3, 2)
-    assert (robust.median["largest_distance"], robust.worst["largest_distance"]) == (1.5, 2.6)
+    robust, rough = together(trials, 2.5, 0.95)
+    assert (robust.params, robust.flights, robust.completed, robust.within) == ("robust", 5, 4, 2)
+    assert (robust.median["largest_distance"], robust.worst["largest_distance"]) == (1.0, 2.6)
     assert (rough.flights, rough.within) == (1, 1)
+    assert (robust.flown_share, rough.flown_share) == (0.94, 0.97)
 
 
 def test_a_flight_that_never_came_to_a_corner_does_not_hide_the_others() -> None:
@@ -56,7 +59,7 @@ def test_a_flight_that_never_came_to_a_corner_does_not_hide_the_others() -> None
         dataclasses.replace(GOOD, seed=1, largest_at_corners=3.0),
         dataclasses.replace(GOOD, seed=2, completed=False),
     ]
-    (row,) = together(trials, 2.5)
+    (row,) = together(trials, 2.5, 0.95)
     assert (row.median["largest_at_corners"], row.worst["largest_at_corners"]) == (2.0, 3.0)
-    (row,) = together([GOOD], 2.5)
+    (row,) = together([GOOD], 2.5, 0.95)
     assert math.isnan(row.median["largest_at_corners"]) and math.isnan(row.worst["largest_at_corners"])

@@ -166,6 +166,7 @@ def test_inspect_knows_the_mission(run_directory: Path, capsys: pytest.CaptureFi
     assert cli.main(["inspect", str(run_directory), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["mission"]["completed"] is True
+    assert (found["mission"]["flown_share"], found["mission"]["missed"]) == (1.0, [])
     assert [part["kind"] for part in found["mission"]["subpaths"]] == ["line", "line"]
     odom = next(topic for topic in found["topics"] if topic["name"] == "/auv/odom")
     assert odom["rate"] == pytest.approx(20.0)
@@ -187,6 +188,7 @@ def test_the_report_stands_alone(
     data = json.loads(page.split('type="application/json">')[1].split("</script>")[0])
     assert data["panels"][0]["series"][0]["name"] == "distance"
     assert len(data["switches"]) == 1
+    assert ["mission", "complete"] in data["facts"] and ["flown", "100.00 %"] in data["facts"]
     assert set(data["config"]) == {"mission.yaml", "params.yaml", "vehicle.yaml"}
     assert {file.name for file in tmp_path.glob("*.png")} == {"overview.png", "track.png", "signals.png"}
 
@@ -210,6 +212,7 @@ def test_compare_tells_runs_apart(
     command = ["compare", str(run_directory), str(run_directory / "bag"), "--json"]
     assert cli.main([*command, "--png", str(tmp_path / "compare.png")]) == 0
     found = json.loads(capsys.readouterr().out)
+    assert [run["flown_share"] for run in found["runs"].values()] == [1.0, 1.0]
     figures = [run["rms_distance"] for run in found["runs"].values()]
     assert len(figures) == 2
     assert figures[0] == figures[1]

@@ -142,7 +142,26 @@ def test_the_time_limit_ends_a_flight_that_has_not_arrived() -> None:
     flights = engine.fly([scenario(time_limit=10.0)])
     assert not flights.completed[0] and flights.finite[0]
     assert flights.steps[0] == 201 and flights.duration[0] == pytest.approx(10.0)
-    assert np.isnan(flights.late_rms_distance[0])
+
+
+def test_late_figures_count_from_where_the_path_is_joined() -> None:
+    told = scenario(initial=PlantState(-20.0, 15.0, 0.0, 1.9, 0.0, 0.0), time_limit=120.0)
+    flights, run = engine.fly([told]), engine.track(told)
+    distance = told.path.distance(run.x, run.y, run.subpath(told.path.n))
+    first = int(np.argmax((distance <= 1.0) & (run.s > 0.0)))
+    assert 100 < first < run.steps - 100
+    assert flights.time_to_path[0] == pytest.approx(first * told.step)
+    assert flights.late_largest_distance[0] == pytest.approx(distance[first:].max())
+    assert flights.late_rms_distance[0] == pytest.approx(np.sqrt(np.mean(distance[first:] ** 2)))
+    assert flights.largest_distance[0] == pytest.approx(distance.max())
+    assert distance.max() > 6.0
+
+
+def test_a_flight_that_never_joins_the_path_has_no_late_figures() -> None:
+    flights = engine.fly([scenario(initial=PlantState(0.0, 80.0, 0.0, 1.9, 0.0, 0.0), time_limit=5.0)])
+    for figure in ("late_rms_distance", "late_largest_distance", "time_to_path"):
+        assert np.isnan(getattr(flights, figure)[0])
+    assert flights.flown_share[0] == 0.0
 
 
 def test_a_state_that_runs_away_ends_the_flight() -> None:

@@ -60,7 +60,9 @@ def test_enough_rounds_tell_what_the_draws_do(tmp_path: Path) -> None:
 
 def test_every_figure_has_its_unit() -> None:
     # Counts, shares and the path's own parameter are pure numbers; nothing else is.
-    assert {name for name in FIGURES if "[" not in figure_label(name)} == {"steps", "progress", "saturated"}
+    assert {name for name in FIGURES if "[" not in figure_label(name)} == {
+        "steps", "progress", "saturated", "flown_share",
+    }  # fmt: skip
     assert figure_label("rms_rudder_rate") == "rms rudder rate [deg/s]"
     assert figure_label("current_estimate_error") == "current estimate error [m/s]"
     assert figure_label("late_rms_distance") == "late rms distance [m]"

@@ -1,16 +1,21 @@
-"""What is told when a mission is over."""
+"""What a mission reports when it is over, and how it is judged."""
 
 from __future__ import annotations
 
+import dataclasses
 import io
+import json
 import shlex
 from pathlib import Path
 
+import numpy as np
+import pytest
 from rich.console import Console
 
 from auv_sim import closed_loop
 from auv_sim.analysis.metrics import summarise
-from auv_sim.mission import plan, results
+from auv_sim.analysis.run import Run
+from auv_sim.mission import cli, launcher, plan, results
 from auv_sim.mission.launcher import Outcome
 from auv_sim.mission.plan import Options
 
@@ -25,3 +30,52 @@ def test_figures_have_units_and_the_next_command_is_quoted(short_mission: Path, 
         assert head in told.getvalue()
     last = told.getvalue().splitlines()[-1].removeprefix("Look further:")
     assert shlex.split(last) == ["python3", "scripts/bag.py", "report", str(directory)]
+
+
+@pytest.fixture
+def skips_a_fifth(short_mission: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
+    """The launcher's bag: a complete mission whose virtual point ran ahead while the vehicle cut the arc."""
+    run = closed_loop.fly(plan.make(Options(mission=str(short_mission)), tmp_path).scenario())
+    on_the_arc = run.subpath(3) == 1
+    cut = dataclasses.replace(run, x=run.x - np.where(on_the_arc, 8.0, 0.0))
+    monkeypatch.setattr(results, "load", lambda _: cut)
+    monkeypatch.setattr(launcher, "fly", lambda *_: Outcome("complete", "", 10.0, 40.0))
+    return cut
+
+
+@pytest.mark.parametrize(("least", "code"), [((), 1), (("--flown", "40"), 0), (("--flown", "99"), 1)])
+def test_complete_means_flown(
+    least: tuple[str, ...], code: int, skips_a_fifth: Run, short_mission: Path, tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    directory = tmp_path / "run"
+    assert cli.main(["--mission", str(short_mission), "--out", str(directory), *least]) == code
+    record = json.loads((directory / "summary.json").read_text(encoding="utf-8"))
+    said = capsys.readouterr()
+    assert 0.4 < record["flown_share"] < 0.6 and record["completed"]
+    (begin, end), *_ = record["missed"]
+    assert f"of the path; missed {begin:.1f} to {end:.1f} m" in said.out
+    if code:
+        assert record["outcome"] == "incomplete" and "short: incomplete" in said.out
+        reason = said.err.removeprefix("mission incomplete: ").strip()
+        assert reason == record["reason"]
+        assert reason.startswith("found 5") and "expected at least 99 %: missed 1" in reason
+    else:
+        assert (record["outcome"], record["reason"], said.err) == ("complete", "", "")
+        assert "short: complete" in said.out
+
+
+def test_an_aborted_mission_stays_aborted(
+    skips_a_fifth: Run, short_mission: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(launcher, "fly", lambda *_: Outcome("aborted", "left the geofence", 10.0, 40.0))
+    directory = tmp_path / "run"
+    assert cli.main(["--mission", str(short_mission), "--out", str(directory), "--quiet"]) == 1
+    assert json.loads((directory / "summary.json").read_text(encoding="utf-8"))["outcome"] == "aborted"
+
+
+def test_a_share_that_is_none_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        cli.main(["--flown", "101"])
+    assert ended.value.code == 2
+    assert "found 101, expected a percentage from 0 to 100" in capsys.readouterr().err

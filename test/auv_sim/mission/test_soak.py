@@ -7,9 +7,11 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from auv_sim.mission import launcher, memory
+from auv_sim.analysis.run import Run
+from auv_sim.mission import launcher, memory, soak
 from auv_sim.mission.soak import growth, main
 
 
@@ -45,6 +47,17 @@ def test_a_soak_that_is_interrupted_has_not_failed(
     monkeypatch.setattr(launcher, "fly", lambda *_: outcome)
     assert main(["--minutes", "1", "--out", str(tmp_path / "soak")]) == 130
     assert capsys.readouterr().err == "interrupted: stopped by a signal\n"
+
+
+def test_a_soak_that_did_not_fly_its_path_has_failed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(launcher, "fly", lambda *_: launcher.Outcome("complete", "", 1.0, 1.0))
+    t = np.arange(0.0, 60.0, 1.0)
+    run = Run.from_columns({"t": t, "x": 1.9 * t, "y": 0.0 * t, "psi": 0.0 * t, "s": np.minimum(t, 40.0)})
+    monkeypatch.setattr(soak, "load", lambda _: run)
+    assert main(["--minutes", "1", "--out", str(tmp_path / "soak")]) == 1
+    assert "soak failed: incomplete: found " in capsys.readouterr().err
 
 
 def test_a_directory_that_exists_is_never_written_to(

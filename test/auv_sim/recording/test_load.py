@@ -92,7 +92,7 @@ def truth(n: int) -> Run:
     """Some values that are all different, angles within [-pi, pi)."""
     k = np.arange(n)
     columns = {field.name: (i + 1) * 0.1 + 0.001 * k for i, field in enumerate(dataclasses.fields(Run))}
-    return Run.from_columns(columns | {"t": 1.0 + 0.05 * k, "s": 0.01 * k})
+    return Run.from_columns(columns | {"t": 1.0 + 0.05 * k, "s": 0.01 * k, "held": np.nan * k})
 
 
 def put_row(bag: Bag, truth: Run, k: int, log_ns: int, skip: tuple[str, ...] = ()) -> None:

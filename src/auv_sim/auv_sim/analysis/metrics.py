@@ -12,10 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from auv_path_following.paths.composite import CompositePath, Joint
+from auv_sim.analysis.flown_share import CORNER_RADIUS, LEAST_SHARE, Stretch, flown_share, listed, percent
 from auv_sim.analysis.run import Column, Run
 
-#: A corner's figure looks this far around its joint, m.
-CORNER_RADIUS = 30.0
 #: The current estimate is judged from so long after the start, s.
 OBSERVER_SETTLING_TIME = 15.0
 
@@ -67,7 +66,10 @@ class MissionSummary:
     """The whole mission, from the first thrust to the end of the path. NaN where the signal is missing.
 
     Attributes:
-        completed: whether the end of the path was reached.
+        completed: whether the virtual point reached the end of the path.
+        flown_share: share of the path that was flown, 0 to 1, as `flown_share` defines it.
+        missed: stretches that were not flown, from where to where, m of path.
+        skipped: stretches that a rejoin after a hold skipped, m of path; they are not among the missed ones.
         steps: odometries in the run.
         duration: s.
         path_length, distance_covered: m.
@@ -84,6 +86,9 @@ class MissionSummary:
     """
 
     completed: bool
+    flown_share: float
+    missed: tuple[Stretch, ...]
+    skipped: tuple[Stretch, ...]
     steps: int
     duration: float
     path_length: float
@@ -104,8 +109,30 @@ class MissionSummary:
         """Strict JSON, indented; NaN becomes null."""
         return json.dumps(without_nan(dataclasses.asdict(self)), indent=2, allow_nan=False)
 
+    def outcome(self, least_share: float = LEAST_SHARE) -> str:
+        """How the mission ended: complete, incomplete (too little was flown), or short of the path's end."""
+        if not self.completed:
+            return "end of the path not reached"
+        return "incomplete" if self.shortfall(least_share) else "complete"
 
-def summarise(run: Run, path: CompositePath) -> MissionSummary:
+    def shortfall(self, least_share: float = LEAST_SHARE) -> str:
+        """Why a mission is incomplete, with the stretches that were missed; empty if enough was flown."""
+        if self.flown_share >= least_share:
+            return ""
+        return (
+            f"found {percent(self.flown_share)} of the path flown,"
+            f" expected at least {100.0 * least_share:g} %: missed {listed(self.missed)}"
+        )
+
+    def flown_line(self) -> str:
+        """The flown share and the stretches that were missed or skipped, for people."""
+        parts = [f"flown: {percent(self.flown_share)} of the path"]
+        parts += [f"missed {listed(self.missed)}"] if self.missed else []
+        parts += [f"skipped after a hold {listed(self.skipped)}"] if self.skipped else []
+        return "; ".join(parts)
+
+
+def summarise(run: Run, path: CompositePath, begin: float = 0.0) -> MissionSummary:
     """Judge a run against the path it followed: by where the vehicle really was, if that is known.
 
     Only the rows under way count (see `under_way`). Averages are over rows. What happens between two
@@ -114,8 +141,10 @@ def summarise(run: Run, path: CompositePath) -> MissionSummary:
     Args:
         run: the flown mission.
         path: the path of that mission, NED.
+        begin: s of Eq. (1) at which the mission began.
     """
     flown = under_way(run, path.n)
+    part = flown_share(flown, path, begin)
     i = flown.subpath(path.n)
     x, y = flown.track
     distance = path.distance(x, y, i)
@@ -145,6 +174,9 @@ def summarise(run: Run, path: CompositePath) -> MissionSummary:
         free &= ~near
     return MissionSummary(
         completed=bool((run.s >= path.n).any()),
+        flown_share=part.share,
+        missed=part.missed,
+        skipped=part.skipped,
         steps=run.steps,
         path_length=path.length,
         mean_speed=whole["distance_covered"] / whole["duration"] if whole["duration"] > 0.0 else math.nan,

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from auv_path_following.paths.composite import CompositePath
+from auv_sim.analysis.flown_share import percent
 from auv_sim.analysis.metrics import MissionSummary, under_way
 from auv_sim.analysis.plot_style import INK, MUTED, fact
 from auv_sim.analysis.run import Run
@@ -47,7 +49,7 @@ def draw(
     flown = under_way(run, path.n)
     _headline(figure, summary, title)
     left = grid[:, 0].subgridspec(2, 1, height_ratios=(2.5, 1.0), hspace=0.18)
-    track(figure.add_subplot(left[0]), flown, path)
+    track(figure.add_subplot(left[0]), flown, path, summary.missed)
     table(figure.add_subplot(left[1]), summary)
     rows = [figure.add_subplot(grid[0, 1])]
     rows += [figure.add_subplot(grid[k, 1], sharex=rows[0]) for k in range(1, 5)]
@@ -70,9 +72,9 @@ def draw(
 
 
 def _headline(figure: Figure, summary: MissionSummary, title: str) -> None:
-    done = f"all {len(summary.subpaths)} subpaths" if summary.completed else "end of the path not reached"
     facts = [
-        done,
+        "end of the path reached" if summary.completed else "end of the path not reached",
+        "" if math.isnan(summary.flown_share) else f"{percent(summary.flown_share)} of the path flown",
         fact(summary.duration, "{:.1f} s"),
         fact(summary.distance_covered, "{:.1f} m"),
         fact(summary.rms_distance, "rms distance {:.3f} m"),

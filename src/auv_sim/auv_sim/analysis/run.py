@@ -34,6 +34,7 @@ class Run:
         Vx_est, Vy_est: current estimate, Eq. (35) (north, east).
         Vx_true, Vy_true: the true current, from a simulator only.
         x_true, y_true, psi_true: where the vehicle really was, from a simulator whose navigation errs.
+        held: 1 where the mission held at the row or since the row before, else 0.
     """
 
     t: Column
@@ -59,6 +60,7 @@ class Run:
     x_true: Column
     y_true: Column
     psi_true: Column
+    held: Column
 
     @classmethod
     def from_columns(cls, columns: Mapping[str, ArrayLike]) -> Run:

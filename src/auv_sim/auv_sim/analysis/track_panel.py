@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ from matplotlib.axes import Axes
 
 from auv_msgs_py.angles import wrap
 from auv_path_following.paths.composite import CompositePath
+from auv_sim.analysis.flown_share import Stretch, cells_of, middles_of
 from auv_sim.analysis.labels import Labels, arrow
 from auv_sim.analysis.metrics import MissionSummary
 from auv_sim.analysis.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, PATH, RED, fact, style
@@ -24,12 +26,20 @@ _STRAIGHT = 1e-3
 _TABLE_COLUMNS = (0.0, 0.33, 0.49, 0.64, 0.83, 1.0)
 
 
-def track(axes: Axes, flown: Run, path: CompositePath) -> None:
-    """North up, east right, equal scales; subpaths and joints numbered, the current as an arrow."""
+def track(axes: Axes, flown: Run, path: CompositePath, missed: Sequence[Stretch] = ()) -> None:
+    """Draw the track over the path: north up, east right, equal scales.
+
+    Args:
+        axes: where to draw.
+        flown: the rows under way.
+        path: with numbered subpaths and joints.
+        missed: stretches of path that were not flown, marked on it.
+    """
     style(axes, "north x (m)")
     axes.set_xlabel("east y (m)", color=INK)
     path_x, path_y, _ = path.polyline(1.0)
     axes.plot(path_y, path_x, color=PATH, linewidth=6.0, solid_capstyle="round", label="path")
+    _mark(axes, path, missed)
     x, y = flown.track
     if np.isfinite(flown.x_true).any():
         axes.plot(flown.y, flown.x, color=ORANGE, linewidth=0.8, label="odometry")
@@ -49,8 +59,18 @@ def track(axes: Axes, flown: Run, path: CompositePath) -> None:
         _current_arrow(axes, flown, path)
     _numbers(axes, path)
     axes.legend(
-        loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=5, fontsize=10, frameon=False, borderpad=0.2
+        loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=6, fontsize=10, frameon=False, borderpad=0.2
     )
+
+
+def _mark(axes: Axes, path: CompositePath, missed: Sequence[Stretch]) -> None:
+    """Mark stretches on the path."""
+    cells = cells_of(path)
+    middles, label = middles_of(cells), "missed"
+    for stretch in missed:
+        x, y = cells.cells[(middles > stretch.begin) & (middles < stretch.end), :2].T
+        axes.plot(y, x, color=RED, linewidth=6.0, alpha=0.45, solid_capstyle="round", label=label)
+        label = ""
 
 
 def _numbers(axes: Axes, path: CompositePath) -> None:

@@ -22,6 +22,7 @@ class Trial:
         params: which gains: the file, or the name of a shipped one.
         seed: of the sea.
         completed: whether the end of the path was reached.
+        flown_share: share of the path that was flown, 0 to 1.
         duration: s.
         largest_distance: to the path away from G0 corners, m.
         largest_at_corners: to the path near them, m; NaN where there is none.
@@ -34,6 +35,7 @@ class Trial:
     params: str
     seed: int
     completed: bool
+    flown_share: float
     duration: float
     largest_distance: float
     largest_at_corners: float
@@ -59,6 +61,7 @@ def judge(run: Run, path: CompositePath, params: str, seed: int) -> Trial:
         params=params,
         seed=seed,
         completed=summary.completed,
+        flown_share=summary.flown_share,
         duration=summary.duration,
         largest_distance=summary.largest_distance_off_corners,
         largest_at_corners=max(corners, default=math.nan),
@@ -75,7 +78,9 @@ class Together:
 
     Attributes:
         params: which gains.
-        flights, completed, within: how many; how many came to the end; how many of those within the limit.
+        flights, completed, within: how many; how many reached the end of the path; how many of those kept the
+            limit and flew enough of it.
+        flown_share: the smallest share of the path that was flown, 0 to 1.
         median, worst: figure of `Trial` -> its value, of the flights that have one.
     """
 
@@ -83,6 +88,7 @@ class Together:
     flights: int
     completed: int
     within: int
+    flown_share: float
     median: dict[str, float]
     worst: dict[str, float]
 
@@ -99,12 +105,17 @@ def _of_known(figure: Callable[[Column], Any], column: Column) -> float:
     return float(figure(known)) if known.size else math.nan
 
 
-def together(trials: Sequence[Trial], limit: float) -> list[Together]:
+def _kept(trial: Trial, limit: float, least_share: float) -> bool:
+    return trial.completed and trial.largest_distance <= limit and trial.flown_share >= least_share
+
+
+def together(trials: Sequence[Trial], limit: float, least_share: float) -> list[Together]:
     """One row for each set of gains, in order of appearance.
 
     Args:
         trials: the flights.
         limit: for `largest_distance`, m.
+        least_share: for `flown_share`.
     """
     rows = []
     for params in dict.fromkeys(trial.params for trial in trials):
@@ -115,7 +126,8 @@ def together(trials: Sequence[Trial], limit: float) -> list[Together]:
                 params=params,
                 flights=len(mine),
                 completed=sum(trial.completed for trial in mine),
-                within=sum(trial.completed and trial.largest_distance <= limit for trial in mine),
+                within=sum(_kept(trial, limit, least_share) for trial in mine),
+                flown_share=min(trial.flown_share for trial in mine),
                 median={name: _of_known(np.median, column) for name, column in columns.items()},
                 worst={name: _of_known(np.max, column) for name, column in columns.items()},
             )

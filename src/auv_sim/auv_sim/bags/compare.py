@@ -24,6 +24,7 @@ from auv_sim.recording.bag import read_bag
 
 #: Field of the summary, heading, digits.
 _FIGURES = (
+    ("flown_share", "flown share", 4),
     ("duration", "time s", 1),
     ("rms_distance", "rms distance m", 4),
     ("largest_distance", "largest m", 3),

@@ -20,7 +20,7 @@ _UNITS = {
     "t": "s", "x": "m", "y": "m", "psi": "rad", "r": "rad/s", "ur": "m/s", "vr": "m/s", "rudder": "rad",
     "rudder_cmd": "rad", "thrust_cmd": "N", "psi_d": "rad", "r_d": "rad/s", "xe": "m", "ye": "m",
     "psi_e": "rad", "s": "-", "Vx_est": "m/s", "Vy_est": "m/s", "Vx_true": "m/s", "Vy_true": "m/s",
-    "x_true": "m", "y_true": "m", "psi_true": "rad",
+    "x_true": "m", "y_true": "m", "psi_true": "rad", "held": "-",
 }  # fmt: skip
 
 

@@ -12,6 +12,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from auv_sim.analysis.flown_share import percent
 from auv_sim.analysis.metrics import MissionSummary, SubpathSummary
 from auv_sim.bags.events import Event
 from auv_sim.bags.flight import Flight
@@ -42,6 +43,7 @@ def show(flight: Flight, facts: list[TopicFacts], events: list[Event], console: 
         console.print(mission(summary, flight.mission.name))
         if (own := flight.by_odometry) is not None:
             console.print(f"distance by odometry: rms {own.rms:.3f} m, largest {own.largest:.3f} m")
+        console.print(summary.flown_line(), soft_wrap=True)
     elif flight.run is not None and flight.run.steps > 1:
         run = flight.run
         length = float(np.hypot(np.diff(run.x), np.diff(run.y)).sum())
@@ -67,8 +69,12 @@ def _topics(facts: list[TopicFacts]) -> Table:
 
 def mission(summary: MissionSummary, name: str) -> Table:
     """The mission's figures, a row for each subpath."""
-    state = "complete" if summary.completed else "end of the path not reached"
-    table = Table(title=f"{escape(name)}: {state}", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
+    table = Table(
+        title=f"{escape(name)}: {summary.outcome()}",
+        title_justify="left",
+        box=box.SIMPLE_HEAD,
+        pad_edge=False,
+    )
     table.add_column("subpath")
     for heading in ("time s", "rms distance m", "largest m", "rms heading °", "rudder °", "rudder °/m"):
         table.add_column(heading, justify="right")
@@ -135,7 +141,7 @@ def show_many(rows: list[tuple[Path, Flight | None, str]], console: Console) -> 
         if summary is not None:
             values = (summary.rms_distance, summary.largest_distance, summary.rudder_travel_per_metre)
             figures = [_number(value, 3) for value in values]
-            state = "complete" if summary.completed else "not complete"
+            state = f"{summary.outcome()}, {percent(summary.flown_share)} flown"
         table.add_row(
             escape(str(path)), f"{(last - first) * 1e-9:.1f}", str(flight.bag.count), size(flight.bag.size),
             *figures, state, escape(note),

@@ -13,6 +13,7 @@ from auv_msgs_py import topics
 from auv_msgs_py.errors import ConfigurationError
 from auv_path_following.paths.composite import CompositePath
 from auv_sim.analysis.by_odometry import ByOdometry
+from auv_sim.analysis.flown_share import percent
 from auv_sim.analysis.metrics import MissionSummary, SubpathSummary
 from auv_sim.analysis.run import Run
 from auv_sim.bags.events import Event, diagnostic_spans
@@ -34,7 +35,7 @@ def page_data(flight: Flight, events: list[Event], title: str) -> dict[str, Any]
     return {
         "title": title,
         "facts": _facts(flight, summary, opinion),
-        "notes": [*flight.bag.notes, *flight.notes],
+        "notes": [*flight.bag.notes, *flight.notes, *_gaps(summary)],
         "columns": {name: _packed(values) for name, values in columns.items()},
         "path": {"x": _packed(path[0]), "y": _packed(path[1])} if path is not None else None,
         "joints": [{"index": j.index, "x": j.x, "y": j.y, "geometric": j.geometric} for j in joints],
@@ -117,7 +118,8 @@ def _facts(
         facts.insert(0, ("vehicle", flight.vehicle.name))
     if summary is not None:
         facts = [
-            ("mission", "complete" if summary.completed else "end of the path not reached"),
+            ("mission", summary.outcome()),
+            ("flown", percent(summary.flown_share)),
             *facts,
             ("path", f"{summary.path_length:.1f} m"),
             ("mean speed", f"{_number(summary.mean_speed, 2)} m/s"),
@@ -128,6 +130,13 @@ def _facts(
     if opinion is not None:
         facts.append(("by its odometry", f"rms {opinion.rms:.3f} m, largest {opinion.largest:.2f} m"))
     return facts
+
+
+def _gaps(summary: MissionSummary | None) -> list[str]:
+    """The line about what was not flown, if there is anything."""
+    if summary is None or not (summary.missed or summary.skipped):
+        return []
+    return [summary.flown_line()]
 
 
 def _table(summary: MissionSummary | None, opinion: ByOdometry | None) -> list[list[str]]:

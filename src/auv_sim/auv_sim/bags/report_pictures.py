@@ -31,7 +31,7 @@ def pictures(flight: Flight, directory: Path, title: str) -> list[Path]:
     overview.draw(run, mission.path, summary, whole, title, rudder_limit=angle, rudder_rate_limit=rate)
 
     def map_only(figure: Figure) -> None:
-        track(figure.add_subplot(), flown, mission.path)
+        track(figure.add_subplot(), flown, mission.path, summary.missed)
 
     def signals(figure: Figure) -> None:
         rows = list(figure.subplots(5, 1, sharex=True))

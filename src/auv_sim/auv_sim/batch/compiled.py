@@ -28,6 +28,8 @@ _COMPILED_FROM = (
     (auv_path_following, "control/*.py"),
     (auv_path_following, "guidance/*.py"),
     (auv_path_following, "paths/*.py"),
+    (auv_sim, "analysis/flown_share.py"),
+    (auv_sim, "analysis/metrics.py"),
     (auv_sim, "plant/*.py"),
     (auv_sim, "batch/*.py"),
 )

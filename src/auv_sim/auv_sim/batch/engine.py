@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -25,6 +25,7 @@ from auv_path_following.guidance.approach import approach_to
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.line import Line
 from auv_sim import closed_loop
+from auv_sim.analysis.flown_share import Cells, cells_of, share_of
 from auv_sim.analysis.run import Run
 from auv_sim.batch import tally
 from auv_sim.batch.compiled import COMPILED
@@ -60,20 +61,21 @@ def fly(
     """
     # Mistakes come before the first flight. What several scenarios share is turned into numbers once.
     flights: dict[int, Any] = {}
-    curves: dict[int, Curve] = {}
+    courses: dict[int, _Course] = {}
     for scenario in scenarios:
         if id(scenario) not in flights:
             flights[id(scenario)] = flight_of(scenario)
-        if scenario.sea is None and id(scenario.path) not in curves:
-            curves[id(scenario.path)] = curve_of(scenario.path)
+        if scenario.sea is None and id(scenario.path) not in courses:
+            courses[id(scenario.path)] = _Course.of(scenario.path)
 
     def one(scenario: Scenario) -> dict[str, Any]:
         figures = None
         if scenario.sea is None:
             flight = flights[id(scenario)]
-            end, whole, subpaths, _ = _flown(flight, scenario, curves[id(scenario.path)], 0)
+            course = courses[id(scenario.path)]
+            end, whole, subpaths, flown, _ = _flown(flight, scenario, course, 0)
             if not end.lost:
-                figures = figures_of(end, whole, subpaths, flight.dt)
+                figures = figures_of(end, whole, subpaths, share_of(course.cells, flown).share, flight.dt)
         if figures is None:
             figures = judged(closed_loop.fly(scenario), scenario)
         if done is not None:
@@ -109,7 +111,7 @@ def track(scenario: Scenario, every: int = 1) -> Run:
     """
     flight = flight_of(scenario)
     if scenario.sea is None:
-        end, *_, rows = _flown(flight, scenario, curve_of(scenario.path), every)
+        end, *_, rows = _flown(flight, scenario, _Course.of(scenario.path), every)
     if scenario.sea is not None or end.lost:
         return closed_loop.fly(scenario).select(slice(None, None, every))
     step_ns = round(scenario.step * 1e9)
@@ -119,17 +121,29 @@ def track(scenario: Scenario, every: int = 1) -> Run:
     return Run.from_columns(columns | true)
 
 
-def _flown(flight: Any, scenario: Scenario, curve: Curve, every: int) -> tuple[End, Any, Any, Any]:
+class _Course(NamedTuple):
+    """A path as compiled code reads it."""
+
+    curve: Curve
+    cells: Cells
+
+    @classmethod
+    def of(cls, path: CompositePath) -> _Course:
+        return cls(curve_of(path), cells_of(path))
+
+
+def _flown(flight: Any, scenario: Scenario, course: _Course, every: int) -> tuple[End, Any, Any, Any, Any]:
     start = PlantState(*map(float, scenario.initial or start_of(scenario.path)))
     path = None
     if scenario.guidance.approach.enabled:
         navigation = Navigation(start.x, start.y, start.psi, start.r)
         path = approach_to(scenario.path.start_pose, navigation, flight.guidance.approach_radius)
-    approach = curve if path is None else curve_of(path)
+    approach = course.curve if path is None else curve_of(path)
     whole = np.empty(tally.FLIGHT_TALLIES)
-    subpaths = np.empty((len(curve.subpath), tally.SUBPATH_TALLIES))
+    subpaths = np.empty((len(course.curve.subpath), tally.SUBPATH_TALLIES))
+    flown = np.empty(len(course.cells.cells), np.bool_)
     rows = math.ceil(flight.steps / every) if every else 0
     kept = np.empty((rows, TRACK_COLUMNS))
     with np.errstate(all="ignore"):  # a state that runs away is a result
-        end = fly_one(flight, approach, path is not None, curve, start, whole, subpaths, kept, every)
-    return end, whole, subpaths, kept[: math.ceil(end.rows / every)] if every else kept
+        end = fly_one(flight, approach, path is not None, *course, start, whole, subpaths, flown, kept, every)
+    return end, whole, subpaths, flown, kept[: math.ceil(end.rows / every)] if every else kept

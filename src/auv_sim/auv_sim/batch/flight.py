@@ -9,9 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from auv_msgs_py.types import Current, Navigation, WaterVelocity
+from auv_sim.analysis.flown_share import Cells
 from auv_sim.batch import tally
 from auv_sim.batch.compiled import compiled
 from auv_sim.batch.curve import Curve
+from auv_sim.batch.flown_cells import pass_cells
 from auv_sim.batch.follow import first_state, follow
 from auv_sim.batch.numbers import Flight
 from auv_sim.batch.path_point import distance_to
@@ -20,6 +22,7 @@ from auv_sim.batch.steps import AutopilotState, ObserverState, advance, observe,
 from auv_sim.plant.remus import PlantState
 
 Array = npt.NDArray[np.float64]
+Flags = npt.NDArray[np.bool_]
 
 #: Columns of a track, in the order of `closed_loop`'s, the stamp first and without the constant true current.
 TRACK_COLUMNS = 18
@@ -49,19 +52,22 @@ def fly_one(
     approach: Curve,
     approaches: bool,
     curve: Curve,
+    cells: Cells,
     state: PlantState,
     whole: Array,
     subpaths: Array,
+    flown: Flags,
     track: Array,
     every: int,
 ) -> End:
     """Fly until the end of the path, the last step, or a state that is not finite.
 
     Args:
-        c, curve: what is flown.
+        c, curve, cells: what is flown; the path as a curve and as cells.
         approach: flown before it, where it `approaches`; else any curve.
         state: the plant's first state.
         whole, subpaths: tallies, shape (FLIGHT_TALLIES,) and (n, SUBPATH_TALLIES); written.
+        flown: shape (cells,), which cells were flown; written.
         track: shape (rows, TRACK_COLUMNS), every `every`-th odometry; written; `every` 0 for none.
     """
     n = len(curve.subpath)
@@ -71,6 +77,7 @@ def fly_one(
     pilot = AutopilotState(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     rudder = commanded = 0.0
     i, clear = -1, 0.0
+    flown[:] = False
     tally.begin(whole, subpaths)
     for k in range(c.steps):
         since = c.dt if k > 0 else 0.0
@@ -97,7 +104,7 @@ def fly_one(
             distance = min(distance, clear)
         finite = math.isfinite(command) and math.isfinite(state.x + state.y + state.psi + state.ur + state.vr)
         if finite:
-            tally.count(whole, subpaths, i, k * c.dt, distance, psi_e, seen.Vx - c.Vx, seen.Vy - c.Vy)
+            tally.count(whole, subpaths, i, s, k * c.dt, distance, psi_e, seen.Vx - c.Vx, seen.Vy - c.Vy)
         if every > 0 and k % every == 0:
             row = track[k // every]
             row[0], row[1], row[2], row[3] = k, state.x, state.y, state.psi
@@ -120,6 +127,7 @@ def fly_one(
         clear -= covered
         if k + 1 < c.steps:
             tally.count_step(subpaths, i, c.dt, abs(rudder - rudder_before), covered)
+            pass_cells(cells, flown, s, before.x, before.y, state.x, state.y)
     return End(c.steps, s, finite, False, before)  # the way after the last odometry is nobody's
 
 

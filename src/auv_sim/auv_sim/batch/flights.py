@@ -44,13 +44,14 @@ class Flights:
 
     Attributes:
         completed: whether the end of the path was reached.
+        flown_share: share of the path that was flown, 0 to 1, as `analysis.flown_share` defines it.
         finite: whether the state stayed finite; a flight in which it did not has ended there.
         steps: odometries.
         duration: s.
         progress: s of Eq. (1) at the end, in [0, number of subpaths].
         rms_distance, largest_distance: over the whole flight.
-        late_rms_distance, late_largest_distance: from `tally.SETTLED` on.
-        time_to_path: when the vehicle first came within `tally.ARRIVED` of the path, s.
+        late_rms_distance, late_largest_distance: from `time_to_path` on.
+        time_to_path: when the path was joined, as `tally.ARRIVED` defines it, s.
         rms_heading_error: deg.
         distance_covered: m.
         rudder_travel: deg; rudder_travel_per_metre: deg/m.
@@ -62,6 +63,7 @@ class Flights:
     """
 
     completed: npt.NDArray[np.bool_]
+    flown_share: Column
     finite: npt.NDArray[np.bool_]
     steps: npt.NDArray[np.int64]
     duration: Column
@@ -101,8 +103,8 @@ class Flights:
 _OF_SUBPATHS = ("subpath_rms_distance", "subpath_largest_distance", "subpath_duration")
 
 
-def figures_of(end: End, whole: Column, subpaths: Column, dt: float) -> dict[str, Any]:
-    """A flight's figures from its tallies, by the names of `Flights`."""
+def figures_of(end: End, whole: Column, subpaths: Column, share: float, dt: float) -> dict[str, Any]:
+    """A flight's figures from its tallies and its flown share, by the names of `Flights`."""
     n = len(subpaths)
     rows = subpaths[:, tally.ROWS]
     counted, late = float(rows.sum()), float(whole[tally.LATE_ROWS])
@@ -114,6 +116,7 @@ def figures_of(end: End, whole: Column, subpaths: Column, dt: float) -> dict[str
         subpath_rms = np.sqrt(subpaths[:, tally.SQUARES] / rows)
     return {
         "completed": bool(end.finite and end.s >= n),
+        "flown_share": share,
         "finite": bool(end.finite),
         "steps": int(end.rows),
         "duration": (end.rows - 1) * dt,

@@ -30,10 +30,11 @@ def judged(run: Run, scenario: Scenario) -> dict[str, Any]:
     stops = (scenario.controller_vehicle or scenario.vehicle).rudder.max_angle
     elapsed = scenario.step * np.arange(run.steps)
     distance = path.distance(x, y, run.subpath(path.n))
-    late = distance[elapsed > tally.SETTLED]
-    near = elapsed[distance <= tally.ARRIVED]
+    near = np.flatnonzero((run.s > 0.0) & (distance <= tally.ARRIVED))
+    late = distance[near[0] :] if near.size else distance[:0]
     return {
         "completed": arrived,
+        "flown_share": summary.flown_share,
         "finite": bool(np.isfinite(x[-1] + y[-1] + run.psi[-1])),
         "steps": run.steps,
         "duration": float(elapsed[-1]),
@@ -42,7 +43,7 @@ def judged(run: Run, scenario: Scenario) -> dict[str, Any]:
         "largest_distance": summary.largest_distance,
         "late_rms_distance": _rms(late),
         "late_largest_distance": float(late.max()) if late.size else math.nan,
-        "time_to_path": float(near[0]) if near.size else math.nan,
+        "time_to_path": float(elapsed[near[0]]) if near.size else math.nan,
         "rms_heading_error": summary.rms_heading_error,
         "distance_covered": summary.distance_covered,
         "rudder_travel": summary.rudder_travel,

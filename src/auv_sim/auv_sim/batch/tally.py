@@ -10,9 +10,8 @@ import numpy.typing as npt
 from auv_sim.analysis.metrics import OBSERVER_SETTLING_TIME
 from auv_sim.batch.compiled import compiled
 
-#: From here on the distance to the path counts for the settled figures, s after the start.
-SETTLED = 120.0
-#: A vehicle this near to the path has come to it, m.
+#: The path is joined when the vehicle first is this near to it while s > 0, m: an approach to the path's
+#: start, with s = 0, may cross the path. From here on the `late_*` figures count.
 ARRIVED = 1.0
 
 # Rows of a subpath's tally.
@@ -41,26 +40,27 @@ def count(
     whole: Array,
     subpaths: Array,
     i: int,
+    s: float,
     elapsed: float,
     distance: float,
     psi_e: float,
     error_Vx: float,
     error_Vy: float,
 ) -> None:
-    """One odometry: `elapsed` s after the start, `distance` m from the path."""
+    """One odometry: `elapsed` s after the start, at s of Eq. (1), `distance` m from the path."""
     subpaths[i, ROWS] += 1.0
     subpaths[i, SQUARES] += distance * distance
     subpaths[i, LARGEST] = max(subpaths[i, LARGEST], distance)
     subpaths[i, HEADING_SQUARES] += psi_e * psi_e
-    if elapsed > SETTLED:
+    if s > 0.0 and distance <= ARRIVED and math.isnan(whole[TIME_TO_PATH]):
+        whole[TIME_TO_PATH] = elapsed
+    if not math.isnan(whole[TIME_TO_PATH]):
         whole[LATE_ROWS] += 1.0
         whole[LATE_SQUARES] += distance * distance
         whole[LATE_LARGEST] = max(whole[LATE_LARGEST], distance)
     if elapsed >= OBSERVER_SETTLING_TIME:
         squared = error_Vx * error_Vx + error_Vy * error_Vy
         whole[ESTIMATE_ERROR] = max(whole[ESTIMATE_ERROR], math.sqrt(squared))
-    if distance <= ARRIVED and math.isnan(whole[TIME_TO_PATH]):
-        whole[TIME_TO_PATH] = elapsed
 
 
 @compiled

@@ -9,6 +9,7 @@ import pydantic
 
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.paths.segment_specs import no_boolean, unfit
+from auv_sim.analysis.flown_share import LEAST_SHARE
 from auv_sim.batch.flights import Flights
 from auv_sim.campaign.distributions import Distribution
 
@@ -24,7 +25,7 @@ _MOST_RUNS = 10_000_000
 
 @settings
 class Study:
-    """A whole study file. A flight that reaches the end of the path is a success, if it keeps the limits."""
+    """A whole study file. A flight that flies the path to its end is a success if it keeps the limits."""
 
     version: _Version = setting(doc="version of this format")
     name: str = setting(doc="what people call it")
@@ -41,6 +42,13 @@ class Study:
     vary: dict[str, Distribution] = setting(factory=dict, doc="parameter -> its distribution or grid")
     success: dict[str, float] = setting(
         factory=dict, doc="figure -> the most that it may be in a successful flight"
+    )
+    flown: float = setting(
+        100.0 * LEAST_SHARE,
+        "least share of the path that a successful flight flies",
+        unit="%",
+        ge=0.0,
+        le=100.0,
     )
     judge: str = setting("rms_distance", "the figure that sensitivities and pictures are about")
     axes: tuple[str, ...] = setting((), "one or two varied parameters: success is drawn over these")

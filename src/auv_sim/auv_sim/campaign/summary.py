@@ -15,9 +15,11 @@ from auv_sim.batch.flights import UNITS
 from auv_sim.campaign import statistics
 from auv_sim.campaign.plan import StudyPlan
 from auv_sim.campaign.statistics import Estimate
+from auv_sim.campaign.table import flown_enough
 
 #: The figures that the summary tells about.
 TOLD = (
+    "flown_share",
     "rms_distance",
     "largest_distance",
     "late_rms_distance",
@@ -60,7 +62,8 @@ class Summary:
     Attributes:
         name: of the study.
         runs: flown.
-        success, completed: shares; with grids over all points.
+        success, completed, flown: shares of the flights that succeeded, that reached the end of the path, and
+            that did so with enough of it flown; with grids over all points.
         figures: by name, over the completed flights; with grids of all points.
         judge: the figure that `points` and `explained` are about.
         explained: share of its variance that each varied parameter explains by itself, the largest first; NaN
@@ -73,6 +76,7 @@ class Summary:
     runs: int
     success: Estimate
     completed: Estimate
+    flown: Estimate
     figures: dict[str, Spread]
     judge: str
     explained: dict[str, float]
@@ -107,6 +111,9 @@ def summarise(plan: StudyPlan, table: pa.Table) -> Summary:
         runs=table.num_rows,
         success=statistics.share_of_rounds(success, rounds),
         completed=statistics.share_of_rounds(completed, rounds),
+        flown=statistics.share_of_rounds(
+            completed & flown_enough(study, column(table, "flown_share")), rounds
+        ),
         figures=figures,
         judge=study.judge,
         explained=dict(sorted(explained.items(), key=lambda item: -np.nan_to_num(item[1]))),

@@ -55,9 +55,14 @@ def table_of(plan: StudyPlan, runs: range, flights: Flights, subpaths: list[int]
     return pa.table({name: pa.array(columns[name], schema.field(name).type) for name in schema.names}, schema)
 
 
+def flown_enough(study: Study, shares: Any) -> Any:
+    """Which flown shares (0 to 1) reach the study's least one."""
+    return shares >= study.flown / 100.0
+
+
 def successes(study: Study, flights: Flights) -> Any:
-    """Which flights reached the end of the path within the study's limits; a figure that is NaN is not."""
-    good = flights.completed.copy()
+    """Which flights flew the path to its end within the study's limits; a figure that is NaN exceeds any."""
+    good = flights.completed & flown_enough(study, flights.flown_share)
     for figure, most in study.success.items():
         good &= getattr(flights, figure) <= most
     return good

@@ -161,7 +161,10 @@ def _fly_chunks(store: Store, chunks: list[range], options: argparse.Namespace, 
 
 
 def _show(store: Store, summary: Summary, drawn: list[Path], console: Console) -> None:
-    console.print(f"\nsuccess    {_percent(summary.success)}\ncompleted  {_percent(summary.completed)}\n")
+    console.print(f"\nsuccess    {_percent(summary.success)}\ncompleted  {_percent(summary.completed)}")
+    console.print(
+        f"flown      {_percent(summary.flown)}: at least {store.plan.study.flown:g} % of the path\n"
+    )
     if summary.points:
         console.print(_points(store.plan, summary))
     console.print(_figures(summary))

@@ -21,7 +21,7 @@ from auv_sim.batch import engine
 from auv_sim.campaign.plan import StudyPlan
 from auv_sim.campaign.store import RESULTS, Store
 from auv_sim.closed_loop import Scenario, start_of
-from auv_sim.command_line import EXIT_DONE, go_on, to_type, wrote
+from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, go_on, to_type, wrote
 from auv_sim.mission import cli
 from auv_sim.parameters import ConstantCurrent, InitialPose
 from auv_sim.recording.load import load
@@ -37,7 +37,7 @@ def replay(store: Store, number: int, graph: bool, console: Console) -> int:
         console: where to tell.
 
     Returns:
-        the exit code.
+        the exit code: 0 if the path was flown to its end, else 1.
 
     Raises:
         ConfigurationError: there is no such run.
@@ -54,14 +54,15 @@ def replay(store: Store, number: int, graph: bool, console: Console) -> int:
     shutil.rmtree(directory, ignore_errors=True)
     write_files(plan, number, directory / "config")
     flown = engine.track(scenario)
-    _tell(store, number, flown, scenario, console)
+    code = _tell(store, number, flown, scenario, console)
     _picture(plan, number, flown, scenario, directory / "overview.png")
     wrote(console, directory / "overview.png", "the run in one picture")
     if not graph:
         again = to_type("campaign.py", store.directory, replay_run=number, graph=True)
         go_on(console, "Fly it over ROS 2", again)
-        return EXIT_DONE
-    code = cli.main([*command_line(directory / "config"), "--out", str(directory / "graph")])
+        return code
+    least = ["--flown", f"{plan.study.flown:g}"]
+    code = cli.main([*command_line(directory / "config"), *least, "--out", str(directory / "graph")])
     recorded = load(directory / "graph" / "bag")
     rows = min(recorded.steps, flown.steps)
     apart = np.hypot(recorded.x[:rows] - flown.x[:rows], recorded.y[:rows] - flown.y[:rows])
@@ -112,18 +113,22 @@ def _written(settings: Any) -> Any:
     return {name: _written(value) for name, value in named.items() if value is not None}
 
 
-def _tell(store: Store, number: int, flown: Run, scenario: Scenario, console: Console) -> None:
+def _tell(store: Store, number: int, flown: Run, scenario: Scenario, console: Console) -> int:
+    """Print the figures; returns the exit code."""
     summary = summarise(flown, scenario.path)
+    outcome = summary.outcome(store.plan.study.flown / 100.0)
     console.print(
-        f"\n{'completed' if summary.completed else 'not completed'} after {summary.duration:.1f} s,"
+        f"\n{outcome} after {summary.duration:.1f} s,"
         f" rms distance {summary.rms_distance:.4g} m, largest {summary.largest_distance:.4g} m"
     )
+    console.print(summary.flown_line(), soft_wrap=True)
     if store.finished:
         table = pq.read_table(store.directory / RESULTS, columns=["rms_distance"])
         kept = table.column(0)[number].as_py()
         console.print(
             f"in the campaign: rms distance {kept:.4g} m, {abs(kept - summary.rms_distance):.1g} m apart"
         )
+    return EXIT_DONE if outcome == "complete" else EXIT_FAILED
 
 
 def _picture(plan: StudyPlan, number: int, flown: Run, scenario: Scenario, file: Path) -> None:

@@ -20,6 +20,7 @@ from auv_sim.command_line import (
     EXIT_FAILED,
     EXIT_INTERRUPTED,
     Parser,
+    add_flown_option,
     command,
     finite,
     make_directory,
@@ -35,7 +36,12 @@ from auv_sim.mission.plan import Options
 from auv_sim.mission.progress import Progress
 from auv_sim.mission.vehicle_driver import DRIVERS
 
-_EXIT = {"complete": EXIT_DONE, "aborted": EXIT_FAILED, "interrupted": EXIT_INTERRUPTED}
+_EXIT = {
+    "complete": EXIT_DONE,
+    "incomplete": EXIT_FAILED,
+    "aborted": EXIT_FAILED,
+    "interrupted": EXIT_INTERRUPTED,
+}
 
 
 def parser() -> argparse.ArgumentParser:
@@ -115,6 +121,7 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument(
         "--domain", type=ros_domain, help="ROS domain (default: one of its own; with --no-sim ROS_DOMAIN_ID)"
     )
+    add_flown_option(p)
     p.add_argument("--force", action="store_true", help="fly what the check of the plan refuses")
     p.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
     return p
@@ -122,7 +129,11 @@ def parser() -> argparse.ArgumentParser:
 
 @command("mission", interrupted="mission interrupted")
 def main(argv: Sequence[str] | None = None) -> int:
-    """Fly; returns the exit code: 0 complete, 1 failed or aborted, 2 bad input, 130 interrupted."""
+    """Fly.
+
+    Returns:
+        The exit code: 0 complete, 1 failed, aborted or incomplete, 2 bad input, 130 interrupted.
+    """
     return _fly(_options(argv))
 
 
@@ -184,9 +195,11 @@ def _fly(options: Options) -> int:
         raise
     if outcome.state != "complete":
         print(f"mission {outcome.state}: {outcome.reason}", file=sys.stderr)
-    summary = results.conclude(resolved, directory, outcome)
+    outcome, summary = results.conclude(resolved, directory, outcome)
     if summary is not None:
         results.show(resolved, directory, outcome, summary, console)
+    if outcome.state == "incomplete":
+        print(f"mission incomplete: {outcome.reason}", file=sys.stderr)
     return _EXIT[outcome.state]
 
 

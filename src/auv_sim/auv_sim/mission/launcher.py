@@ -40,7 +40,8 @@ class Outcome:
     """How the mission ended.
 
     Attributes:
-        state: complete, aborted, interrupted or failed.
+        state: complete, aborted or interrupted; `results.conclude` makes incomplete of a complete mission of
+            which too little was flown.
         reason: for people; empty when complete.
         wall_time: seconds between start and end of the mission.
         mission_time: the same in the mission's own time.

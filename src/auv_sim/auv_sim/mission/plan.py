@@ -20,6 +20,7 @@ from auv_path_following.parameters import AutopilotParameters
 from auv_path_following.paths import mission_file
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
+from auv_sim.analysis.flown_share import LEAST_SHARE
 from auv_sim.closed_loop import Scenario
 from auv_sim.command_line import to_type
 from auv_sim.mission.vehicle_driver import DRIVERS, tell_driver
@@ -57,6 +58,7 @@ class Options:
     domain: int | None = None
     quiet: bool = False
     force: bool = False
+    flown: float = 100.0 * LEAST_SHARE
 
     @property
     def command(self) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 from pathlib import Path
@@ -20,13 +21,24 @@ from auv_sim.mission.plan import Plan
 from auv_sim.recording.load import load
 
 
-def conclude(plan: Plan, directory: Path, outcome: Outcome) -> MissionSummary | None:
-    """Load the bag, write `summary.json` and `overview.png`; None if nothing was flown."""
+def conclude(plan: Plan, directory: Path, outcome: Outcome) -> tuple[Outcome, MissionSummary | None]:
+    """Load the bag, judge the mission, write `summary.json` and `overview.png`.
+
+    Args:
+        plan: what was flown.
+        directory: the run directory.
+        outcome: how the mission ended on the graph.
+
+    Returns:
+        The outcome, incomplete where too little of the path was flown; and the figures, None without a bag.
+    """
     try:
         run = load(directory / "bag")
     except ConfigurationError:
-        return None
+        return outcome, None
     summary = summarise(run, plan.mission.path)
+    if outcome.state == "complete" and (reason := summary.shortfall(plan.options.flown / 100.0)):
+        outcome = dataclasses.replace(outcome, state="incomplete", reason=reason)
     record: dict[str, Any] = {
         "outcome": outcome.state,
         "reason": outcome.reason,
@@ -49,7 +61,7 @@ def conclude(plan: Plan, directory: Path, outcome: Outcome) -> MissionSummary | 
         rudder_rate_limit=rudder.max_rate,
         command=plan.options.command,
     )
-    return summary
+    return outcome, summary
 
 
 def show(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary, console: Console) -> None:
@@ -83,6 +95,7 @@ def show(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary,
         _number(summary.rudder_travel_per_metre, 2),
     )
     console.print(table)
+    console.print(summary.flown_line(), soft_wrap=True)
     for corner in summary.corners:
         console.print(
             f"corner at joint {corner.joint}: at most {_number(corner.largest_distance, 2)} m off the path"

@@ -16,12 +16,14 @@ from rich.table import Table
 
 from auv_path_following import config_files
 from auv_sim import closed_loop, pages
+from auv_sim.analysis.flown_share import percent
 from auv_sim.analysis.metrics import without_nan
 from auv_sim.analysis.trials import Together, Trial, judge, together
 from auv_sim.command_line import (
     EXIT_DONE,
     EXIT_FAILED,
     Parser,
+    add_flown_option,
     at_least_one,
     command,
     go_on,
@@ -39,6 +41,8 @@ from auv_sim.pool import tracked
 
 #: Of the page.
 PART = "trials"
+#: Least share of the path, %. A cell's reach is 1 m, and at sea the odometry itself is off by up to two.
+_LEAST_FLOWN = 80.0
 
 
 class Job(NamedTuple):
@@ -74,6 +78,7 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument(
         "--limit", type=positive, default=2.5, metavar="M", help="largest true distance to the path (2.5 m)"
     )
+    add_flown_option(p, _LEAST_FLOWN)
     p.add_argument(
         "--study",
         choices=("noise",),
@@ -148,13 +153,14 @@ def _trials(options: argparse.Namespace, console: Console) -> int:
         _plan(job)
     with progress_bar(console) as bar:
         trials = tracked(bar, options.workers, "flying", fly, jobs)
-    rows = together(trials, options.limit)
+    rows = together(trials, options.limit, options.flown / 100.0)
     record = {
         "mission": options.mission,
         "vehicle": options.vehicle,
         "sea": options.sea,
         "seeds": [seeds.start, seeds.stop - 1],
         "limit_m": options.limit,
+        "least_flown_percent": options.flown,
         "together": [dataclasses.asdict(row) for row in rows],
         "trials": [dataclasses.asdict(trial) for trial in trials],
     }
@@ -173,6 +179,7 @@ def _trials(options: argparse.Namespace, console: Console) -> int:
 
 _COLUMNS: tuple[tuple[str, Callable[[Together], str]], ...] = (
     ("completed", lambda row: f"{row.completed} of {row.flights}"),
+    ("flown: worst", lambda row: percent(row.flown_share)),
     ("largest (m): median", lambda row: f"{row.median['largest_distance']:.2f}"),
     ("worst", lambda row: f"{row.worst['largest_distance']:.2f}"),
     ("corner: worst", lambda row: f"{row.worst['largest_at_corners']:.2f}"),
@@ -184,13 +191,12 @@ _COLUMNS: tuple[tuple[str, Callable[[Together], str]], ...] = (
 
 
 def _table(rows: Sequence[Together], options: argparse.Namespace) -> Table:
-    title = (
-        f"{Path(options.mission).stem} in {Path(options.sea).stem}: true distances, limit {options.limit:g} m"
-    )
+    mission, water = Path(options.mission).stem, Path(options.sea).stem
+    title = f"{mission} in {water}: true distances, limit {options.limit:g} m, flown {options.flown:g} %"
     table = Table(title=title, title_justify="left")
     table.add_column("gains")
     for heading, _ in _COLUMNS:
-        table.add_column(heading, justify="right")
+        table.add_column(heading, justify="right", min_width=len("50 of 50"))
     for row in rows:
         color = "green" if row.within == row.flights else "red"
         table.add_row(f"[{color}]{row.params}[/]", *(cell(row) for _, cell in _COLUMNS))

@@ -17,6 +17,7 @@ from rich.table import Table
 
 from auv_msgs_py import topics
 from auv_msgs_py.conversions import nanoseconds
+from auv_sim.analysis.metrics import summarise
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, Parser, command, make_directory, positive, wrote
 from auv_sim.command_line import console as terminal
 from auv_sim.mission import launcher, memory, plan
@@ -24,7 +25,7 @@ from auv_sim.mission.domains import free_domain
 from auv_sim.mission.plan import Options, Plan
 from auv_sim.mission.progress import Progress
 from auv_sim.recording.bag import read_bag
-from auv_sim.recording.load import load_messages
+from auv_sim.recording.load import load, load_messages
 
 #: A lawnmower with a way back, closed, 1.26 km: followed as often as the hour takes.
 SURVEY = """\
@@ -131,6 +132,8 @@ def _soak(arguments: argparse.Namespace) -> int:
         raise KeyboardInterrupt(f"interrupted: {outcome.reason}")
     if outcome.state != "complete":
         raise launcher.MissionFailed(f"{outcome.state}: {outcome.reason}")
+    if reason := summarise(load(directory / "bag"), resolved.mission.path).shortfall():
+        raise launcher.MissionFailed(f"incomplete: {reason}")
     steps, lost = _counted(directory / "bag", resolved.parameters[topics.PLANT].step)
     grown = growth(watch.rows)
     memory.draw(watch.rows, _WARM * watch.rows[-1][0], directory / "soak.png")

@@ -19,14 +19,25 @@ from auv_sim.analysis.run import Run
 from auv_sim.recording.bag import Bag, RecordedTopic, read_bag
 from auv_sim.recording.cdr import Columns, decode
 from auv_sim.recording.deserialize import deserializer
+from auv_sim.recording.held_rows import held_rows
 
 #: Every topic that a `Run` takes something from.
 USED = (
-    topics.ODOM, topics.WATER_VELOCITY, topics.RUDDER_STATE, topics.TRUE_CURRENT, topics.TRUE_ODOM,
+    topics.ODOM,
+    topics.WATER_VELOCITY,
+    topics.RUDDER_STATE,
+    topics.TRUE_CURRENT,
+    topics.TRUE_ODOM,
     topics.CURRENT_ESTIMATE,
-    topics.DESIRED_YAW, topics.DESIRED_YAW_RATE, topics.PATH_PARAMETER, topics.PATH_ERROR,
-    topics.RUDDER_CMD, topics.THRUST_CMD,
-)  # fmt: skip
+    topics.DESIRED_YAW,
+    topics.DESIRED_YAW_RATE,
+    topics.PATH_PARAMETER,
+    topics.PATH_ERROR,
+    topics.RUDDER_CMD,
+    topics.THRUST_CMD,
+)
+#: Its words are intervals of time, not numbers.
+_STATE = topics.MISSION_STATE  # fmt: skip
 
 # Columns of the decoded Odometry: x y z, quaternion x y z w, 36, linear x y z, angular x y z, 36.
 _POSE, _ANGULAR_Z = slice(0, 7), 48
@@ -64,7 +75,8 @@ def load(bag: Path, namespace: str | None = None, frame_ids: FrameIds | None = N
 
 def is_used(name: str, type_name: str) -> bool:
     """Whether a `Run` takes something from a topic, which may be odometry of any name."""
-    return type_name == topics.ODOM.type or name.rsplit("/", 1)[-1] in {topic.name for topic in USED}
+    used = {topic.name for topic in (*USED, _STATE)}
+    return type_name == topics.ODOM.type or name.rsplit("/", 1)[-1] in used
 
 
 def run_of(bag: Bag, namespace: str | None = None, frame_ids: FrameIds | None = None) -> Run:
@@ -85,8 +97,10 @@ def run_of(bag: Bag, namespace: str | None = None, frame_ids: FrameIds | None = 
         expected = f"messages on {topics.ODOM.name}, or of type {topics.ODOM.type} on one other topic"
         raise ConfigurationError(str(bag.path), "no odometry", expected)
     table = FrameTable(frame_ids or FrameIds())
+    state = bag.find(_STATE.name, namespace)
+    states = messages_of(state) if state is not None and state.type == _STATE.type else []
     try:
-        return _assemble(recorded, table, bag.path)
+        return _assemble(recorded, states, table, bag.path)
     except MessageRefused as refused:
         raise ConfigurationError(f"{bag.path}: {refused.topic}", refused.found, refused.expected) from None
 
@@ -146,7 +160,9 @@ def _decoded(topic: Topic, messages: list[bytes], bag: Path) -> Columns:
         ) from None
 
 
-def _assemble(recorded: dict[Topic, _Recorded], table: FrameTable, bag: Path) -> Run:
+def _assemble(
+    recorded: dict[Topic, _Recorded], states: list[tuple[int, Any]], table: FrameTable, bag: Path
+) -> Run:
     odometry = recorded[topics.ODOM]
     values = odometry.columns.values
     world, body = _frames(topics.ODOM, odometry.columns, bag)
@@ -191,6 +207,7 @@ def _assemble(recorded: dict[Topic, _Recorded], table: FrameTable, bag: Path) ->
             "x_true": x_true,
             "y_true": y_true,
             "psi_true": psi_true,
+            "held": held_rows(odometry.log_ns, states),
         }
     )
     return run.select(_first_flight(odometry.columns.stamp_ns))

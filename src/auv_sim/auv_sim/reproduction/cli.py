@@ -202,7 +202,7 @@ def _starts(options: argparse.Namespace, console: Console) -> int:
         "law",
         "hull",
         "finish",
-        "off after 120 s: median",
+        "off once joined: median",
         "worst",
         "rms on 3-7: median",
         "worst",

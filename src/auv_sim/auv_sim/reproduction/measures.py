@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from auv_path_following.paths.composite import CompositePath
-from auv_sim.analysis.metrics import CORNER_RADIUS
+from auv_sim.analysis.flown_share import CORNER_RADIUS
 from auv_sim.analysis.run import Column, Run
 
 #: After a joint a subpath counts as steady from here on, m of path.

@@ -34,7 +34,7 @@ LAWS: dict[str, dict[str, Any]] = {
 class Result:
     """One start. Distances in m, the rate in rad/s; NaN where the flight never came so far.
 
-    `distance_after_settling` counts from `auv_sim.batch.tally.SETTLED` on.
+    `distance_after_settling` counts from where the path is joined, see `auv_sim.batch.tally.ARRIVED`.
     """
 
     law: str
