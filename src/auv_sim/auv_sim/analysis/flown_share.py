@@ -154,7 +154,7 @@ def _at_corners(path: CompositePath, subpath: npt.NDArray[np.int64], cells: Arra
 
 def middles_of(cells: Cells) -> Array:
     """The middles of the cells, shape (n,), m of path."""
-    middles: Array = (np.arange(len(cells.cells)) + 0.5) * cells.spacing
+    middles: Array = (np.arange(len(cells.cells), dtype=np.float64) + 0.5) * cells.spacing
     return middles
 
 
