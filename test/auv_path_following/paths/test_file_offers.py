@@ -110,7 +110,7 @@ def test_a_wrong_geofence_is_refused_with_its_key(loaded, keys, said):
         ),
         (
             "waypoints: {file: one.csv, smoothing: {kind: linear}}",
-            "waypoints.file: one.csv: found 1, expected at",
+            "waypoints.file: one.csv: found 1 point(s), expected at",
         ),
         (
             "survey: {file: one.csv, spacing: 9, heading_deg: 0, smoothing: {kind: linear}}",

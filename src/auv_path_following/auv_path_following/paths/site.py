@@ -14,7 +14,7 @@ from auv_msgs_py.errors import ConfigurationError, printable
 from auv_path_following.paths import geodesy, waypoint_files
 from auv_path_following.paths.geodesy import FARTHEST, Origin
 from auv_path_following.paths.waypoint_files import Content, Use
-from auv_path_following.paths.waypoint_files.reading import MOST_POINTS
+from auv_path_following.paths.waypoint_files.content import MOST_POINTS
 
 Point = tuple[float, float]
 Frame = Literal["ned", "enu", "wgs84"]

@@ -71,7 +71,7 @@ def smooth(points: Sequence[Point], smoothing: Smoothing, closed: bool = False) 
     least = 3 if closed else 2
     if len(way) < least:
         raise ConfigurationError(
-            "points", f"{len(way)}", f"at least {least}{' for a closed path' if closed else ''}"
+            "points", f"{len(way)} point(s)", f"at least {least}{' for a closed path' if closed else ''}"
         )
     legs = [_leg(way, i) for i in range(len(way) if closed else len(way) - 1)]
     if smoothing.kind == "spline":

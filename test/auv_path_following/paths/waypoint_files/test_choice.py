@@ -39,7 +39,7 @@ def test_a_multi_line_of_one_part_is_that_line_and_pins_beside_it_are_reported(t
 
 
 def test_several_lines_are_refused_with_their_names(taken):
-    with pytest.raises(ConfigurationError, match=r"2 lines \('a', 'b'\), expected one, or its name"):
+    with pytest.raises(ConfigurationError, match=r"2 lines \('a', 'b'\), expected one, or `feature: NAME`"):
         taken("waypoints", _feature("LineString", LEG, "a"), _feature("LineString", OTHER, "b"))
     with pytest.raises(ConfigurationError, match=r"2 lines \('a \(1\)', 'a \(2\)'\)"):
         taken("waypoints", _feature("MultiLineString", [LEG, OTHER], "a"), feature="a")

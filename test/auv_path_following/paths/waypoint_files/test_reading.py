@@ -153,6 +153,26 @@ def test_columns_of_metres_are_metres(tmp_path):
     assert waypoint_files.choose(content, "waypoints").points == [(2.0, 1.0), (4.0, 3.0)]
 
 
+MANY = 50_001
+LARGE = {
+    "rows.csv": "lat,lon\n" + "1,1\n" * MANY,
+    "points.geojson": '{"type": "MultiPoint", "coordinates": [' + "[1,1]," * MANY + "[1,1]]}",
+    "lists.geojson": '{"type": "MultiPoint", "coordinates": [' + "[]," * 1_000_001 + "[]]}",
+    "line.kml": _kml(f"<LineString><coordinates>{'1,1 ' * MANY}</coordinates></LineString>"),
+    "elements.kml": f"<kml>{'<a/>' * 400_001}</kml>",
+    "points.gpx": _gpx('<wpt lat="1" lon="1"/>' * MANY),
+    "items.waypoints": "QGC WPL 110\n" + "0\t0\t3\t16\t0\t0\t0\t0\t1\t1\t0\t1\n" * MANY,
+    "items.plan": '{"mission": {"items": [' + "{}," * MANY + "{}]}}",
+}
+
+
+@pytest.mark.parametrize("name", LARGE)
+def test_a_file_with_more_than_a_mission_may_have_is_refused_before_it_is_built(tmp_path, name):
+    (tmp_path / name).write_text(LARGE[name], encoding="utf-8")
+    with pytest.raises(ConfigurationError, match=r"(more than|a list of) [\d]{5,7} "):
+        waypoint_files.read(tmp_path / name)
+
+
 WRONG = {
     "a.shp": ("", "suffix '.shp', expected one of .geojson"),
     "a.gpx": ("<gpx><wpt lat='1'/></gpx>", "a position that is not a number"),

@@ -60,7 +60,7 @@ def choose(content: Content, use: Use, feature: str | None = None) -> Taken:
         chosen = [k for k in wanted if pool[k].kind == kind]
         if len(chosen) > 1 and kind != "point":
             found = f"{len(chosen)} {kind}s ({_names(named[k] for k in chosen)})"
-            raise ConfigurationError("", found, "one, or its name as `feature`")
+            raise ConfigurationError("", found, "one, or `feature: NAME`")
         if use == "geofence" and kind == "line":
             chosen = [k for k in chosen if pool[k].points and pool[k].points[0] == pool[k].points[-1]]
         if chosen:

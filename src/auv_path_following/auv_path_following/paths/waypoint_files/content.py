@@ -5,15 +5,19 @@ from __future__ import annotations
 import json
 import math
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Sequence, Sized
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
 
 from auv_msgs_py.errors import ConfigurationError
 
 Point = tuple[float, float]
 Kind = Literal["line", "polygon", "point"]
 
+#: Points, and items of a mission, of one file at most; a path through so many is checked in some seconds.
+MOST_POINTS = 50_000
+#: Lists and objects of a JSON file at most: each takes some 100 bytes of memory.
+_MOST_LISTS = 1_000_000
 #: A longer list of names or numbers is cut in messages.
 _LISTED = 12
 
@@ -60,6 +64,33 @@ class Content:
     fences: list[Shape] = field(default_factory=list)
     speed: float | None = None
     notices: list[str] = field(default_factory=list)
+    _points: int = 0
+
+    def add(self, shapes: Iterable[Shape]) -> None:
+        """Add shapes.
+
+        Raises:
+            ConfigurationError: the file holds too many points.
+        """
+        for added in shapes:
+            self._points += len(added.points)
+            if self._points > MOST_POINTS:
+                raise ConfigurationError("", f"more than {MOST_POINTS} points", "a smaller file")
+            self.shapes.append(added)
+
+
+S = TypeVar("S", bound=Sized)
+
+
+def bounded(parts: S) -> S:
+    """Pass on a list that is about to become points.
+
+    Raises:
+        ConfigurationError: it is too long, which is refused before it takes more memory.
+    """
+    if len(parts) > MOST_POINTS:
+        raise ConfigurationError("", f"a list of {len(parts)} items", f"at most {MOST_POINTS}")
+    return parts
 
 
 def shape(kind: Kind, name: str, places: Sequence[Sequence[float]], holes: int = 0) -> Shape:
@@ -82,6 +113,8 @@ def json_object(data: bytes, what: str) -> dict[str, Any]:
     Raises:
         ConfigurationError: it is something else.
     """
+    if data.count(b"[") + data.count(b"{") > _MOST_LISTS:
+        raise ConfigurationError("", f"more than {_MOST_LISTS} lists and objects", "a smaller file")
     try:
         document = json.loads(data.removeprefix(b"\xef\xbb\xbf"))
     except (ValueError, RecursionError) as error:

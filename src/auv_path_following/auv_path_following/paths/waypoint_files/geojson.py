@@ -12,6 +12,7 @@ from auv_path_following.paths.waypoint_files.content import (
     Content,
     Kind,
     Shape,
+    bounded,
     json_object,
     number,
     shape,
@@ -45,7 +46,7 @@ def read(data: bytes) -> Content:
         raise ConfigurationError("crs", f"{json.dumps(crs):.80}", _TO_WGS84)
     content = Content()
     for name, geometry in _geometries(document):
-        content.shapes.extend(_shapes(name, geometry))
+        content.add(_shapes(name, geometry))
     return content
 
 
@@ -85,16 +86,16 @@ def _shapes(name: str, geometry: dict[str, Any]) -> Iterator[Shape]:
     if kind is None:
         found = f"a geometry of type {geometry.get('type')!r:.40}" if geometry else "an empty geometry"
         raise ConfigurationError(_where(name), found, f"one of {', '.join(_KINDS)} or GeometryCollection")
-    parts = geometry.get("coordinates")
+    parts: Any = geometry.get("coordinates")
     if parts == []:  # the empty geometry of RFC 7946, section 3.1
         return
     try:
-        listed: list[Any] = list(parts) if depth else [parts]  # type: ignore[arg-type]
+        listed = bounded(parts) if depth else [parts]
         if kind == "line":
-            yield from (shape("line", name, [_place(at) for at in part]) for part in listed)
+            yield from (shape("line", name, [_place(at) for at in bounded(part)]) for part in listed)
         elif kind == "polygon":
             for rings in listed:
-                yield shape("polygon", name, [_place(at) for at in rings[0]], len(rings) - 1)
+                yield shape("polygon", name, [_place(at) for at in bounded(rings[0])], len(rings) - 1)
         else:
             yield from (shape("point", name, [_place(part)]) for part in listed)
     except (KeyError, IndexError, TypeError, ValueError) as error:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from xml.etree.ElementTree import Element
 
 from auv_msgs_py.errors import ConfigurationError
-from auv_path_following.paths.waypoint_files.content import Content, decimal, shape, shown
+from auv_path_following.paths.waypoint_files.content import Content, bounded, decimal, shape, shown
 from auv_path_following.paths.waypoint_files.xml_tree import local, parse, text_of
 
 
@@ -20,14 +20,14 @@ def read(data: bytes) -> Content:
         name = text_of(element, "name")
         match local(element):
             case "rte":
-                places = [_place(point, name) for point in element.findall("{*}rtept")]
-                content.shapes.append(shape("line", name or "route", places))
+                places = [_place(point, name) for point in bounded(element.findall("{*}rtept"))]
+                content.add([shape("line", name or "route", places)])
             case "trk":
                 for segment in element.findall("{*}trkseg"):
-                    places = [_place(point, name) for point in segment.findall("{*}trkpt")]
-                    content.shapes.append(shape("line", name or "track", places))
+                    places = [_place(point, name) for point in bounded(segment.findall("{*}trkpt"))]
+                    content.add([shape("line", name or "track", places)])
             case "wpt":
-                content.shapes.append(shape("point", name, [_place(element, name)]))
+                content.add([shape("point", name, [_place(element, name)])])
     return content
 
 

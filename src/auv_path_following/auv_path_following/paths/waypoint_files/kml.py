@@ -11,7 +11,15 @@ from xml.etree.ElementTree import Element
 
 from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.user_files import MOST_BYTES
-from auv_path_following.paths.waypoint_files.content import Content, Shape, decimal, listed, shape, shown
+from auv_path_following.paths.waypoint_files.content import (
+    Content,
+    Shape,
+    bounded,
+    decimal,
+    listed,
+    shape,
+    shown,
+)
 from auv_path_following.paths.waypoint_files.xml_tree import local, parse, text_of
 
 #: Geometries without waypoints, and links to other files: counted, not followed.
@@ -39,7 +47,7 @@ def read(data: bytes) -> Content:
             left_out[_NOT_TAKEN[kind]] += 1
             continue
         found = list(_shapes(kind, name, element))
-        content.shapes.extend(found)
+        content.add(found)
         if not found:
             waiting.extend((name, child) for child in reversed(element))
     content.notices += [f"{count} {what}(s) not taken" for what, count in left_out.items()]
@@ -76,7 +84,9 @@ def _shapes(kind: str, name: str, element: Element) -> Iterator[Shape]:
         if kind in ("LineString", "LinearRing"):
             yield shape("line", name, _places(element))
         elif kind == "Track":
-            yield shape("line", name, [_place(at.text or "", None) for at in element.findall("{*}coord")])
+            yield shape(
+                "line", name, [_place(at.text or "", None) for at in bounded(element.findall("{*}coord"))]
+            )
         elif kind == "Point":
             yield from (shape("point", name, [place]) for place in _places(element))
         elif kind == "Polygon":
@@ -90,7 +100,7 @@ def _shapes(kind: str, name: str, element: Element) -> Iterator[Shape]:
 
 
 def _places(element: Element) -> list[list[float]]:
-    return [_place(part, ",") for part in (element.findtext("{*}coordinates") or "").split()]
+    return [_place(part, ",") for part in bounded((element.findtext("{*}coordinates") or "").split())]
 
 
 def _place(text: str, separator: str | None) -> list[float]:

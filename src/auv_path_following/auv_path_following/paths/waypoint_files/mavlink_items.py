@@ -24,6 +24,8 @@ _GLOBAL_FRAMES = (0, 3, 5, 6, 10, 11)
 _LAST_NAVIGATION = 95
 _WAYPOINT, _SPEED = 16, 178
 _FENCE_VERTEX = 5001
+#: More kinds of commands are counted in one line.
+_MOST_KINDS = 30
 
 #: Passed as waypoints -> what the vehicle would do there beyond passing.
 _PASSED = {
@@ -144,7 +146,7 @@ def follow(items: Iterable[Item], content: Content) -> None:
         content.notices += notices
         return
     heights = extent(walk.heights)
-    content.shapes.append(Shape("line", "mission", tuple(walk.points), 0, heights, tuple(notices), refusal))
+    content.add([Shape("line", "mission", tuple(walk.points), 0, heights, tuple(notices), refusal)])
 
 
 @dataclass
@@ -215,7 +217,10 @@ class _Walk:
 
     def notices(self) -> list[str]:
         """What is not taken, one line for each kind."""
-        found = [f"{what} ({_numbered(labels)}) not taken" for what, labels in self.left_out.items()]
+        kinds = list(self.left_out.items())
+        found = [f"{what} ({_numbered(labels)}) not taken" for what, labels in kinds[:_MOST_KINDS]]
+        if len(kinds) > _MOST_KINDS:
+            found.append(f"{len(kinds) - _MOST_KINDS} other kinds of commands not taken")
         if self.speeds and self.whole_speed() is None:
             changes = listed(f"to {speed:g} m/s (item {label})" for _, speed, label in self.speeds)
             found.append(f"speed change {changes} not taken: a mission has one speed")

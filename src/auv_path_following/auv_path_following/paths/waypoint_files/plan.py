@@ -6,7 +6,14 @@ from collections.abc import Iterator
 from typing import Any
 
 from auv_msgs_py.errors import ConfigurationError
-from auv_path_following.paths.waypoint_files.content import Content, Shape, json_object, number, shape
+from auv_path_following.paths.waypoint_files.content import (
+    Content,
+    Shape,
+    bounded,
+    json_object,
+    number,
+    shape,
+)
 from auv_path_following.paths.waypoint_files.mavlink_items import Item, follow
 
 _FORMAT = "a QGroundControl plan"
@@ -42,6 +49,7 @@ def content(document: dict[str, Any]) -> Content:
     items = mission.get("items") if isinstance(mission, dict) else None
     if not isinstance(items, list):
         raise ConfigurationError("", "no mission.items", _FORMAT)
+    bounded(items)
     found = Content()
     follow(_items(items), found)
     found.areas = list(_areas(items))
@@ -82,7 +90,7 @@ def _items(items: list[Any]) -> Iterator[Item]:
             raise ConfigurationError(
                 f"item {position}", f"a pattern of type {kind!r:.40} without items", expected
             )
-        for number_, part in enumerate(inner, start=1):
+        for number_, part in enumerate(bounded(inner), start=1):
             label = f"{position}.{number_}"
             if not isinstance(part, dict):
                 raise ConfigurationError(f"item {label}", f"a {type(part).__name__}", "a mission item")

@@ -12,9 +12,6 @@ from auv_msgs_py.errors import ConfigurationError
 from auv_path_following.paths.waypoint_files import geojson, gpx, kml, plan, table, wpl
 from auv_path_following.paths.waypoint_files.content import Content, Point, Shape, extent, shown
 
-#: Points of one file at most; a path through so many is checked in some seconds.
-MOST_POINTS = 50_000
-
 _READERS: dict[str, Callable[[bytes], Content]] = {
     ".geojson": geojson.read,
     ".json": geojson.read,
@@ -76,8 +73,6 @@ def _meet(end: Point, start: Point) -> bool:
 
 def _check(content: Content) -> None:
     shapes = [*content.shapes, *content.areas, *content.fences]
-    if (count := sum(len(shape.points) for shape in shapes)) > MOST_POINTS:
-        raise ConfigurationError("", f"{count} points", f"at most {MOST_POINTS}")
     single = 0
     for shape in shapes:
         for number, point in enumerate(shape.points, start=1):

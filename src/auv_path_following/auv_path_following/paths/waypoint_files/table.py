@@ -7,7 +7,7 @@ import re
 from collections.abc import Sequence
 
 from auv_msgs_py.errors import ConfigurationError
-from auv_path_following.paths.waypoint_files.content import Content, Point, Shape, decimal, listed
+from auv_path_following.paths.waypoint_files.content import Content, Point, Shape, bounded, decimal, listed
 
 _HEADER = "a header with latitude, longitude (deg) or north, east (m)"
 #: Words of a column's name -> what the column is.
@@ -23,6 +23,7 @@ _UNITS = {
     **dict.fromkeys(("latitude", "longitude"), ("deg", "degree", "degrees", "°", "dd", "decimal", "wgs84")),
     **dict.fromkeys(("north", "east"), ("m", "metre", "metres", "meter", "meters")),
 }
+_MOST_COLUMNS = 1000
 _WORD = re.compile(r"[^\W_]+|°")
 
 
@@ -35,7 +36,10 @@ def read(data: bytes) -> Content:
     lines = [line for line in _text(data).splitlines() if line.strip() and not line.lstrip().startswith("#")]
     if not lines:
         raise ConfigurationError("", "an empty file", _HEADER)
+    bounded(lines)
     delimiter = next((mark for mark in ";\t" if mark in lines[0]), ",")
+    if lines[0].count(delimiter) > _MOST_COLUMNS:
+        raise ConfigurationError("line 1", f"more than {_MOST_COLUMNS} columns", _HEADER)
     try:
         head, *rows = csv.reader(lines, delimiter=delimiter, skipinitialspace=True)
     except csv.Error as error:

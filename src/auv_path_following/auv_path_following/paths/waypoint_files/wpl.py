@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from auv_msgs_py.errors import ConfigurationError
-from auv_path_following.paths.waypoint_files.content import Content, decimal
+from auv_path_following.paths.waypoint_files.content import Content, bounded, decimal
 from auv_path_following.paths.waypoint_files.mavlink_items import Item, follow
 
-HEAD = b"QGC WPL"
+_HEAD = b"QGC WPL"
+_FORMAT = "QGC WPL 110 (positions alone: a .csv file with a header)"
 _COLUMNS = 12
 
 
@@ -16,11 +17,11 @@ def read(data: bytes) -> Content:
     Raises:
         ConfigurationError: it is another format, or a line is wrong.
     """
-    if not data.startswith(HEAD):
-        raise ConfigurationError("line 1", f"{data[:40].decode('ascii', 'replace')!r}", "QGC WPL 110")
+    if not data.startswith(_HEAD):
+        raise ConfigurationError("line 1", f"{data[:40].decode('ascii', 'replace')!r}", _FORMAT)
     content = Content()
     items: list[Item] = []
-    for number, line in enumerate(data.decode("utf-8", "replace").splitlines(), start=1):
+    for number, line in enumerate(bounded(data.decode("utf-8", "replace").splitlines()), start=1):
         if number == 1 or not line.strip() or line.lstrip().startswith("#"):
             continue
         item = _item(number, line)

@@ -12,7 +12,7 @@ _PIECE = 65536
 
 
 #: A file of more elements is refused: each takes some 200 bytes of memory.
-_MOST_ELEMENTS = 1_000_000
+_MOST_ELEMENTS = 400_000
 
 
 class _Builder(ElementTree.TreeBuilder):
