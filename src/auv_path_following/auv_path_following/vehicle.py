@@ -145,7 +145,7 @@ class Vehicle:
 
     @property
     def coefficients(self) -> Hull:
-        """The hull, for those who cannot do without.
+        """The hull, where a simulator or a model needs it.
 
         Raises:
             ConfigurationError: the vehicle file has none.

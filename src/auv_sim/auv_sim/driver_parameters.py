@@ -52,14 +52,14 @@ class MavlinkDriverParameters(NodeParameters):
         1, "output of SERVO_OUTPUT_RAW that moves the rudder, for rudder_state; 0 for none", ge=0, le=8
     )
     command_timeout: float = setting(
-        1.0, "commands silent for this long: the vehicle is told to stop", unit="s", gt=0.0, le=10.0
+        1.0, "commands silent for this long: the vehicle is stopped", unit="s", gt=0.0, le=10.0
     )
     link_timeout: float = setting(
         1.0, "vehicle silent for this long: an error in /diagnostics", unit="s", gt=0.0, le=60.0
     )
     settling: float = setting(
         1.0,
-        "for so long the vehicle's clock is watched before anything is published",
+        "time for which the vehicle's clock is watched before anything is published",
         unit="s",
         ge=0.0,
         le=60.0,

@@ -98,7 +98,7 @@ def test_nothing_there_is_a_failure_and_named(domain: int, capsys: pytest.Captur
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
-        (["--wiggle"], "--wiggle: found nobody to ask"),
+        (["--wiggle"], "--wiggle: found no terminal to ask at"),
         (["--yes-the-vehicle-may-move"], "--yes-the-vehicle-may-move: found no --wiggle"),
         (["--vehicle", "no_such_vehicle"], "no_such_vehicle"),
     ],

@@ -120,7 +120,7 @@ def test_commands_are_handed_on_and_a_missing_one_is_a_stop(
 
     def diagnosed() -> bool:
         vehicle.measure(next(boot_ms))
-        return bench.diagnosed("no commands: the vehicle is told to stop")
+        return bench.diagnosed("no commands: the vehicle is stopped")
 
     boot_ms = itertools.count(5_050, 50)
     bench.until(diagnosed)

@@ -76,11 +76,13 @@ def test_conditions_come_and_go() -> None:
             watch.conditions(0.0, heard=False)["system"] == "no vehicle with system id 1, but 7 (component 1)"
         )
         assert watch.conditions(0.0, heard=True)["system"] == ""
+        link.peer.refuse(OTHER, 0.0)
+        refused = "datagrams from 10.0.0.9:4711 are refused: the vehicle "
+        assert watch.conditions(0.0, heard=False)["strangers"] == refused + "has not been heard yet"
         link.peer.is_vehicle(VEHICLE, frames(), 0.0)
-        link.peer.refuse(OTHER, 1.0)
         link.damaged, link.damage = 1, "no MAVLink, from somewhere"
         assert watch.conditions(2.0, heard=True) == {
-            "strangers": "datagrams from 10.0.0.9:4711 are refused: the vehicle is at 10.0.0.2:14550",
+            "strangers": refused + "is at 10.0.0.2:14550",
             "damage": "damaged datagrams: no MAVLink, from somewhere",
             "system": "",
         }

@@ -23,9 +23,9 @@ from auv_sim.vehicle_check.wiggle import END, FAREWELL, Wiggle
 _DEPTH = 1000
 #: The diagonal of a 6 x 6 covariance.
 _DIAGONAL = slice(0, 36, 7)
-#: Who listens to commands without being the vehicle.
+#: Nodes that read commands without being the vehicle.
 _BYSTANDERS = {topics.RECORDER, topics.AUTOPILOT, topics.LAUNCHER}
-#: The small test ends at once without odometry for so long (s), or so far from where it began (m).
+#: The small test ends at this silence of the odometry (s) and at this distance from where it began (m).
 _SILENCE, _FAR = 1.0, 100.0
 #: Without odometry a command is sent so often, s.
 _PERIOD = 0.1
@@ -42,7 +42,7 @@ def _endpoint(topic: Topic, publishes: bool, info: Any) -> Endpoint:
 
 
 def _domain(node: Node) -> str:
-    """Where a node looks for others: who is elsewhere does not exist for it."""
+    """Return where a node looks for others, for people: what publishes elsewhere is not found."""
     local_only = os.environ.get("ROS_LOCALHOST_ONLY") == "1"
     reach = os.environ.get("ROS_AUTOMATIC_DISCOVERY_RANGE") or ("LOCALHOST" if local_only else "SUBNET")
     return f"ROS domain {node.context.get_domain_id()}, discovery range {reach}"
@@ -88,8 +88,8 @@ class VehicleListener:
         return float(self.node.get_clock().now().nanoseconds) * 1e-9
 
     def _listen(self, topic: Topic, callback: Any) -> None:
-        kind, wanted = qos.message_class(topic.type), qos.requested(topic, reliable=False, depth=_DEPTH)
-        self.node.create_subscription(kind, self.name(topic), callback, wanted)
+        kind, profile = qos.message_class(topic.type), qos.requested(topic, reliable=False, depth=_DEPTH)
+        self.node.create_subscription(kind, self.name(topic), callback, profile)
 
     def _on_odometry(self, message: Odometry) -> None:
         header, pose, twist = message.header, message.pose.pose, message.twist.twist
@@ -113,12 +113,12 @@ class VehicleListener:
         return lambda message: values.append(Value(self.now(), message.data))
 
     def other_commanders(self) -> list[str]:
-        """Who else sends commands; with them the small test must not begin."""
+        """Other nodes that publish commands; the small test must not begin beside them."""
         return sorted({e.node for e in self.endpoints() if e.publishes and e.topic in
                        (topics.RUDDER_CMD.name, topics.THRUST_CMD.name)})  # fmt: skip
 
     def endpoints(self) -> tuple[Endpoint, ...]:
-        """Who publishes and subscribes, without this listener and bystanders."""
+        """Publishers and subscriptions of the vehicle's topics, without this listener and bystanders."""
         found = []
         for topic in _LISTENED:
             for info in self.node.get_publishers_info_by_topic(self.name(topic)):

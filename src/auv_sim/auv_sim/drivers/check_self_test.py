@@ -34,8 +34,8 @@ _BEGIN, _STEP = 100.0, 0.05
 #: Wall time for all to find each other, and for one step's messages to arrive, s.
 _DISCOVERY, _ARRIVAL = 30.0, 2.0
 _DEPTH = 100
-#: Somebody who has just been found may miss the first time that he is told.
-_TELLINGS = 10
+#: A subscription that was matched just now may miss the first message.
+_ATTEMPTS = 10
 
 
 class PlantedDriver:
@@ -62,11 +62,11 @@ class PlantedDriver:
         self._state = (
             None if planted.bare else node.create_publisher(Float64, f"{self.namespace}/rudder_state", _DEPTH)
         )
-        wanted = QoSProfile(depth=_DEPTH)
+        profile = QoSProfile(depth=_DEPTH)
         if planted.latched_commands:
-            wanted.durability = DurabilityPolicy.TRANSIENT_LOCAL
-        node.create_subscription(Float64, f"{self.namespace}/rudder_cmd", self._on_rudder, wanted)
-        node.create_subscription(Float64, f"{self.namespace}/thrust_cmd", self._on_thrust, wanted)
+            profile.durability = DurabilityPolicy.TRANSIENT_LOCAL
+        node.create_subscription(Float64, f"{self.namespace}/rudder_cmd", self._on_rudder, profile)
+        node.create_subscription(Float64, f"{self.namespace}/thrust_cmd", self._on_thrust, profile)
 
     def _on_rudder(self, message: Float64) -> None:
         self._rudder = message.data
@@ -165,10 +165,10 @@ def find_all(
     driving.add_node(drivers_node)
     checking.add_node(check_node)
 
-    def until(condition: Callable[[], bool], patience: float, *who: EventsExecutor) -> None:
+    def until(condition: Callable[[], bool], patience: float, *executors: EventsExecutor) -> None:
         deadline = time.monotonic() + patience
         while not condition() and time.monotonic() < deadline:
-            for executor in who:
+            for executor in executors:
                 executor.spin_once(timeout_sec=0.005)
 
     try:
@@ -180,7 +180,7 @@ def find_all(
         going, message = True, Clock()
         while going:
             set_stamp(message.clock, round(fleet.now * 1e9))
-            for _ in range(_TELLINGS):
+            for _ in range(_ATTEMPTS):
                 tell_time.publish(message)
                 until(fleet.knows_the_time, _ARRIVAL, checking)
                 if fleet.knows_the_time():
@@ -220,8 +220,8 @@ def self_test(console: Console, hull: Vehicle) -> int:
     for planted in PLANTED:
         right = found[planted.name] == ({planted.mistake} if planted.mistake else set())
         wrong += not right
-        told = "; ".join(sorted(mistake.value for mistake in found[planted.name])) or "nothing"
-        table.add_row(planted.name, "[green]ok[/green]" if right else "[bold red]missed[/bold red]", told)
+        names = "; ".join(sorted(mistake.value for mistake in found[planted.name])) or "nothing"
+        table.add_row(planted.name, "[green]ok[/green]" if right else "[bold red]missed[/bold red]", names)
     console.print(table)
     console.print(
         f"{len(PLANTED) - wrong} of {len(PLANTED)} as they should be, {time.monotonic() - begin:.0f} s"

@@ -98,7 +98,7 @@ def _ask(consent: bool) -> None:
     if consent:
         return
     if not sys.stdin.isatty():
-        raise ConfigurationError("--wiggle", "nobody to ask", f"{_CONSENT} as well, or a terminal")
+        raise ConfigurationError("--wiggle", "no terminal to ask at", f"{_CONSENT} as well, or a terminal")
     print(
         f"The vehicle will move for {END:g} s: {THRUST_SHARE:.0%} of its thrust, rudder up to 20 degrees,"
         " within some 40 m."
@@ -162,9 +162,9 @@ def _listen(
         spin(lambda: listener.now() > 0.0, options.wait)
     if options.wiggle and (others := listener.other_commanders()):
         raise ConfigurationError(
-            "--wiggle", f"{', '.join(others)} sending commands", "nobody else at the rudder"
+            "--wiggle", f"{', '.join(others)} sending commands", "no other publisher of commands"
         )
-    # What came before the clock was known is not judged.
+    # What came before the clock was found is not judged.
     for samples in (
         recording.odom,
         recording.water,

@@ -3,7 +3,7 @@
     python3 -m auv_sim.drivers.emulator --address udpout:127.0.0.1:14550
 
 It behaves as vehicles do: each message has its own rate and its own delay, some overtake others or are lost,
-time counts from its boot, and without a command for a second it stops by itself.
+time counts from its boot, and without a command for a second it stops.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from auv_sim.plant.remus import PlantState, RemusPlant
 
 #: One step, ms; every period below is a multiple of it.
 STEP_MS = 10
-#: Without a command for this long the vehicle stops by itself, ms.
+#: Without a command for this long the vehicle stops, ms.
 COMMAND_TIMEOUT_MS = 1000
 #: What the vehicle's clock shows when the program starts, ms: it has been on for a while.
 BOOT_MS = 12_340
@@ -85,7 +85,7 @@ class Emulator:
         self.in_tube = True
         self.failsafe = True
         self.failsafes = 0
-        #: What it has said and nobody has fetched yet: (kind of message, message).
+        #: What it has said since this was last cleared: (kind of message, message).
         self.said: list[tuple[Channel, Any]] = []
         self._command, self._commanded_at = STOP, -COMMAND_TIMEOUT_MS
 
@@ -176,7 +176,7 @@ class Line:
 def live(emulator: Emulator, link: MavlinkLink, speed: float, loss: float, seed: int) -> NoReturn:
     """Let the vehicle live at `speed` times real time, with a share of messages lost both ways.
 
-    In real time it never waits for anybody. Faster, every delay of this machine would be `speed` times as
+    In real time it never waits. Faster, every delay of this machine would be `speed` times as
     long for the vehicle. There its time stands still between a position and the command that answers it, so
     that only the line's own delays are left; but for `_WAIT` at most, and only while commands come.
     """
@@ -194,7 +194,7 @@ def live(emulator: Emulator, link: MavlinkLink, speed: float, loss: float, seed:
             wait = next_step - time.monotonic()
         now = time.monotonic()
         if now < next_step:
-            continue  # what was heard is that nobody listens
+            continue  # it was an ICMP error: no socket at the other end yet
         if now < answer_due:
             next_step = now + _LOOK
             continue

@@ -7,7 +7,7 @@ from auv_msgs_py.errors import MessageRefused
 from auv_msgs_py.types import STOP, Command
 from auv_sim.drivers.mavlink_mapping import Limits
 
-#: States of the mission in which no command moves the vehicle, whoever sends it.
+#: States of the mission in which no command moves the vehicle, from any sender.
 _OVER = ("holding", "complete", "aborted")
 #: A command may miss the stop by rounding.
 _ROUNDING = 1e-9

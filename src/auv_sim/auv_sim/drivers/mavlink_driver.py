@@ -1,4 +1,4 @@
-"""mavlink_driver: a vehicle that speaks MAVLink over UDP, as the contract wants to see it."""
+"""mavlink_driver: between a vehicle that speaks MAVLink over UDP and the wire contract."""
 
 from __future__ import annotations
 
@@ -32,19 +32,19 @@ from auv_sim.drivers.mavlink_signing import load_key
 from auv_sim.drivers.mavlink_watch import LinkWatch
 from auv_sim.drivers.vehicle_time import ComponentTime, FollowedClock, OffsetEstimate
 
-#: How often the driver empties its socket, looks at its watches, sends its heartbeat and asks for the
-#: vehicle's time, s of ROS time.
+#: Periods of reading the socket, of the watches, of the heartbeat and of the requests for the vehicle's
+#: time, s of ROS time.
 _LISTEN, _LOOK, _HEARTBEAT, _TIMESYNC = 0.005, 0.05, 1.0, 0.5
 #: Datagrams taken in at once: a flood must not keep the node from everything else.
 _MOST = 200
-#: Questions for the vehicle's time that may be under way.
+#: Requests for the vehicle's time that may be under way.
 _ASKED = 8
-#: /clock moves in steps of so much, ns.
+#: Step of /clock, ns.
 _CLOCK_PERIOD = 20_000_000
 
 
 class MavlinkDriverNode(SuiteNode):
-    """Publishes the contract's vehicle topics and hands on its commands."""
+    """Publishes the vehicle's topics of the contract and hands on its commands."""
 
     def __init__(self, **arguments: Any) -> None:
         super().__init__(topics.MAVLINK_DRIVER, MavlinkDriverParameters, **arguments)
@@ -86,9 +86,10 @@ class MavlinkDriverNode(SuiteNode):
         self.listen(topics.THRUST_CMD, lambda message: self._on_command(topics.THRUST_CMD.name, message))
         self.listen(topics.MISSION_STATE, self._on_mission_state)
         autopilot = p.vehicle_component
-        self._handlers: dict[str, tuple[int, Callable[[Any], None]]] = {
+        # Message -> the component that may send it (None: any), and its handler.
+        self._handlers: dict[str, tuple[int | None, Callable[[Any], None]]] = {
             "HEARTBEAT": (autopilot, self._on_heartbeat),
-            "STATUSTEXT": (autopilot, self._on_text),
+            "STATUSTEXT": (None, self._on_text),
             "TIMESYNC": (autopilot, self._on_timesync),
             "ATTITUDE": (autopilot, self._on_attitude),
             "LOCAL_POSITION_NED": (autopilot, self._on_position),
@@ -128,7 +129,7 @@ class MavlinkDriverNode(SuiteNode):
                 if handler is None or message.get_srcSystem() != p.vehicle_system:
                     continue
                 self._heard_at = self.time_ns()
-                if component != message.get_srcComponent():
+                if component not in (None, message.get_srcComponent()):
                     what = f"{message.get_type()} of component {message.get_srcComponent()}"
                     self._assembly.dropped[what] += 1
                     continue
@@ -138,7 +139,7 @@ class MavlinkDriverNode(SuiteNode):
                     self.health.refuse(error)
 
     def _hear_time(self, boot_ms: int) -> None:
-        """Take in the time of the autopilot; a vehicle that was started anew is begun with anew."""
+        """Take in the time of the autopilot; forget the measurements of a vehicle that was restarted."""
         boot = boot_ms * 1_000_000
         if isinstance(self._time, FollowedClock):
             anew = self._time.heard(boot, time.monotonic_ns())
@@ -223,12 +224,12 @@ class MavlinkDriverNode(SuiteNode):
     def _send_command(self) -> None:
         p, now = self.parameters, self.time_ns()
         silent = self._commands.silent(now)
-        self.health.error("commands", "no commands: the vehicle is told to stop" if silent else "")
+        self.health.error("commands", "no commands: the vehicle is stopped" if silent else "")
         command, clockwise = self._commands.command(now), p.turn_axis == "clockwise"
         self.link.send(manual_control(command, self.limits, clockwise, p.vehicle_system))
 
     def _look(self) -> None:
-        """What has to happen when nothing else does."""
+        """Watch for silence, report the link, send what is due."""
         p, now = self.parameters, self.time_ns()
         if isinstance(self._time, FollowedClock) and self._time.pass_silence(time.monotonic_ns()):
             self._tell_time(self._time.now)

@@ -43,7 +43,7 @@ class MavlinkLink:
         address: as `parse_address` reads it.
         system, component: our own ids.
         where: what to name when the address cannot be used.
-        peer: who the vehicle may be, where we wait for it; any sender and system if None.
+        peer: decides which sender is the vehicle; any sender and system if None.
         key: of signatures, see `Codec`.
         clock: wall time, s.
 
@@ -92,7 +92,7 @@ class MavlinkLink:
         try:
             self._socket.settimeout(timeout)
             data, self._sender = self._socket.recvfrom(LARGEST_DATAGRAM + 1)
-        except OSError:  # nothing came, or nobody listens there yet
+        except OSError:  # nothing came, or an ICMP error: no socket at the other end yet
             return None
         return data
 
@@ -129,7 +129,7 @@ class MavlinkLink:
         return self._codec.pack(message, component, line)
 
     def send(self, message: Any) -> None:
-        """Send a message; before the vehicle has been heard there is nobody to send to."""
+        """Send a message; before the vehicle has been heard it goes nowhere."""
         self.send_bytes(self.pack(message))
 
     def send_bytes(self, data: bytes) -> None:
@@ -142,7 +142,7 @@ class MavlinkLink:
             else:
                 self._socket.send(data)
         except OSError:
-            return  # nobody listens there, or the network is down: silence is what the other side notices
+            return  # no socket there, or the network is down: the other side notices the silence
 
     def close(self) -> None:
         """Close the socket."""

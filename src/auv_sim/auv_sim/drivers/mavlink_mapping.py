@@ -17,7 +17,7 @@ from auv_path_following.vehicle import Vehicle
 FULL = 1000
 #: Servo pulses: neutral, and from there to either stop, microseconds.
 NEUTRAL_PULSE, PULSE_RANGE = 1500, 400
-#: Who in the vehicle speaks for its water-track log.
+#: Component of the vehicle that sends the velocity of its water-track log.
 WATER_LOG = mavlink.MAV_COMP_ID_USER1
 
 

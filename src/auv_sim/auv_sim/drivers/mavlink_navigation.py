@@ -66,7 +66,7 @@ class Assembly:
             self._attitude = new
 
     def position(self, new: Position) -> Fused | None:
-        """Take in a position; an odometry if there is an attitude for it that was not told yet."""
+        """Take in a position; an odometry if there is an attitude for it that none was made of yet."""
         if not math.isfinite(new.x + new.y + new.vx + new.vy):
             self.dropped["LOCAL_POSITION_NED that is no number"] += 1
             return None

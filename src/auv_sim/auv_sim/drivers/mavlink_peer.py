@@ -46,7 +46,7 @@ class Configured:
 class Peer:
     """The one address that is taken for the vehicle, and what came from others.
 
-    Without signatures an address is all there is to know a vehicle by. So the first sender that speaks as
+    Without signatures a vehicle is recognised by its address alone. So the first sender that speaks as
     `system` is kept, and another one takes its place only after the first was silent for `patience`.
 
     Args:

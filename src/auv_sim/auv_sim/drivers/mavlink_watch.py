@@ -1,4 +1,4 @@
-"""What people have to know about the link: strangers, damage, another address, another system. ROS-free."""
+"""The state of the link for people: strangers, damage, another address, another system. ROS-free."""
 
 from __future__ import annotations
 
@@ -50,12 +50,13 @@ class LinkWatch:
         """
         link, peer = self._link, self._link.peer
         stranger = peer.stranger(now)
-        refused = f"datagrams from {stranger} are refused: the vehicle is at {text_of(peer.address)}"
+        vehicle = f"is at {text_of(peer.address)}" if peer.address else "has not been heard yet"
+        refused = f"datagrams from {stranger} are refused: the vehicle {vehicle}"
         if link.damaged > self._damaged:
             self._damaged, self._damaged_at = link.damaged, now
         others = ", ".join(f"{system} (component {component})" for system, component in sorted(peer.others))
         return {
-            "strangers": refused if stranger and peer.address else "",
+            "strangers": refused if stranger else "",
             "damage": f"damaged datagrams: {link.damage}" if now < self._damaged_at + _RECENT else "",
             "system": ""
             if heard or not others

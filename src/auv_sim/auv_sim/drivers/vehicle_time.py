@@ -16,7 +16,7 @@ REBOOT = _SECOND
 STEP = 500 * _MS
 #: How fast little by little is, as a share of the time that passes: near, and further away than `NEAR`.
 SLEW, FAST, NEAR = 0.002, 0.05, 15 * _MS
-#: So long after it was first heard a vehicle's time can be relied on.
+#: Time from the first message until a vehicle's time can be relied on.
 SETTLING = _SECOND
 #: Two components share a clock if the one's messages seem to arrive so much later than the other's, and not
 #: this much earlier.
@@ -29,11 +29,11 @@ class OffsetEstimate:
     """ROS time minus time since boot, for a vehicle that lives in real time.
 
     A message cannot arrive before it was sent, so every arrival is an upper bound, and the least of them is
-    too large by the shortest delay. An exchange of times (TIMESYNC) knows how long it took, and half of it
+    too large by the shortest delay. An exchange of times (TIMESYNC) measures how long it took, and half of it
     is a better guess of the delay: the quickest of the last exchanges is used, if there are any.
 
     Args:
-        settling: for so long after the first message the estimate moves freely.
+        settling: time after the first message in which the estimate moves freely.
     """
 
     def __init__(self, settling: int = SETTLING) -> None:
@@ -64,7 +64,7 @@ class OffsetEstimate:
         self._newest = boot if self._newest is None else max(self._newest, boot)
         bound = now - boot
         if self._bounds and abs(bound - self._bounds[-1][1]) > REBOOT:
-            # No delay changes that much: somebody has set one of the two clocks, or we were asleep.
+            # No delay changes that much: one of the two clocks was set, or this process was suspended.
             self._bounds.clear()
             self._exchanges.clear()
         while self._bounds and self._bounds[-1][1] >= bound:
@@ -128,7 +128,7 @@ class FollowedClock:
     """ROS time that follows an emulated vehicle's, for a vehicle that lives faster than real time.
 
     What the vehicle says moves time on, so a machine that cannot keep the pace makes time slow and nothing
-    else. When the vehicle is silent, time goes on by itself: who waits for the vehicle must notice.
+    else. When the vehicle is silent, time goes on nevertheless, so that watchdogs notice.
 
     Args:
         first: the time to begin with.

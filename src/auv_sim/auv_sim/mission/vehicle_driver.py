@@ -1,4 +1,4 @@
-"""A vehicle behind a driver in place of the simulator: what the driver is told, and the emulated vehicle."""
+"""A vehicle behind a driver in place of the simulator: the driver's parameters, and the emulated vehicle."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from auv_sim.parameters import PlantParameters
 
 #: What `--vehicle-driver` may say -> the driver's node.
 DRIVERS = {"mavlink": topics.MAVLINK_DRIVER}
-#: Below what DDS uses (from 7400) and what Linux hands out by itself.
+#: Below what DDS uses (from 7400) and what Linux hands out.
 _PORTS = range(6000, 7400)
 #: The emulated vehicle's name among the mission's processes, and its module.
 EMULATOR, EMULATOR_MODULE = "vehicle_emulator", "auv_sim.drivers.emulator"
@@ -26,7 +26,7 @@ EMULATOR, EMULATOR_MODULE = "vehicle_emulator", "auv_sim.drivers.emulator"
 def tell_driver(
     driver: str, address: str | None, speed: float | None, vehicle: str, parameters: dict[str, Any]
 ) -> tuple[str, ...] | None:
-    """Tell the driver's node where the vehicle is and how time passes.
+    """Give the driver's node the vehicle's address and the way time passes.
 
     Args:
         driver: the node's name.
@@ -45,13 +45,13 @@ def tell_driver(
     load_key(given.signing_key, f"{driver}.signing_key")
     if given.peer:
         Configured(given.peer, f"{driver}.peer")
-    told: dict[str, Any] = {"vehicle": vehicle}
+    changes: dict[str, Any] = {"vehicle": vehicle}
     emulator = None
     if address is not None:
-        told["address"] = address
+        changes["address"] = address
     else:
         port = free_port()
-        told |= {"address": f"udpin:127.0.0.1:{port}", "clock_speed": speed or 0.0}
+        changes |= {"address": f"udpin:127.0.0.1:{port}", "clock_speed": speed or 0.0}
         plant: PlantParameters = parameters[topics.PLANT]
         start, current = plant.initial, plant.current
         emulator = (
@@ -63,12 +63,12 @@ def tell_driver(
             "--speed", repr(speed or 1.0),
             "--signing-key", given.signing_key,
         )  # fmt: skip
-    parameters[driver] = dataclasses.replace(parameters[driver], **told)
+    parameters[driver] = dataclasses.replace(parameters[driver], **changes)
     return emulator
 
 
 def free_port() -> int:
-    """A UDP port that nobody uses, and that neither DDS nor Linux will hand out before the driver has it."""
+    """A free UDP port that neither DDS nor Linux will hand out before the driver has it."""
     ports = random.sample(_PORTS, len(_PORTS))
     for port in ports:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:

@@ -1,1 +1,1 @@
-"""Whether somebody's driver keeps the contract: pure functions over what was recorded of its topics."""
+"""Whether a driver keeps the contract: pure functions over what was recorded of its topics."""

@@ -1,4 +1,4 @@
-"""Topics there, types, QoS: what discovery knows before a single message has come."""
+"""Topics there, types, QoS: what discovery shows before a message has come."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ def _published(topic: Topic, recording: Recording, optional: bool = False) -> Ve
 
 
 def _heard(topic: Topic, recording: Recording) -> Verdict:
-    """The autopilot offers reliable and volatile: whoever demands more hears nothing at all."""
+    """The autopilot offers reliable and volatile: a subscription that demands more gets no message."""
     item = f"{topic.name}: listener"
     there = [e for e in recording.endpoints if e.topic == topic.name and not e.publishes]
     wrong = [e for e in there if e.type != topic.type]
     if wrong:
         return failed(item, Mistake.WRONG_TYPE, f"{wrong[0].node} expects {wrong[0].type}", topic.type)
     if not there:
-        return failed(item, Mistake.DEAF, "nobody listens", "the vehicle's driver")
+        return failed(item, Mistake.DEAF, "no subscription", "the vehicle's driver")
     latched = [e for e in there if e.transient_local]
     if latched:
         return failed(

@@ -19,7 +19,7 @@ from auv_msgs_py.angles import wrap
 from auv_sim.vehicle_check.samples import Array, Motion, Recording, mean_over, slope
 from auv_sim.vehicle_check.verdict import Mistake, Verdict, failed, passed, unknown
 
-#: Rates of change are taken over so long, s: noise of the position and delay weigh less.
+#: Rates of change are taken over this time, s: noise of the position and delay weigh less.
 SPAN = 1.0
 #: A course needs that much speed, m/s; a sign of the yaw rate so much turning, rad/s.
 LEAST_SPEED, LEAST_TURN = 0.3, 0.02
@@ -114,7 +114,7 @@ def _ratio(motion: Motion, angle: Array) -> float:
     rates, middles = slope(motion.t, angle, 0.5 * SPAN)
     turning = mean_over(motion.t, motion.r, middles, 0.5 * SPAN)
     power = float(turning @ turning)
-    # Turning may be told by the yaw alone, when the rate is in other units.
+    # The yaw alone may show the turning, when the rate is in other units.
     if max(math.sqrt(power / turning.size), 0.0) < LEAST_TURN / 60.0 or np.abs(rates).max() < LEAST_TURN:
         return math.nan
     return float(rates @ turning) / power
@@ -145,7 +145,7 @@ def _yaw(item: str, relations: Relations) -> Verdict:
     if not relations.decided or relations.yaw is None:
         return failed(item, Mistake.YAW_UNRELATED, told, expected)
     mistake = relations.yaw
-    # A mirror of the positions looks like a mirror of the yaw; which of the two it is the yaw rate knows.
+    # A mirror of the positions looks like a mirror of the yaw; the yaw rate decides which of the two it is.
     if relations.turn_of_yaw > 0.3 and relations.turn_of_course < -0.3:
         mistake = {
             Mistake.YAW_OTHER_CONVENTION: Mistake.SWAPPED_AXES,

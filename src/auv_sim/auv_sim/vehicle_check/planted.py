@@ -1,4 +1,4 @@
-"""Drivers with one mistake each, to see that it is found: the simulated vehicle, told wrongly on the wire.
+"""Drivers with one mistake each, which the check must find: the simulated vehicle, misreported on the wire.
 
 The samples of an honest driver (ENU/FLU) are changed on their way; what is commanded too.
 """
@@ -23,7 +23,7 @@ from auv_sim.plant.remus import PlantState, RemusPlant
 from auv_sim.vehicle_check.samples import OdometrySample, WaterSample
 from auv_sim.vehicle_check.verdict import Mistake
 
-#: Between two odometries of an honest driver, s; a command is forgotten after so long.
+#: Between two odometries of an honest driver, s; and the time after which a command is forgotten, s.
 PERIOD, COMMAND_TIMEOUT = 0.05, 1.0
 CURRENT = Current(0.12, -0.08)
 #: Begins turned away from every axis.
@@ -147,7 +147,7 @@ PLANTED = (
 
 
 class PlantedVehicle:
-    """The simulated vehicle behind one of these drivers; time is told from outside, s.
+    """The simulated vehicle behind one of these drivers; time comes from outside, s.
 
     Args:
         planted: the driver.

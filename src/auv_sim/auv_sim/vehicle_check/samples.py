@@ -52,7 +52,7 @@ class Value(NamedTuple):
 
 
 class Endpoint(NamedTuple):
-    """A publisher or a subscription in the graph, as discovery tells it."""
+    """A publisher or a subscription in the graph, as discovery shows it."""
 
     topic: str
     publishes: bool
@@ -68,8 +68,8 @@ class Recording:
 
     Attributes:
         odom, water, rudder_state: from the vehicle.
-        rudder_cmd, thrust_cmd: to the vehicle, whoever sent them.
-        endpoints: who publishes and subscribes; only the contract's topics, and not the listener itself.
+        rudder_cmd, thrust_cmd: to the vehicle, from any sender.
+        endpoints: publishers and subscriptions of the contract's topics, without the listener itself.
         duration: how long was listened, s of ROS time.
         sim_time: whether ROS time came from /clock.
         wiggled: whether the small test was made: then everything can be judged, and has to be.

@@ -35,7 +35,7 @@ def check_values(recording: Recording, motion: Motion) -> list[Verdict]:
 
 
 def convention_of(recording: Recording) -> Convention | None:
-    """What the odometry's frame ids say; None when they say nothing that is known."""
+    """What the odometry's frame ids say; None where no convention has them."""
     table = FrameTable(FrameIds())
     try:
         return table.of_pose(topics.ODOM.name, recording.odom[0].frame, recording.odom[0].child)

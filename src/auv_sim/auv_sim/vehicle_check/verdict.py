@@ -16,13 +16,13 @@ class Level(enum.Enum):
 
 
 class Mistake(enum.Enum):
-    """The mistakes that are known by name, and how they are told."""
+    """The mistakes that have a name, and what the report says of them."""
 
     MISSING_TOPIC = "a topic is missing"
     TWO_PUBLISHERS = "two publishers on one topic"
     WRONG_TYPE = "a topic of the wrong type"
     QOS_MISMATCH = "a QoS that never matches"
-    DEAF = "nobody listens to a command"
+    DEAF = "a command without a subscription"
     UNKNOWN_FRAME = "a frame id that the contract does not know"
     CONTRADICTING_FRAMES = "frame ids of two conventions"
     NOT_A_NUMBER = "NaN or infinite where a number is needed"
@@ -64,7 +64,7 @@ class Mistake(enum.Enum):
     DEAD_TIME = "a dead time that the heading loop cannot bear"
     THRUST_DEAD = "the thrust does nothing"
     THRUST_SCALE = "thrust with the wrong scale"
-    NOT_JUDGED = "what the small test could not judge does not pass"
+    NOT_JUDGED = "an item that the small test could not judge"
 
 
 class Verdict(NamedTuple):

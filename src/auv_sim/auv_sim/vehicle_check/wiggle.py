@@ -13,7 +13,7 @@ THRUST_SHARE = 0.6
 #: (until, rudder in degrees): a rest and the run-up, both sides, twice as much, neutral.
 _RUDDER = ((7.0, 0.0), (10.0, 10.0), (15.0, -10.0), (18.0, 20.0), (20.0, 0.0))
 _THRUST_FROM, END = 1.0, 21.0
-#: Whoever commands goes on with zeros for so long, s.
+#: Zeros are sent for this long after the end, s.
 FAREWELL = 1.0
 
 
@@ -29,7 +29,7 @@ class Wiggle(NamedTuple):
         return cls(THRUST_SHARE * vehicle.thrust_max, vehicle.rudder.max_angle)
 
     def at(self, seconds: float) -> Command:
-        """The command so long after the beginning."""
+        """The command at a time after the beginning, s."""
         if not 0.0 <= seconds < END:
             return STOP
         degrees = next((angle for until, angle in _RUDDER if seconds < until), 0.0)
