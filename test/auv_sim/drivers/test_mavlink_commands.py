@@ -25,15 +25,15 @@ def test_a_pair_is_complete_with_its_thrust(commands: Commands) -> None:
     assert not commands.put(THRUST, 5.0, 0)
     assert not commands.put(RUDDER, 0.1, 0)
     assert commands.put(THRUST, 60.0, 0)
-    assert commands.command(0) == Command(0.1, 60.0)
+    assert commands.command(0, 0.0) == Command(0.1, 60.0)
 
 
 def test_one_of_the_two_that_falls_silent_is_a_stop(commands: Commands) -> None:
     assert not commands.silent(9 * SECOND)  # none has ever come
     commands.put(RUDDER, 0.1, 0)
     commands.put(THRUST, 60.0, SECOND)
-    assert commands.command(SECOND) == Command(0.1, 60.0)
-    assert commands.command(SECOND + 1) == STOP
+    assert commands.command(SECOND, 0.0) == Command(0.1, 60.0)
+    assert commands.command(SECOND + 1, 0.0) == STOP
     assert commands.silent(SECOND + 1)
     assert not commands.none_since(2 * SECOND)
     assert commands.none_since(2 * SECOND + 1)
@@ -42,10 +42,23 @@ def test_one_of_the_two_that_falls_silent_is_a_stop(commands: Commands) -> None:
 def test_no_command_counts_when_the_mission_is_over(commands: Commands) -> None:
     commands.put(RUDDER, 0.1, 0)
     commands.put(THRUST, 60.0, 0)
-    commands.mission_is("holding")
-    assert commands.command(0) == STOP
-    commands.mission_is("running")
-    assert commands.command(0) == Command(0.1, 60.0)
+    for state in ("running", "holding", "holding"):
+        assert commands.command(0, 0.0) == Command(0.1, 60.0)
+        commands.mission_is(state, 0.0)
+    assert commands.command(0, 0.0) == STOP
+    commands.mission_is("running", 0.0)
+    assert commands.command(0, 0.0) == Command(0.1, 60.0)
+
+
+def test_a_single_forged_state_stops_nothing(commands: Commands) -> None:
+    commands.put(RUDDER, 0.1, 0)
+    commands.put(THRUST, 60.0, 0)
+    commands.mission_is("running", 0.0)
+    commands.mission_is("complete", 0.5)
+    assert commands.command(0, 1.0) == Command(0.1, 60.0)
+    with pytest.raises(MessageRefused, match="'complete' once among 'running'"):
+        commands.mission_is("running", 1.0)
+    assert commands.command(0, 9.0) == Command(0.1, 60.0)
 
 
 @pytest.mark.parametrize(

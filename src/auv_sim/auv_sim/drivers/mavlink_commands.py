@@ -1,14 +1,16 @@
-"""What the driver hands on to the vehicle: the newest commands, or a stop. ROS-free; times in ns."""
+"""What the driver hands on to the vehicle: the newest commands, or a stop. ROS-free."""
 
 from __future__ import annotations
 
 from auv_msgs_py import topics
 from auv_msgs_py.errors import MessageRefused
+from auv_msgs_py.mission_word import MissionWord
 from auv_msgs_py.types import STOP, Command
+from auv_path_following.guidance.mission_state import State
 from auv_sim.drivers.mavlink_mapping import Limits
 
 #: States of the mission in which no command moves the vehicle, from any sender.
-_OVER = ("holding", "complete", "aborted")
+_OVER = (State.HOLDING, State.COMPLETE, State.ABORTED)
 #: A command may miss the stop by rounding.
 _ROUNDING = 1e-9
 
@@ -18,7 +20,7 @@ class Commands:
 
     Args:
         limits: what the vehicle can do.
-        timeout: age beyond which a command is a stop, s.
+        timeout: age beyond which a command is a stop, s of ROS time.
     """
 
     def __init__(self, limits: Limits, timeout: float) -> None:
@@ -28,7 +30,7 @@ class Commands:
         }
         self._timeout = timeout * 1e9
         self._newest: dict[str, tuple[float, int]] = {}
-        self.mission_over = False
+        self._mission = MissionWord(State)
 
     def put(self, topic: str, value: float, now: int) -> bool:
         """Take in a command; whether a pair is complete: the autopilot sends the thrust last.
@@ -42,9 +44,15 @@ class Commands:
         self._newest[topic] = value, now
         return topic == topics.THRUST_CMD.name and topics.RUDDER_CMD.name in self._newest
 
-    def mission_is(self, state: str) -> None:
-        """Take in `mission_state`."""
-        self.mission_over = state in _OVER
+    def mission_is(self, state: str, wall: float) -> None:
+        """Take in `mission_state`, at a steady time in s.
+
+        Raises:
+            MessageRefused: there is no such state, or an earlier one was contradicted.
+        """
+        refused = self._mission.hear(state, wall)
+        if refused is not None:
+            raise refused
 
     def silent(self, now: int) -> bool:
         """Whether one of the two has fallen silent, once any has come."""
@@ -55,8 +63,13 @@ class Commands:
         """Whether both have fallen silent, once any has come."""
         return bool(self._newest) and max(at for _, at in self._newest.values()) < now - self._timeout
 
-    def command(self, now: int) -> Command:
-        """The newest commands; a stop when one of them is silent or the mission is over."""
-        if self.mission_over or self.silent(now):
+    def command(self, now: int, wall: float) -> Command:
+        """The newest commands; a stop when one of them is silent or the mission is over.
+
+        Args:
+            now: ROS time, ns.
+            wall: steady time, s.
+        """
+        if self._mission.at(wall) in _OVER or self.silent(now):
             return STOP
         return Command(*(self._newest.get(topic, (0.0, 0))[0] for topic in self._range))

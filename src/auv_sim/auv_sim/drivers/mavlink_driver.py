@@ -219,13 +219,14 @@ class MavlinkDriverNode(SuiteNode):
             self._send_command()
 
     def _on_mission_state(self, message: Any) -> None:
-        self._commands.mission_is(message.data)
+        self._commands.mission_is(message.data, time.monotonic())
 
     def _send_command(self) -> None:
         p, now = self.parameters, self.time_ns()
         silent = self._commands.silent(now)
         self.health.error("commands", "no commands: the vehicle is stopped" if silent else "")
-        command, clockwise = self._commands.command(now), p.turn_axis == "clockwise"
+        command = self._commands.command(now, time.monotonic())
+        clockwise = p.turn_axis == "clockwise"
         self.link.send(manual_control(command, self.limits, clockwise, p.vehicle_system))
 
     def _look(self) -> None:
