@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -33,3 +34,14 @@ def test_its_parameters_show_what_counts(
 def test_a_speed_becomes_the_vehicles_thrust(bench: Bench, mission: str) -> None:
     node = bench.start(GuidanceNode, mission=mission, vehicle="remus100")
     assert node.mission.thrust == pytest.approx(1.62 * 1.5**2)
+
+
+def test_what_is_not_taken_of_a_waypoint_file_is_logged(
+    bench: Bench, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    items = [{"command": 16, "frame": 3, "params": [60, 0, 0, 0, lat, 10.6, 0]} for lat in (59.9, 59.901)]
+    (tmp_path / "a.plan").write_text(json.dumps({"fileType": "Plan", "mission": {"items": items}}))
+    bench.start(GuidanceNode, mission=str(tmp_path / "a.plan"), vehicle="remus100")
+    logged = capfd.readouterr().err
+    assert "a.plan is no mission file; assumed: straight legs" in logged
+    assert "a.plan: hold of 60 s (items 1, 2) not taken" in logged

@@ -49,6 +49,8 @@ class GuidanceNode(SuiteNode):
         if not self.parameters.lockstep:
             self.every(0.1, self._watch)
         self._path.publish(whole_path(self.mission.path, self.get_clock().now().nanoseconds))
+        for notice in self.mission.notices:
+            self.get_logger().info(notice)
         self._take_wishes()
         self._tell()
 
