@@ -9,6 +9,7 @@ import yaml
 
 from auv_msgs_py import user_files, yaml_document
 from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.result_files import write_text
 from auv_msgs_py.settings import validated
 
 T = TypeVar("T")
@@ -68,5 +69,9 @@ def load(path: Path, cls: type[T]) -> T:
 
 
 def dump(data: Any, path: Path) -> None:
-    """Write plain objects as YAML that both this module and ROS 2's parameter parser read back alike."""
-    path.write_text(yaml.dump(data, Dumper=_Dumper, sort_keys=False, allow_unicode=True), encoding="utf-8")
+    """Write plain objects as YAML that both this module and ROS 2's parameter parser read back alike.
+
+    Raises:
+        NotWritten: the file cannot be written.
+    """
+    write_text(path, yaml.dump(data, Dumper=_Dumper, sort_keys=False, allow_unicode=True))

@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 
 from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.result_files import write_text
 
 
 def marks(name: str) -> tuple[str, str]:
@@ -30,7 +31,7 @@ def renew(page: Path, name: str, text: str) -> None:
     """
     before, behind = _around(page, name)
     begin, end = marks(name)
-    page.write_text(f"{before}{begin}\n{text}\n{end}{behind}", encoding="utf-8")
+    write_text(page, f"{before}{begin}\n{text}\n{end}{behind}")
 
 
 def _around(page: Path, name: str) -> tuple[str, str]:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import dataclasses
 import math
-import shutil
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import pydantic
 
-from auv_msgs_py import yaml_file
+from auv_msgs_py import result_files, yaml_file
 from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.settings import setting, settings, validated
 from auv_path_following import config_files, vehicle
@@ -96,13 +95,13 @@ class Mission:
         """Write `mission.yaml` and the files that belong to it; returns the mission file."""
         target = directory / "mission.yaml"
         if self.assumed is None:
-            shutil.copyfile(self.source, target)
+            result_files.copy(self.source, target)
         else:
             yaml_file.dump(self.assumed, target)
         for file in self.files:
             copy = directory / file.relative_to(self.source.parent)
             copy.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(file, copy)
+            result_files.copy(file, copy)
         return target
 
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from auv_path_following.paths.composite import CompositePath
 from auv_sim.analysis.flown_share import percent
 from auv_sim.analysis.metrics import MissionSummary, under_way
-from auv_sim.analysis.plot_style import INK, MUTED, fact
+from auv_sim.analysis.plot_style import INK, MUTED, fact, save
 from auv_sim.analysis.run import Run
 from auv_sim.analysis.signal_panels import cross_track, current, heading_error, rudder, rudder_rate, switches
 from auv_sim.analysis.track_panel import table, track
@@ -68,7 +68,7 @@ def draw(
     figure.text(
         0.05, 0.018, command, fontsize=10, family="monospace", color=MUTED, va="center", parse_math=False
     )
-    figure.savefig(png, format="png", dpi=_DOTS_PER_INCH)
+    save(figure, png, dpi=_DOTS_PER_INCH)
 
 
 def _headline(figure: Figure, summary: MissionSummary, title: str) -> None:

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
+
+from auv_msgs_py.result_files import replacing
 
 INK = "#1b2733"
 MUTED = "#7a8794"
@@ -22,6 +28,17 @@ HALO = [withStroke(linewidth=3.0, foreground="white")]
 def fact(value: float, form: str) -> str:
     """`value` in the form given; nothing when it is not known."""
     return form.format(value) if np.isfinite(value) else ""
+
+
+def save(figure: Figure, target: Path, **options: Any) -> None:
+    """Write a picture in the format that its suffix names; PNG without one.
+
+    Raises:
+        NotWritten: it cannot be written.
+        ValueError: no picture has this suffix.
+    """
+    with replacing(target) as draft:
+        figure.savefig(draft, format=target.suffix[1:].lower() or "png", **options)
 
 
 def style(axes: Axes, ylabel: str) -> None:

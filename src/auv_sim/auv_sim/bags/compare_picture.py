@@ -10,7 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from auv_sim.analysis.metrics import under_way
-from auv_sim.analysis.plot_style import BLUE, GREEN, INK, ORANGE, PATH, RED, style
+from auv_sim.analysis.plot_style import BLUE, GREEN, INK, ORANGE, PATH, RED, save, style
 from auv_sim.bags.flight import Flight
 
 _COLOURS = (BLUE, ORANGE, GREEN, RED, "#7b4fa3", "#8a6d3b", "#2b8c9e", "#55606b")
@@ -73,4 +73,4 @@ def draw(flights: list[Flight], labels: list[str], png: Path) -> None:
     for axes in rows[:-1]:
         axes.tick_params(labelbottom=False)
     rows[-1].set_xlabel("path parameter s (subpath k runs from k − 1 to k)", color=INK)
-    figure.savefig(png, format="png")
+    save(figure, png)

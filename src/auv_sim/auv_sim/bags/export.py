@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.result_files import replacing
 from auv_sim.analysis.run import Run
 from auv_sim.bags.arguments import add_choice
 from auv_sim.command_line import target
@@ -70,7 +71,7 @@ def _resampled(flown: Run, rate: float) -> Run:
 
 def _write_csv(columns: dict[str, NDArray[np.float64]], file: Path) -> None:
     """Every digit that is there; an unknown value is an empty cell."""
-    with file.open("w", encoding="utf-8", newline="\n") as stream:
+    with replacing(file) as draft, draft.open("w", encoding="utf-8", newline="\n") as stream:
         stream.write(",".join(columns) + "\n")
         for row in zip(*(column.tolist() for column in columns.values()), strict=True):
             stream.write(",".join("" if value != value else repr(value) for value in row) + "\n")
@@ -84,4 +85,5 @@ def _write_parquet(columns: dict[str, NDArray[np.float64]], file: Path) -> None:
         raise ConfigurationError(
             "--out", f"{file}, and no pyarrow", "python -m pip install pyarrow, or a .csv"
         ) from None
-    parquet.write_table(pyarrow.table(dict(columns)), file)
+    with replacing(file) as draft:
+        parquet.write_table(pyarrow.table(dict(columns)), draft)

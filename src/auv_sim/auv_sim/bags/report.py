@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.result_files import write_text
 from auv_sim.bags.arguments import add_choice
 from auv_sim.bags.events import events_of
 from auv_sim.bags.flight import Flight, flight_of
@@ -52,7 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
     try:
         directory.mkdir(parents=True, exist_ok=True)
         page = directory / PAGE
-        page.write_text(page_of(flight), encoding="utf-8")
+        write_text(page, page_of(flight))
         written = [page, *pictures(flight, directory, _title(flight))]
     except OSError as error:
         raise ConfigurationError(str(directory), f"{error.strerror}", "a place to write to") from None

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from auv_sim.analysis import overview
 from auv_sim.analysis.metrics import under_way
-from auv_sim.analysis.plot_style import BLUE, INK, ORANGE, style
+from auv_sim.analysis.plot_style import BLUE, INK, ORANGE, save, style
 from auv_sim.analysis.signal_panels import cross_track, current, heading_error, rudder, rudder_rate, switches
 from auv_sim.analysis.track_panel import track
 from auv_sim.bags.flight import Flight
@@ -67,5 +67,5 @@ def _draw(png: Path, content: Callable[[Figure], None]) -> Path:
     figure = Figure(figsize=(12.0, 9.0), dpi=100, facecolor="white", layout="constrained")
     FigureCanvasAgg(figure)
     content(figure)
-    figure.savefig(png, format="png")
+    save(figure, png)
     return png

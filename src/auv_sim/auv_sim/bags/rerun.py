@@ -19,6 +19,7 @@ from rich.table import Table
 
 from auv_msgs_py import params_file, topics, yaml_file
 from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.result_files import replacing
 from auv_path_following import config_files, vehicle
 from auv_path_following.paths import mission_file
 from auv_sim.bags.arguments import add_choice
@@ -210,7 +211,7 @@ def _show(found: Answers, figures: dict[str, dict[str, Any]]) -> None:
 def _write_csv(found: Answers, file: Path) -> None:
     names = [f"{name}_{which}" for name in found.new for which in ("recorded", "new")]
     columns = [column for name in found.new for column in (found.recorded[name], found.new[name])]
-    with file.open("w", encoding="utf-8") as stream:
+    with replacing(file) as draft, draft.open("w", encoding="utf-8") as stream:
         stream.write(",".join(["t [s]", *names]) + "\n")
         for row in zip(found.t, *columns, strict=True):
             stream.write(",".join(repr(float(value)) for value in row) + "\n")

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from auv_sim.analysis.plot_style import BLUE, INK, ORANGE, PATH, style
+from auv_sim.analysis.plot_style import BLUE, INK, ORANGE, PATH, save, style
 from auv_sim.bags.chain import Answers
 
 
@@ -35,4 +35,4 @@ def draw(found: Answers, png: Path) -> None:
     )
     figure.align_ylabels(rows)
     figure.subplots_adjust(left=0.06, right=0.985, top=0.93, bottom=0.06, hspace=0.1)
-    figure.savefig(png, format="png", dpi=100)
+    save(figure, png, dpi=100)

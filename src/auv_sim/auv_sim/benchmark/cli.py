@@ -11,6 +11,7 @@ from typing import Any
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.result_files import write_text
 from auv_sim import pages
 from auv_sim.benchmark import graph, laws, machine, page, recording, sheets
 from auv_sim.benchmark.scale import FULL, QUICK, Scale
@@ -94,7 +95,7 @@ def _measure(options: argparse.Namespace) -> int:
     out.print(", ".join(f"{name} {value}" for name, value in figures["machine"].items()), soft_wrap=True)
     sheets.show(found, out)
     if options.json is not None:
-        options.json.write_text(json.dumps(figures, indent=2) + "\n", encoding="utf-8")
+        write_text(options.json, json.dumps(figures, indent=2) + "\n")
         wrote(out, options.json, "all figures")
     if options.write_docs:
         page.renew(options.page, options.images, figures, found)

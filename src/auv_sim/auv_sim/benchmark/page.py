@@ -12,7 +12,7 @@ import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
 from auv_sim import pages
-from auv_sim.analysis.plot_style import BLUE, INK, ORANGE, style
+from auv_sim.analysis.plot_style import BLUE, INK, ORANGE, save, style
 from auv_sim.benchmark.sheets import Sheet, markdown
 from auv_sim.command_line import make_directory
 
@@ -42,7 +42,7 @@ def draw(figures: dict[str, Any], picture: Path) -> None:
     _curve(
         axes[2], figures["recording"]["cpu_percent"], "recorded topics at 50 Hz", "recorder [% of one core]"
     )
-    fig.savefig(picture, dpi=110)
+    save(fig, picture, dpi=110)
     plt.close(fig)
 
 

@@ -12,7 +12,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from auv_sim.analysis.plot_style import BLUE, GREEN, GRID, INK, MUTED, ORANGE, RED, style
+from auv_sim.analysis.plot_style import BLUE, GREEN, GRID, INK, MUTED, ORANGE, RED, save, style
 from auv_sim.campaign import statistics
 from auv_sim.campaign.plan import StudyPlan
 from auv_sim.campaign.summary import Summary, column, figure_label, rounds_of
@@ -41,7 +41,7 @@ def draw(plan: StudyPlan, table: pa.Table, summary: Summary, directory: Path) ->
     files = []
     for name, figure in drawn.items():
         FigureCanvasAgg(figure)
-        figure.savefig(directory / name, dpi=110)
+        save(figure, directory / name, dpi=110)
         files.append(directory / name)
     return files
 

@@ -23,7 +23,8 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from auv_msgs_py import yaml_file
-from auv_msgs_py.errors import ConfigurationError, SuiteError
+from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.result_files import replacing
 from auv_msgs_py.settings import setting, settings
 from auv_sim.campaign.plan import BUNDLED, StudyPlan
 from auv_sim.campaign.table import schema_of
@@ -153,7 +154,7 @@ class Store:
         """Keep a finished chunk.
 
         Raises:
-            SuiteError: it cannot be written.
+            NotWritten: it cannot be written.
         """
         _write_table(table, self._chunk_file(runs), len(runs))
 
@@ -162,7 +163,7 @@ class Store:
 
         Raises:
             ConfigurationError: a table that is damaged.
-            SuiteError: the results cannot be written.
+            NotWritten: the results cannot be written.
         """
         if not self.finished:
             parts = [_read_table(self._chunk_file(chunk)) for chunk in self._flown()]
@@ -205,16 +206,9 @@ def fingerprint(files: Mapping[str, bytes]) -> str:
 
 
 def _write_table(table: pa.Table, path: Path, rows: int) -> None:
-    part = path.with_name(path.name + ".part")
-    try:
+    with replacing(path) as part:
         path.parent.mkdir(exist_ok=True)
         pq.write_table(table, part, compression="zstd", row_group_size=max(rows, 1))
-        with part.open("rb") as file:
-            os.fsync(file.fileno())
-        part.replace(path)
-    except OSError as error:
-        part.unlink(missing_ok=True)
-        raise SuiteError(f"{path} cannot be written ({error.strerror or error})") from None
 
 
 def _read_table(path: Path) -> pa.Table:

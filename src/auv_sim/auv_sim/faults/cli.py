@@ -16,6 +16,7 @@ from rich.table import Table
 
 from auv_msgs_py import topics
 from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.result_files import write_text
 from auv_sim.command_line import (
     EXIT_DONE,
     EXIT_FAILED,
@@ -75,7 +76,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         from auv_sim.faults.matrix import as_data
 
         record = {"speed": arguments.speed, "good": good, "rows": [as_data(result) for result in results]}
-        arguments.json.write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
+        write_text(arguments.json, json.dumps(record, indent=2) + "\n")
     if not arguments.full and not arguments.rows:
         speed = arguments.speed if arguments.speed != SPEED else None
         again = to_type("fault_matrix.py", full=True, speed=speed)

@@ -23,6 +23,7 @@ from rich.progress import (
 from rich.table import Table
 
 from auv_msgs_py.errors import ConfigurationError, SuiteError
+from auv_msgs_py.result_files import write_text
 from auv_path_following import config_files
 from auv_sim.batch import engine
 from auv_sim.batch.compiled import COMPILED
@@ -118,7 +119,7 @@ def _fly(store: Store, options: argparse.Namespace) -> int:
         _fly_chunks(store, chunks, options, console)
         table = store.finish()
         summary = summarise(plan, table)
-        (store.directory / "summary.json").write_text(summary.to_json(), encoding="utf-8")
+        write_text(store.directory / "summary.json", summary.to_json())
         drawn = pictures.draw(plan, table, summary, store.directory)
     _show(store, summary, drawn, console)
     return EXIT_DONE

@@ -33,7 +33,7 @@ def draw(rows: Sequence[tuple[float, dict[str, int]]], warm: float, file: Path) 
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    from auv_sim.analysis.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, RED, style
+    from auv_sim.analysis.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, RED, save, style
 
     late = [row for row in rows if row[0] >= warm]
     figure, axes = pyplot.subplots(figsize=(9.0, 4.0), layout="constrained")
@@ -48,5 +48,5 @@ def draw(rows: Sequence[tuple[float, dict[str, int]]], warm: float, file: Path) 
     axes.set_ylim(min(low, -2.0), max(high, 2.0))
     axes.margins(x=0.0)
     axes.legend(loc="upper left", frameon=False, labelcolor=INK, fontsize=9)
-    figure.savefig(file, dpi=120)
+    save(figure, file, dpi=120)
     pyplot.close(figure)

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from rich.table import Table
 
 from auv_sim import closed_loop
-from auv_sim.analysis.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, style
+from auv_sim.analysis.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, save, style
 from auv_sim.analysis.trials import Trial, judge
 from auv_sim.mission import plan
 from auv_sim.mission.plan import Options
@@ -129,7 +129,7 @@ def draw(study: Study, png: Path) -> None:
     handles, labels = figure.axes[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="upper center", ncols=4, frameon=False, fontsize=9)
     figure.tight_layout(rect=(0.0, 0.0, 1.0, 0.93))
-    figure.savefig(png)
+    save(figure, png)
 
 
 def _rows(study: Study) -> list[list[str]]:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import dataclasses
 import math
-import shutil
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from auv_msgs_py import params_file, topics, yaml_file
+from auv_msgs_py import params_file, result_files, topics, yaml_file
 from auv_msgs_py.claim import Claim
 from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.settings import Pair
@@ -155,13 +154,16 @@ class Plan:
 
         Returns:
             The parameter file for the nodes.
+
+        Raises:
+            NotWritten: a file cannot be written.
         """
         directory.mkdir(parents=True)
         here = {"mission": self.mission.copy_to(directory)}
         for kind in ("vehicle", "believed", "sea"):
             if kind in self.sources:
                 here[kind] = directory / f"{kind}.yaml"
-                shutil.copyfile(self.sources[kind], here[kind])
+                result_files.copy(self.sources[kind], here[kind])
         told = {}
         for name, settings in self.parameters.items():
             its = {k: str(here[k]) for k in here if hasattr(settings, k)}

@@ -13,6 +13,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.result_files import write_text
 from auv_sim.analysis.metrics import MissionSummary, summarise
 from auv_sim.analysis.overview import draw
 from auv_sim.command_line import go_on, to_type, wrote
@@ -49,7 +50,7 @@ def conclude(plan: Plan, directory: Path, outcome: Outcome) -> tuple[Outcome, Mi
         "vehicle": plan.vehicle.name,
         **json.loads(summary.to_json()),
     }
-    (directory / "summary.json").write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
+    write_text(directory / "summary.json", json.dumps(record, indent=2) + "\n")
     rudder = plan.vehicle.rudder
     draw(
         run,

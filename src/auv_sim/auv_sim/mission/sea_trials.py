@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 from rich.console import Console
 from rich.table import Table
 
+from auv_msgs_py.result_files import write_text
 from auv_path_following import config_files
 from auv_sim import closed_loop, pages
 from auv_sim.analysis.flown_share import percent
@@ -214,7 +215,7 @@ def _markdown(rows: Sequence[Together]) -> str:
 def _write(file: Path, record: Any) -> None:
     """Strict JSON; what is not known (a corner where there is none) becomes null."""
     text = json.dumps(without_nan(record), indent=2, allow_nan=False)
-    file.write_text(text + "\n", encoding="utf-8")
+    write_text(file, text + "\n")
 
 
 def _pictures(options: argparse.Namespace) -> Path:

@@ -17,6 +17,7 @@ from rich.table import Table
 
 from auv_msgs_py import topics
 from auv_msgs_py.conversions import nanoseconds
+from auv_msgs_py.result_files import write_text
 from auv_sim.analysis.metrics import summarise
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, Parser, command, make_directory, positive, wrote
 from auv_sim.command_line import console as terminal
@@ -120,9 +121,9 @@ def _soak(arguments: argparse.Namespace) -> int:
     directory = (arguments.out or Path("runs") / f"soak-{time.strftime('%Y%m%d-%H%M%S')}").absolute()
     make_directory(directory, new=True)
     mission = directory / "soak.yaml"
-    mission.write_text(SURVEY.format(repeat=1), encoding="utf-8")
+    write_text(mission, SURVEY.format(repeat=1))
     once = plan.make(Options(mission=str(mission)), directory).verdicts.duration
-    mission.write_text(SURVEY.format(repeat=math.ceil(60.0 * arguments.minutes / once)), encoding="utf-8")
+    write_text(mission, SURVEY.format(repeat=math.ceil(60.0 * arguments.minutes / once)))
     resolved = plan.make(Options(mission=str(mission), current=(0.1, 0.2)), directory)
     console = terminal()
     watch = Watch(resolved, console)
@@ -170,7 +171,7 @@ def _soak(arguments: argparse.Namespace) -> int:
         "lost": lost,
         "processes": [vars(one) for one in grown],
     }
-    (directory / "soak.json").write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
+    write_text(directory / "soak.json", json.dumps(record, indent=2) + "\n")
     console.print()
     wrote(console, directory / "soak.png", "memory of each process")
     good = not lost and all(one.slope <= arguments.flat for one in grown)

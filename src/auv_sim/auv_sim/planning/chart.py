@@ -12,6 +12,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.result_files import write_text
 from auv_path_following.paths.geodesy import to_geodetic
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.paths.outline import polygon
@@ -42,7 +43,7 @@ def export(mission: Mission, target: Path) -> None:
         expected = "origin: {latitude_deg: ..., longitude_deg: ...}, to place the path on a chart"
         raise ConfigurationError(f"{mission.source}: origin", "nothing", expected)
     try:
-        target.write_text(writer(mission), encoding="utf-8")
+        write_text(target, writer(mission))
     except OSError as error:
         raise ConfigurationError(
             "--export", f"{target} ({error.strerror})", "a file that can be written"

@@ -17,6 +17,7 @@ from rich.text import Text
 
 from auv_msgs_py import params_file, topics
 from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.result_files import NotWritten
 from auv_msgs_py.types import Current
 from auv_path_following import config_files, vehicle
 from auv_path_following.guidance.path_follower import PathFollowerConfig
@@ -85,8 +86,9 @@ def _plan(options: argparse.Namespace) -> int:
     if png is not None:
         try:
             drawing.draw(mission, verdicts, hull.name, png, current)
-        except (OSError, ValueError) as error:  # ValueError: a suffix that is no picture
-            raise ConfigurationError("--out", f"{png} ({error})", "a picture that can be written") from None
+        except (NotWritten, ValueError) as error:  # ValueError: a suffix that is no picture
+            reason = error.strerror if isinstance(error, NotWritten) else error
+            raise ConfigurationError("--out", f"{png} ({reason})", "a picture that can be written") from None
         wrote(console, png, "the plan in one picture")
     if options.export is not None:
         chart.export(mission, options.export)

@@ -14,7 +14,7 @@ from auv_msgs_py.types import NO_CURRENT, Current
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.paths.outline import look, polygon
 from auv_sim.analysis.labels import arrow
-from auv_sim.analysis.plot_style import AREA, BLUE, GREEN, HALO, INK, MUTED, ORANGE, PATH, RED, style
+from auv_sim.analysis.plot_style import AREA, BLUE, GREEN, HALO, INK, MUTED, ORANGE, PATH, RED, save, style
 from auv_sim.planning.check import Verdicts
 
 CONTINUITY = {"G0": RED, "G1": ORANGE, "G2": GREEN}
@@ -43,7 +43,7 @@ def draw(
     _headline(figure, mission, verdicts, vehicle_name)
     _map(figure.add_subplot(grid[0]), mission, current)
     _curvature(figure.add_subplot(grid[1]), mission, verdicts, vehicle_name)
-    figure.savefig(png)
+    save(figure, png)
 
 
 def _headline(figure: Figure, mission: Mission, verdicts: Verdicts, vehicle_name: str) -> None:

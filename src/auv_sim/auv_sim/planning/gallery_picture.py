@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.paths.outline import polygon
-from auv_sim.analysis.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, PATH, style
+from auv_sim.analysis.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, PATH, save, style
 from auv_sim.analysis.run import Run
 
 _LOOKS = {"none": (BLUE, "no current"), "current": (ORANGE, "in the current")}
@@ -39,7 +39,7 @@ def draw(
     left, right = figure.add_subplot(grid[0]), figure.add_subplot(grid[1])
     _tracks(left, mission, runs, current)
     _distances(right, mission, runs)
-    figure.savefig(png)
+    save(figure, png)
 
 
 def _tracks(axes: Axes, mission: Mission, runs: Mapping[str, Run], current: tuple[float, float]) -> None:

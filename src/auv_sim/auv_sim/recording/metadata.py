@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import yaml
+
+from auv_msgs_py.result_files import write_text
 
 METADATA_FILE = "metadata.yaml"
 METADATA_VERSION = 9
@@ -82,19 +83,9 @@ def write(directory: Path, content: dict[str, Any]) -> None:
     """Write the file whole or not at all.
 
     Raises:
-        OSError: there is no room for it.
+        NotWritten: there is no room for it.
     """
-    target = directory / METADATA_FILE
-    draft = target.with_suffix(".yaml.tmp")
-    try:
-        with draft.open("w", encoding="utf-8") as stream:
-            stream.write(dump({"rosbag2_bagfile_information": content}))
-            stream.flush()
-            os.fsync(stream.fileno())
-        draft.replace(target)
-    except OSError:
-        draft.unlink(missing_ok=True)
-        raise
+    write_text(directory / METADATA_FILE, dump({"rosbag2_bagfile_information": content}))
 
 
 class _Dumper(yaml.SafeDumper):

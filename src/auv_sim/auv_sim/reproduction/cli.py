@@ -13,6 +13,7 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
+from auv_msgs_py.result_files import write_text
 from auv_path_following import vehicle
 from auv_path_following.paths import mission_file
 from auv_sim.analysis.run import Run
@@ -141,9 +142,7 @@ def _paper(options: argparse.Namespace, console: Console) -> int:
         "claims": [claim.as_json() for claim in claims],
         "corner_bound_m": {kind: round(bound.deviation, 3) for kind, bound in bounds.items()},
     }
-    (options.out / "claims.json").write_text(
-        json.dumps(record, indent=2, allow_nan=False) + "\n", encoding="utf-8"
-    )
+    write_text(options.out / "claims.json", json.dumps(record, indent=2, allow_nan=False) + "\n")
     page.write(options.out / "reproduction.html", claims, stems, bounds, facts)
     _show(claims, options, console)
     return 0

@@ -11,8 +11,9 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from auv_msgs_py.result_files import replacing
 from auv_path_following.paths.composite import CompositePath
-from auv_sim.analysis.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, PATH, RED, style
+from auv_sim.analysis.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, PATH, RED, save, style
 from auv_sim.analysis.run import Column, Run
 from auv_sim.reproduction import measures as m
 from auv_sim.reproduction.cases import LAW_LABELS
@@ -58,10 +59,13 @@ class Sheet:
             for axes in row:
                 if axes.get_legend_handles_labels()[0] and not axes.get_legend():
                     axes.legend(fontsize=8, framealpha=0.85, edgecolor="none", loc="upper right")
-        self.figure.savefig(stem.with_suffix(".png"))
+        save(self.figure, stem.with_suffix(".png"))
         # Without the date the file is the same each time.
-        self.figure.savefig(stem.with_suffix(".svg"), metadata={"Date": None})
-        with stem.with_suffix(".csv").open("w", newline="", encoding="utf-8") as stream:
+        save(self.figure, stem.with_suffix(".svg"), metadata={"Date": None})
+        with (
+            replacing(stem.with_suffix(".csv")) as draft,
+            draft.open("w", newline="", encoding="utf-8") as stream,
+        ):
             writer = csv.writer(stream)
             writer.writerow(self.numbers)
             longest = max(len(column) for column in self.numbers.values())

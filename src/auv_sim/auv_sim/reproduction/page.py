@@ -7,6 +7,7 @@ import html
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from auv_msgs_py.result_files import write_text
 from auv_sim.reproduction.claim import FAILS, HOLDS, Claim
 from auv_sim.reproduction.corner import Bound
 from auv_sim.reproduction.figures import FIGURES
@@ -65,7 +66,7 @@ def write(
         parts.append("<h2>Further figures</h2>")
         parts += [_figure(number, stems[number]) for number in rest]
     parts.append("</html>\n")
-    file.write_text("\n".join(parts), encoding="utf-8")
+    write_text(file, "\n".join(parts))
 
 
 def _badge(verdict: str) -> str:

@@ -13,7 +13,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
 from auv_path_following import vehicle
-from auv_sim.analysis.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, RED, style
+from auv_sim.analysis.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, RED, save, style
 from auv_sim.analysis.run import Run
 from auv_sim.reproduction.cases import CURRENT, beside
 from auv_sim.reproduction.flights import PLANT_NAMES, PLANTS, Flight, fly
@@ -123,7 +123,7 @@ def _map(file: Path, run: Runner) -> None:
     figure.suptitle(
         "red: a limit cycle still runs after 75 s; green: the heading has settled", fontsize=11, color=INK
     )
-    figure.savefig(file, dpi=_DPI)
+    save(figure, file, dpi=_DPI)
 
 
 def _phase(file: Path) -> None:
@@ -146,7 +146,7 @@ def _phase(file: Path) -> None:
     gain.legend(fontsize=8, frameon=False)
     phase.legend(fontsize=8, frameon=False, loc="center left")
     phase.set_xlabel("angular frequency (rad/s)")
-    figure.savefig(file, dpi=_DPI)
+    save(figure, file, dpi=_DPI)
 
 
 def _gains(folder: Path, run: Runner) -> None:
@@ -181,7 +181,7 @@ def _gains(folder: Path, run: Runner) -> None:
             label = f"{gain.name.rpartition('.')[2]} = {value:g} {gain.unit}" + (f" ({word})" if word else "")
             axes.plot(result.t - result.t[0], values, color=color, label=label, linewidth=1.3)
         axes.legend(fontsize=8, frameon=False, loc="upper right")
-        figure.savefig(folder / f"tuning_{gain.file}.png", dpi=_DPI)
+        save(figure, folder / f"tuning_{gain.file}.png", dpi=_DPI)
 
 
 def _figure(size: tuple[float, float]) -> Figure:

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from auv_msgs_py.result_files import replacing
 from auv_path_following.paths import mission_file
 from auv_sim.batch import engine
 from auv_sim.reproduction.flights import MISSION, PLANTS, Flight
@@ -158,7 +159,7 @@ def table(results: Sequence[Result]) -> list[Row]:
 
 def write(results: Sequence[Result], file: Path) -> None:
     """Every start as a line of CSV."""
-    with file.open("w", newline="", encoding="utf-8") as stream:
+    with replacing(file) as draft, draft.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream)
         writer.writerow(field.name for field in fields(Result))
         writer.writerows(astuple(result) for result in results)

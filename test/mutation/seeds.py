@@ -1,0 +1,165 @@
+"""Whole files of every kind, to be spoiled: the shipped ones, small ones of each format, recordings."""
+
+from __future__ import annotations
+
+import json
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rosbags.rosbag2 import StoragePlugin, Writer
+
+from auv_path_following import config_files
+from auv_sim.recording.bag_writer import BagWriter
+from auv_sim.recording.definitions import typestore
+
+_PLACES = [(63.447, 10.399), (63.448, 10.401), (63.446, 10.403)]
+_LON_LAT = [[lon, lat] for lat, lon in _PLACES]
+_KML_POINTS = " ".join(f"{lon},{lat},0" for lon, lat in _LON_LAT)
+_ITEMS = [{"command": 16, "frame": 3, "params": [0, 0, 0, None, *place, 0]} for place in _PLACES]
+_SURVEY = {"TransectStyleComplexItem": {"Items": _ITEMS[1:]}, "polygon": _PLACES, "complexItemType": "survey"}
+_FENCE = {"polygons": [{"inclusion": True, "polygon": _PLACES}], "circles": []}
+_GPX = "".join(f'<rtept lat="{lat}" lon="{lon}"/>' for lat, lon in _PLACES)
+_KML = (
+    '<?xml version="1.0"?><kml xmlns="http://www.opengis.net/kml/2.2"><Document><Placemark><name>a</name>'
+    f"<LineString><coordinates>{_KML_POINTS}</coordinates></LineString></Placemark></Document></kml>"
+)
+#: Suffix -> one small file of waypoints in that format.
+WAYPOINTS = {
+    "geojson": json.dumps(
+        {
+            "type": "FeatureCollection",
+            "features": [
+                {
+                    "type": "Feature",
+                    "properties": {"name": "a"},
+                    "geometry": {"type": "LineString", "coordinates": _LON_LAT},
+                }
+            ],
+        }
+    ),
+    "kml": _KML,
+    "csv": "name,latitude,longitude\n" + "".join(f"a,{lat},{lon}\n" for lat, lon in _PLACES),
+    "plan": json.dumps(
+        {"fileType": "Plan", "geoFence": _FENCE, "mission": {"items": [_ITEMS[0], _SURVEY]}, "version": 1}
+    ),
+    "gpx": f'<gpx version="1.1" xmlns="http://www.topografix.com/GPX/1/1"><rte>{_GPX}</rte></gpx>',
+    "waypoints": "QGC WPL 110\n"
+    + "".join(f"{k}\t0\t3\t16\t0\t0\t0\t0\t{lat}\t{lon}\t0\t1\n" for k, (lat, lon) in enumerate(_PLACES)),
+}
+#: The mission beside each of them.
+AROUND = (
+    "version: 1\nname: m\nframe: wgs84\norigin: {{latitude_deg: 63.447, longitude_deg: 10.399}}\nthrust: 6\n"
+    "waypoints: {{file: places.{suffix}, smoothing: {{kind: linear}}}}\n"
+)
+_ROUTES = """version: 1
+name: "all keys"
+description: "of one \\u00e9 text"
+frame: ned
+speed: 1.5
+switching: {mode: g0, radius: 5}
+limits: {path_distance: 50, duration: 900}
+geofence: [[-99, -99], [500, -99], [500, 500], [-99, 500]]
+reverse: false
+repeat: 1
+segments:
+  - line: {start: [0, 0], length: 100, course_deg: 0}
+  - arc: {centre: [100, 50], radius: 50, from_deg: -90, to_deg: 0}
+  - clothoid: {start: [150, 50], course_deg: 90, length: 50, start_curvature: 0.02, end_curvature: 0}
+  - spline: {points: [[158.0, 99.2], [170, 150], [160, 200]]}
+"""
+_MORE = (
+    "survey: {polygon: [[0, 0], [90, 0], [90, 90]], swath: 20, overlap: 0.2, heading_deg: 10,"
+    " smoothing: {kind: dubins, radius: 6}}",
+    "spiral: {centre: [0, 0], inner_radius: 5, spacing: 9, turns: 4, bearing_deg: 20}",
+    "figure_of_eight: {centre: [0, 0], radius: 20, separation: 60, axis_deg: 20}",
+    "loiter: {centre: [0, 0], radius: 20, turns: 3}",
+    "waypoints: {points: &p [[0, 0], [90, 0], [90, 90], [0, 90]], closed: true,"
+    " smoothing: {kind: fermat, radius: 9}}",
+)
+
+
+def missions() -> list[bytes]:
+    """Every route and every key."""
+    head = _ROUTES.split("segments:")[0]
+    return [_ROUTES.encode(), *(f"{head}{route}\n".encode() for route in _MORE), *shipped("missions")]
+
+
+def shipped(kind: config_files.Kind) -> list[bytes]:
+    """The files that come with the suite."""
+    return [path.read_bytes() for path in config_files.shipped(kind).values()]
+
+
+def kmz(directory: Path) -> bytes:
+    """A KML file, packed."""
+    file = directory / "a.kmz"
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("doc.kml", _KML)
+    return file.read_bytes()
+
+
+def _messages() -> list[tuple[str, str, int, bytes]]:
+    """Some seconds of a flight: (topic, type, log time in ns, serialised message)."""
+    store = typestore()
+    kinds: Any = store.types
+
+    def header(k: int) -> Any:
+        stamp = kinds["builtin_interfaces/msg/Time"](sec=1 + k // 10, nanosec=k % 10 * 100_000_000)
+        return kinds["std_msgs/msg/Header"](stamp=stamp, frame_id="map")
+
+    def vector(x: float = 0.0, y: float = 0.0) -> Any:
+        return kinds["geometry_msgs/msg/Vector3"](x=x, y=y, z=0.0)
+
+    def odometry(k: int) -> Any:
+        point = kinds["geometry_msgs/msg/Point"](x=0.0, y=0.15 * k, z=0.0)
+        turn = kinds["geometry_msgs/msg/Quaternion"](x=0.0, y=0.0, z=0.707, w=0.707)
+        pose = kinds["geometry_msgs/msg/Pose"](position=point, orientation=turn)
+        twist = kinds["geometry_msgs/msg/Twist"](linear=vector(1.5), angular=vector())
+        return kinds["nav_msgs/msg/Odometry"](
+            header=header(k),
+            child_frame_id="base_link",
+            pose=kinds["geometry_msgs/msg/PoseWithCovariance"](pose=pose, covariance=np.zeros(36)),
+            twist=kinds["geometry_msgs/msg/TwistWithCovariance"](twist=twist, covariance=np.zeros(36)),
+        )
+
+    made: list[tuple[str, str, int, bytes]] = []
+
+    def put(name: str, kind: str, k: int, message: Any) -> None:
+        made.append((f"/auv/{name}", kind, 10**9 + k * 10**8, bytes(store.serialize_cdr(message, kind))))
+
+    number, text = "std_msgs/msg/Float64", "std_msgs/msg/String"
+    for k in range(60):
+        put("odom", "nav_msgs/msg/Odometry", k, odometry(k))
+        put("rudder_cmd", number, k, kinds[number](0.01 * k))
+        put("path_parameter", number, k, kinds[number](k / 60))
+        error = kinds["geometry_msgs/msg/Vector3Stamped"](header=header(k), vector=vector(0.1, 0.2))
+        put("path_error", "geometry_msgs/msg/Vector3Stamped", k, error)
+        if k % 20 == 0:
+            put("mission_state", text, k, kinds[text]("running"))
+    return made
+
+
+def mcap(directory: Path, compression: str) -> Path:
+    """Write a rosbag2 directory in MCAP; returns the storage file."""
+    writer = BagWriter(directory, compression, texts={"mission.yaml": _ROUTES})  # type: ignore[arg-type]
+    channels: dict[str, Any] = {}
+    for k, (topic, kind, at, data) in enumerate(_messages()):
+        if topic not in channels:
+            channels[topic] = writer.add_topic(topic, kind, [])
+        writer.write(channels[topic], at, at, data, k + 1)
+        if k % 40 == 39:
+            writer.flush()
+    writer.close()
+    return writer.file
+
+
+def sqlite(directory: Path) -> Path:
+    """Write a rosbag2 directory in SQLite; returns the storage file."""
+    with Writer(directory, version=9, storage_plugin=StoragePlugin.SQLITE3) as writer:
+        connections: dict[str, Any] = {}
+        for topic, kind, at, data in _messages():
+            if topic not in connections:
+                connections[topic] = writer.add_connection(topic, kind, typestore=typestore())
+            writer.write(connections[topic], at, data)
+    return next(directory.glob("*.db3"))
