@@ -11,11 +11,14 @@ import pytest
 from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.parameter import Parameter
 
+from auv_msgs_py import params_file, yaml_file
 from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.runtime import SuiteNode
+from auv_msgs_py.settings import nested
 from auv_path_following.nodes.guidance_node import GuidanceNode
 from auv_path_following.nodes.heading_autopilot_node import HeadingAutopilotNode
 from auv_sim.nodes.plant_node import RemusPlantNode
+from auv_sim.parameters import SUITE
 from node_bench import Bench
 
 
@@ -129,3 +132,29 @@ def test_a_node_keeps_the_clock_that_it_was_started_with(bench: Bench, at_first:
     assert node.get_clock().ros_time_is_active is at_first
     (result,) = node.set_parameters([Parameter("use_sim_time", value=at_first)])
     assert result.successful
+
+
+def _with_file(text: str, folder: Path) -> dict[str, Any]:
+    file = folder / "params.yaml"
+    file.write_text(text)
+    return {"cli_args": ["--ros-args", "--params-file", str(file)]}
+
+
+def test_a_shared_block_may_hold_what_other_nodes_have(bench: Bench, tmp_path: Path) -> None:
+    shared = "/**: {ros__parameters: {robot: torpedo, autopilot.nism.k1: 0.5}}\n"
+    node = HeadingAutopilotNode(**_with_file(shared, tmp_path))
+    assert node.autopilot.controller.config.k1 == 0.5
+    node.destroy_node()
+    own = "/**/heading_autopilot: {ros__parameters: {robot: torpedo}}\n"
+    with pytest.raises(ConfigurationError, match="parameter robot: found an unknown name"):
+        HeadingAutopilotNode(**_with_file(shared + own, tmp_path))
+
+
+def test_a_dump_of_a_node_is_a_parameter_file(bench: Bench, tmp_path: Path) -> None:
+    node = bench.start(GuidanceNode)
+    names = node.list_parameters([], 0).names
+    assert "start_type_description_service" in names
+    flat = {name: node.get_parameter(name).value for name in names}
+    file = tmp_path / "dump.yaml"
+    yaml_file.dump({"/auv/ailos_guidance": {"ros__parameters": nested(flat)}}, file)
+    assert params_file.load(file, SUITE, "/auv")["ailos_guidance"] == node.parameters

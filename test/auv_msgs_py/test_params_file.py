@@ -200,3 +200,29 @@ def test_a_nodes_own_block_adds_to_that_for_all_nodes(tmp_path):
     path.write_text("/**: {ros__parameters: {k1: 0.5}}\n/**/two: {ros__parameters: {k1: 3, k2: 4}}\n")
     loaded = params_file.load(path, {"one": Gains, "two": Gains})
     assert loaded == {"one": Gains(k1=0.5), "two": Gains(k1=3.0, k2=4.0)}
+
+
+def test_a_block_for_all_nodes_gives_each_what_it_has(tmp_path):
+    path = tmp_path / "params.yaml"
+    path.write_text("/**: {ros__parameters: {k1: 3, gains: {k2: 4}, robot: torpedo}}\n")
+    notices = []
+    loaded = params_file.load(path, CLASSES, notices=notices)
+    assert loaded == {"pilot": Pilot(gains=Gains(k2=4.0)), "observer": Gains(k1=3.0)}
+    assert notices == [f"{path}: /**: no node here has robot: ignored"]
+    path.write_text("/**/observer: {ros__parameters: {k1: 3, robot: torpedo}}\n")
+    with pytest.raises(ConfigurationError, match=r"observer: robot: found an unknown key"):
+        params_file.load(path, CLASSES)
+
+
+@pytest.mark.parametrize(("body", "said"), [("gains: 3", "gains: found 3"), ("gains.k1.x: 9", "gains.k1")])
+def test_a_block_for_all_nodes_cannot_break_a_group(tmp_path, body, said):
+    path = tmp_path / "params.yaml"
+    path.write_text(f"/**: {{ros__parameters: {{{body}}}}}\n")
+    with pytest.raises(ConfigurationError, match=said):
+        params_file.load(path, {"pilot": Pilot})
+
+
+def test_parameters_that_every_ros_node_has_are_left_to_ros(loaded):
+    own = "use_sim_time: true, start_type_description_service: true, qos_overrides: {/clock: {depth: 1}}"
+    text = f"/auv/pilot: {{ros__parameters: {{gains: {{k1: 3}}, {own}}}}}\n"
+    assert loaded(text, namespace="/auv")["pilot"].gains == Gains(k1=3.0)

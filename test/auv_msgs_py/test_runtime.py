@@ -5,6 +5,7 @@ from __future__ import annotations
 import struct
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -14,7 +15,7 @@ from rclpy.serialization import serialize_message
 from std_msgs.msg import Float64
 
 from auv_msgs_py import qos, topics, wire
-from auv_msgs_py.runtime import StopRequest, SuiteNode, spin
+from auv_msgs_py.runtime import StopRequest, SuiteNode, run_nodes, spin
 from auv_path_following.parameters import NodeParameters
 from node_bench import NORTHWARD, Bench
 
@@ -102,3 +103,11 @@ def test_a_fault_stops_the_executor_at_once(domain: int) -> None:
         stop.withdraw()
         node.destroy_node()
         rclpy.try_shutdown()
+
+
+def test_a_parameter_file_that_is_not_there_costs_one_line(
+    domain: int, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    missing = tmp_path / "robust.yaml"
+    assert run_nodes([], ["--ros-args", "--params-file", str(missing)]) == 2
+    assert capfd.readouterr().err == f"{missing}: found no such file, expected a YAML file\n"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
@@ -11,11 +11,12 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.params_file import BUILT_IN
+from auv_msgs_py.ros_arguments import shared_names
 from auv_msgs_py.settings import SettingInfo, leaves, nested, validated
 
 T = TypeVar("T")
 _SIM_TIME = "use_sim_time"
-_BUILT_IN = (_SIM_TIME, "start_type_description_service", "qos_overrides")
 
 
 def declare(
@@ -23,6 +24,7 @@ def declare(
     cls: type[T],
     on_change: Callable[[T], None] | None = None,
     try_out: Callable[[T], object] | None = None,
+    arguments: Sequence[str] = (),
 ) -> T:
     """Declare every leaf of a settings class as a parameter of the node.
 
@@ -31,6 +33,8 @@ def declare(
         cls: its settings class; every leaf has a default.
         on_change: called with the new settings after parameters marked `live` were changed.
         try_out: called with new settings before they are accepted; a `ConfigurationError` refuses them.
+        arguments: the node's ROS arguments. Names that only a block for several nodes (``/**``) brings and
+            that this node does not have are ignored.
 
     Returns:
         The settings with the node's overrides applied.
@@ -38,12 +42,7 @@ def declare(
     Raises:
         ConfigurationError: an override is unknown, of the wrong type or out of range.
     """
-    known = {leaf.name for leaf in leaves(cls)}
-    for name in node._parameter_overrides:  # rclpy offers no public way to list them
-        if name not in known and not name.startswith(_BUILT_IN):
-            raise ConfigurationError(
-                f"{node.get_name()}: parameter {name}", "an unknown name", "a declared parameter"
-            )
+    _check_names(node, {leaf.name for leaf in leaves(cls)}, arguments)
     flat: dict[str, Any] = {}
     for leaf in leaves(cls):
         override = node._parameter_overrides.get(leaf.name)
@@ -60,6 +59,20 @@ def declare(
     current = validated(cls, nested(flat), f"{node.get_name()}: parameter")
     _accept_changes(node, cls, current, on_change, try_out)
     return current
+
+
+def _check_names(node: Node, known: set[str], arguments: Sequence[str]) -> None:
+    given = node._parameter_overrides  # rclpy offers no public way to list them
+    unknown = [name for name in given if name not in known and not name.startswith(BUILT_IN)]
+    ignored = shared_names(arguments, node.get_name()) if unknown else set()
+    for name in unknown:
+        if name not in ignored:
+            raise ConfigurationError(
+                f"{node.get_name()}: parameter {name}", "an unknown name", "a declared parameter"
+            )
+    if unknown:
+        listed = ", ".join(sorted(unknown))
+        node.get_logger().info(f"ignored of a block for several nodes, this one has none such: {listed}")
 
 
 def _accept_changes(

@@ -15,11 +15,19 @@ from pathlib import Path
 from typing import Any
 
 from auv_msgs_py import yaml_file
-from auv_msgs_py.errors import ConfigurationError, joined
-from auv_msgs_py.settings import flattened, nested, validated
+from auv_msgs_py.errors import ConfigurationError, joined, printable
+from auv_msgs_py.settings import flattened, leaves, nested, validated
+
+#: Every ROS node's own parameters, by the beginning of their names; the process that starts a node sets them.
+BUILT_IN = ("use_sim_time", "start_type_description_service", "qos_overrides")
 
 
-def load(path: Path, classes: Mapping[str, type[Any]], namespace: str | None = None) -> dict[str, Any]:
+def load(
+    path: Path,
+    classes: Mapping[str, type[Any]],
+    namespace: str | None = None,
+    notices: list[str] | None = None,
+) -> dict[str, Any]:
     """Read a parameter file.
 
     Args:
@@ -27,10 +35,11 @@ def load(path: Path, classes: Mapping[str, type[Any]], namespace: str | None = N
         classes: node name -> settings class that holds all of its parameters.
         namespace: that of the nodes, where it is known: blocks for another one are passed over, as a node
             does. Where it is not, a block counts whatever its namespace.
+        notices: gets a line for names of a block for all nodes that none of these nodes has.
 
     Returns:
         node name -> settings object; nodes the file does not mention have their defaults. A block for
-        ``/**`` is for all of them.
+        ``/**`` is for all of them, and each takes from it what it has.
 
     Raises:
         ConfigurationError: naming file and key, what was found and what was expected; also for two blocks
@@ -55,8 +64,16 @@ def load(path: Path, classes: Mapping[str, type[Any]], namespace: str | None = N
             found = f"a second block for {name}, after {taken[name]}"
             raise ConfigurationError(f"{path}: {pattern}", found, "one block for each node")
         taken[name] = pattern
-        for node in classes if name == "**" else (name,):
-            values[node] |= told
+        if name in classes:
+            values[name] |= told
+            continue
+        parts = {node: {k: v for k, v in told.items() if _has(cls, k)} for node, cls in classes.items()}
+        for node, part in parts.items():
+            values[node] |= part
+        ignored = told.keys() - set().union(*parts.values())
+        if ignored and notices is not None:
+            listed = ", ".join(sorted(ignored))
+            notices.append(printable(f"{path}: {pattern}: no node here has {listed}: ignored"))
     for name in passed_over.keys() - taken.keys():
         here = "/".join(["", *_parts(namespace or "")])
         found, expected = f"another namespace than {here or '/'}", f"/**/{name} or {here}/{name}"
@@ -76,7 +93,7 @@ def load(path: Path, classes: Mapping[str, type[Any]], namespace: str | None = N
 def _told(path: Path, pattern: str, body: Any, classes: Mapping[str, type[Any]]) -> dict[str, Any]:
     """What one block says, with dotted names."""
     name = pattern.rpartition("/")[2]
-    if name not in classes and name != "**":
+    if name not in classes and not is_shared(pattern):
         known = ", ".join(f"/**/{known}" for known in classes)
         raise ConfigurationError(f"{path}: {pattern}", "an unknown node", f"one of {known}")
     if not isinstance(body, dict) or set(body) != {"ros__parameters"}:
@@ -84,9 +101,23 @@ def _told(path: Path, pattern: str, body: Any, classes: Mapping[str, type[Any]])
     parameters = body["ros__parameters"]
     if not isinstance(parameters, dict):
         raise ConfigurationError(f"{path}: {pattern}.ros__parameters", repr(parameters), "a mapping")
-    told = _undotted(parameters)
-    told.pop("use_sim_time", None)  # every ROS node's own; who starts a node decides on it
-    return told
+    return {
+        parameter: value
+        for parameter, value in undotted(parameters).items()
+        if not parameter.startswith(BUILT_IN)
+    }
+
+
+def is_shared(pattern: str) -> bool:
+    """Whether a block is for several nodes (``/**``) and names none."""
+    return pattern.rpartition("/")[2] in ("*", "**")
+
+
+def _has(cls: type[Any], name: str) -> bool:
+    """Whether a settings class has a parameter, or a group, of this name, or one above it."""
+    return any(
+        f"{leaf.name}.".startswith(f"{name}.") or name.startswith(f"{leaf.name}.") for leaf in leaves(cls)
+    )
 
 
 def _parts(name: str) -> list[str]:
@@ -106,12 +137,12 @@ def _covers(pattern: str, namespace: str) -> bool:
     return re.fullmatch("".join(expected), "".join(f"/{part}" for part in _parts(namespace))) is not None
 
 
-def _undotted(parameters: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    """ROS takes `a.b: 1` and `a: {b: 1}` alike; so do we."""
+def undotted(parameters: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Flatten nested parameters to dotted names: ROS takes `a.b: 1` and `a: {b: 1}` alike."""
     flat: dict[str, Any] = {}
     for key, value in parameters.items():
         if isinstance(value, dict):
-            flat |= _undotted(value, f"{prefix}{key}.")
+            flat |= undotted(value, f"{prefix}{key}.")
         else:
             flat[f"{prefix}{key}"] = value
     return flat

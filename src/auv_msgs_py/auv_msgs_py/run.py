@@ -17,8 +17,9 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
-from auv_msgs_py.errors import SuiteError
+from auv_msgs_py.errors import SuiteError, printable
 from auv_msgs_py.graph_look import GraphLook
+from auv_msgs_py.ros_arguments import check_parameter_files, ensure_log_directory
 
 try:
     from rclpy.experimental import EventsExecutor
@@ -133,7 +134,13 @@ def run_nodes(factories: Sequence[Callable[[], SuiteNode]], args: Sequence[str] 
     Returns:
         0 after a signal or when a node has finished, 1 after a fault, 2 for input that cannot be used.
     """
-    rclpy.init(args=list(args) if args is not None else None, signal_handler_options=SignalHandlerOptions.NO)
+    ensure_log_directory()
+    try:
+        check_parameter_files(sys.argv if args is None else args)
+        rclpy.init(args=args if args is None else list(args), signal_handler_options=SignalHandlerOptions.NO)
+    except (SuiteError, RuntimeError) as error:  # RuntimeError: arguments that ROS does not understand
+        print(printable(str(error)), file=sys.stderr)
+        return EXIT_BAD_INPUT
     stop = StopRequest()
     nodes: list[SuiteNode] = []
     watchers: list[Node] = []

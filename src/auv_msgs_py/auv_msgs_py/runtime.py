@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import time
 from collections.abc import Callable
 from typing import Any
@@ -39,7 +40,9 @@ class SuiteNode(Node):  # type: ignore[misc]
         self._stamp: int | None = None
         super().__init__(name, **arguments)
         self._steady_to_ros = float(self.get_clock().now().nanoseconds) * 1e-9 - time.monotonic()
-        self.parameters: Any = params.declare(self, parameters, self._changed, self.try_out)
+        self.parameters: Any = params.declare(
+            self, parameters, self._changed, self.try_out, arguments.get("cli_args") or sys.argv
+        )
         self.publishers_by_topic: dict[Topic, Publisher] = {}
         self.fault = ""
         self.finished = False

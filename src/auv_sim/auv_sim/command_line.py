@@ -9,15 +9,17 @@ import os
 import re
 import shlex
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import NoReturn, ParamSpec
+from typing import Any, NoReturn, ParamSpec
 
-from rich.console import Console
+from rich.console import Console, ConsoleOptions, RenderableType
 from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.segment import Segment
 
-from auv_msgs_py.errors import ConfigurationError, MessageRefused, SuiteError
+from auv_msgs_py.errors import ConfigurationError, MessageRefused, SuiteError, printable, printable_lines
+from auv_msgs_py.ros_arguments import ensure_log_directory
 from auv_sim.analysis.flown_share import LEAST_SHARE
 
 P = ParamSpec("P")
@@ -29,7 +31,7 @@ def command(name: str, interrupted: str = "interrupted") -> Callable[[Callable[P
     """How a command ends: for its `main`, which returns the exit code.
 
     Input that cannot be used is one line and 2, whatever else fails in a foreseen way one line and 1,
-    Ctrl-C 130. When nobody reads on (head, say), nothing is left to say, and that is 0.
+    Ctrl-C 130. A reader of its output that leaves (head, say) ends a command that only prints, with 0.
 
     Args:
         name: of what failed.
@@ -39,19 +41,20 @@ def command(name: str, interrupted: str = "interrupted") -> Callable[[Callable[P
     def ending(main: Callable[P, int]) -> Callable[P, int]:
         @functools.wraps(main)
         def ends(*arguments: P.args, **options: P.kwargs) -> int:
+            ensure_log_directory()
             try:
                 return main(*arguments, **options)
             except (ConfigurationError, MessageRefused) as error:
-                print(error, file=sys.stderr)
+                say(error, error=True)
                 return EXIT_BAD_INPUT
             except SuiteError as error:
-                print(f"{name} failed: {error}", file=sys.stderr)
+                say(f"{name} failed: {error}", error=True)
                 return EXIT_FAILED
             except KeyboardInterrupt as stop:
                 print(str(stop) or interrupted, file=sys.stderr)
                 return EXIT_INTERRUPTED
             except BrokenPipeError:
-                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+                discard_output()
                 return EXIT_DONE
 
         return ends
@@ -63,7 +66,7 @@ class Parser(argparse.ArgumentParser):
     """One line and exit code 2, without the usage in front of it."""
 
     def error(self, message: str) -> NoReturn:
-        print(f"{self.prog}: {message} (see --help)", file=sys.stderr)
+        print(printable(f"{self.prog}: {message} (see --help)"), file=sys.stderr)
         raise SystemExit(EXIT_BAD_INPUT)
 
 
@@ -162,10 +165,38 @@ def to_type(script: str, *words: object, **options: object) -> str:
     return shlex.join(line)
 
 
-def console(quiet: bool = False) -> Console:
+class SafeConsole(Console):
+    """A console that shows text from files as it is safe, and does not mind when its reader has gone."""
+
+    def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterable[Segment]:
+        """Spell out control characters (terminal escapes from files); rich's own colours stay."""
+        for segment in super().render(renderable, options):
+            if segment.control or segment.text.isprintable():
+                yield segment
+            else:
+                yield segment._replace(text=printable_lines(segment.text))
+
+    def on_broken_pipe(self) -> None:
+        """Go on in silence: a mission flies to its end also under `| head -1`."""
+        self.quiet = True
+        discard_output()
+
+
+def discard_output() -> None:
+    """Let standard output lead nowhere, once its reader has gone."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def say(text: object, error: bool = False) -> None:
+    """Print a line in which text from files is shown as it is safe."""
+    print(printable_lines(str(text)), file=sys.stderr if error else sys.stdout)
+
+
+def console(quiet: bool = False, **options: Any) -> Console:
     """Where tables go: as wide as the terminal; in a pipe or a file wide enough for the widest table."""
     free = not sys.stdout.isatty() and "COLUMNS" not in os.environ
-    return Console(width=140 if free else None, quiet=quiet, highlight=False)
+    options = {"width": 140 if free else None, "highlight": False} | options
+    return SafeConsole(quiet=quiet, **options)
 
 
 def wrote(console: Console, path: object, what: str) -> None:

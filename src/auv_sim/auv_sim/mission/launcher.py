@@ -77,7 +77,8 @@ def fly(plan: Plan, directory: Path, domain: int, progress: Progress) -> Outcome
     Raises:
         MissionFailed: a node died or never came up; nothing is left running.
     """
-    environment = {"ROS_DOMAIN_ID": str(domain)}
+    # ROS's own logs, too, belong to the run: a service has no home to put them.
+    environment = {"ROS_DOMAIN_ID": str(domain), "ROS_LOG_DIR": str(directory / "log" / "ros")}
     if plan.options.simulator or "ROS_AUTOMATIC_DISCOVERY_RANGE" not in os.environ:
         environment["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     os.environ.update(environment)

@@ -202,7 +202,8 @@ def make(options: Options, directory: Path) -> Plan:
             "nothing",
             "the hull's coefficients, or --no-sim: the simulator needs them",
         )
-    parameters = params_file.load(sources["params"], SUITE, options.namespace)
+    notices: list[str] = []
+    parameters = params_file.load(sources["params"], SUITE, options.namespace, notices)
     timing = {"lockstep": options.simulator and options.speed is None}
     timing["recorded"] = timing["lockstep"]
     for name in parameters:
@@ -237,6 +238,7 @@ def make(options: Options, directory: Path) -> Plan:
         told = parameters[topics.PLANT].current.value
         current = Current(told.Vx + water[0], told.Vy + water[1])
     verdicts = check(mission, hull, current, guidance.switching, guidance.lookahead)
+    verdicts = dataclasses.replace(verdicts, notices=(*verdicts.notices, *notices))
     if verdicts.refusals and not options.force:
         raise refusal(mission, verdicts, "--force flies it all the same")
     emulator, driver = None, DRIVERS.get(options.vehicle_driver or "")

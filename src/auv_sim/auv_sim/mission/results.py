@@ -98,14 +98,15 @@ def show(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary,
     console.print(table)
     console.print(summary.flown_line(), soft_wrap=True)
     for corner in summary.corners:
+        if math.isnan(corner.largest_distance):  # not reached
+            continue
         console.print(
             f"corner at joint {corner.joint}: at most {_number(corner.largest_distance, 2)} m off the path"
         )
     if not math.isnan(summary.navigation_error):
-        console.print(
-            f"true distances; at most {_number(summary.largest_distance_off_corners, 2)} m away from corners,"
-            f" odometry off by at most {summary.navigation_error:.2f} m"
-        )
+        away = summary.largest_distance_off_corners
+        there = "" if math.isnan(away) else f" at most {away:.2f} m away from corners,"
+        console.print(f"true distances;{there} odometry off by at most {summary.navigation_error:.2f} m")
     if not math.isnan(summary.current_estimate_error):
         console.print(
             f"current estimate: within {summary.current_estimate_error:.4f} m/s of the truth after 15 s"

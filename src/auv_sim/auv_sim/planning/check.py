@@ -63,7 +63,7 @@ class Verdicts:
 
     Attributes:
         refusals, warnings: the verdicts of each level, most important first.
-        notices: what of the mission's waypoint files is not flown, one line each.
+        notices: what of the mission's files is not taken, one line each.
         turn: the vehicle's tightest turn.
         speed: through the water, straight ahead, m/s.
         duration: of the whole mission at that speed, in the current, s; infinite where it makes no way.

@@ -26,6 +26,7 @@ from auv_path_following.paths import mission_file
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.command_line import EXIT_DONE, Parser, command, finite, go_on, to_type, wrote
+from auv_sim.command_line import console as terminal
 from auv_sim.parameters import SUITE
 from auv_sim.planning import chart, drawing
 from auv_sim.planning.check import Verdicts, check, refusal
@@ -78,9 +79,7 @@ def _plan(options: argparse.Namespace) -> int:
     switching = as_wished(guidance.switching, options.switching, None)
     current = Current(*options.current)
     verdicts = check(mission, hull, current, switching, guidance.lookahead)
-    console = Console(
-        quiet=options.quiet, highlight=False, soft_wrap=True, width=None if sys.stdout.isatty() else 110
-    )
+    console = terminal(options.quiet, soft_wrap=True, width=None if sys.stdout.isatty() else 110)
     _tell(console, mission, hull, verdicts)
     png = options.out or (None if options.quiet else Path(f"plan-{mission.source.stem}.png"))
     if png is not None:
