@@ -21,7 +21,8 @@ from mutation.readers import READERS
 
 CPU_BOUND, MEMORY_BOUND = 5.0, 500.0
 #: Wall time after which a case counts as hanging and its process is killed, s: the machine may be busy.
-_PATIENCE = 120.0
+_PATIENCE = 60.0
+_PATIENCE_FOR_START = 600.0
 _CHUNK = 200
 
 
@@ -54,20 +55,23 @@ def run(name: str, first: int, last: int, tally: Tally) -> None:
 
         threading.Thread(target=pump, daemon=True).start()
         running: int | None = None
+        is_ready = False
         while True:
             try:
-                line = lines.get(timeout=_PATIENCE)
+                line = lines.get(timeout=_PATIENCE if is_ready else _PATIENCE_FOR_START)
             except queue.Empty:
                 child.kill()
                 child.wait()
                 if running is None:
-                    raise SystemExit(f"the worker for {name} does not start within {_PATIENCE:g} s") from None
+                    raise SystemExit(f"the worker for {name} does not start") from None
                 tally.hangs += 1
                 tally.reports.append(f"{name} {running}: no end within {_PATIENCE:g} s")
                 break
             if not line:
                 break
-            record = json.loads(line)
+            record, is_ready = json.loads(line), True
+            if "ready" in record:
+                continue
             if "wrong" not in record:
                 running = record["case"]
                 continue

@@ -23,6 +23,7 @@ def main() -> None:
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     with tempfile.TemporaryDirectory(prefix="auv-mutation-") as scratch:
         cases = Cases(name, Path(scratch))
+        _say({"ready": name})
         for number in range(first, last):
             file = cases.put_down(number)
             _say({"case": number})
