@@ -13,16 +13,13 @@ ROW = re.compile(r"^\| `([^`]+)` \| ([a-z_]+/msg/\w+) \|(?: (\w+) \|)?", re.MULT
 
 def test_the_page_and_the_table_agree() -> None:
     told = {name: kind for name, kind, _ in ROW.findall(PAGE.read_text(encoding="utf-8"))}
-    table = {
-        topic.name: topic.type for topic in (*topics.CONTRACT, topics.RECORDED_STEPS, topics.GRAPH_CLAIMS)
-    }
+    table = {topic.name: topic.type for topic in (*topics.CONTRACT, *topics.RECORDING, topics.GRAPH_CLAIMS)}
     assert told == table
 
 
 def test_the_page_names_the_right_publisher() -> None:
     publishers = {
-        topic.name: topic.publisher
-        for topic in (*topics.CONTRACT, topics.RECORDED_STEPS, topics.GRAPH_CLAIMS)
+        topic.name: topic.publisher for topic in (*topics.CONTRACT, *topics.RECORDING, topics.GRAPH_CLAIMS)
     }
     for name, _, publisher in ROW.findall(PAGE.read_text(encoding="utf-8")):
         if publisher in {topics.OBSERVER, topics.GUIDANCE, topics.AUTOPILOT, topics.RECORDER}:

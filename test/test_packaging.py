@@ -62,7 +62,7 @@ WITHOUT_KEY = {"mcap", "zstandard"}
 #: The suite works without them, or says in one line how to install them.
 OPTIONAL = {"distributed", "numba", "pyarrow"}
 #: The message packages that auv_msgs_py finds by the names in its table of topics, and those of the services.
-BY_NAME = {topic.type.split("/")[0] for topic in (*topics.CONTRACT, topics.RECORDED_STEPS)} | {"std_srvs"}
+BY_NAME = {topic.type.split("/")[0] for topic in (*topics.CONTRACT, *topics.RECORDING)} | {"std_srvs"}
 
 
 def manifest(name: str) -> Package:

@@ -63,6 +63,9 @@ RECORDED_STEPS = Topic("recorded_steps", "std_msgs/msg/UInt64", RECORDER, (PLANT
 #: Extension of the contract: what each launcher and simulator takes for itself, see `claim`. Absolute,
 #: because a domain has one /clock.
 GRAPH_CLAIMS = Topic("/graph_claims", "std_msgs/msg/String", "every launcher and simulator", latched=True)
+#: Extension of the contract, lockstep only: how many steps the simulator has sent. The recorder fetches them
+#: at once, so that no step waits for a clock.
+RECORD_REQUEST = Topic("record_request", "std_msgs/msg/UInt64", PLANT, (RECORDER,))
 
 #: Published once per odometry while the mission runs: every one of them has one message a step.
 PER_STEP = (
@@ -70,6 +73,8 @@ PER_STEP = (
     DESIRED_THRUST, VIRTUAL_POINT, PATH_PARAMETER, PATH_ERROR, DISTANCE_TO_GO, RUDDER_CMD, THRUST_CMD,
 )  # fmt: skip
 CONTRACT = (CLOCK, *PER_STEP, TRUE_ODOM, PATH, MISSION_STATE, DIAGNOSTICS)
+#: Between the simulator and the recorder in lockstep; not recorded.
+RECORDING = (RECORDED_STEPS, RECORD_REQUEST)
 
 START_SERVICE = "start"
 ABORT_SERVICE = "abort"
@@ -83,5 +88,8 @@ FIRST_STAMP_NS = 1_000_000_000
 #: long the recorder is starved of processor time. (A reliable writer could not help: it keeps its last 10
 #: messages.)
 RECORDING_LEAD = 30
-#: How often the recorder tells how far it is, steps.
+#: How often the recorder reports how far it is, steps.
 RECORDING_REPORT = 8
+#: How often the simulator asks the recorder to fetch, steps: a third of the lead, so that the report is
+#: back before the lead is used up.
+RECORDING_REQUEST = 10

@@ -30,7 +30,7 @@ NODES: dict[str, tuple[Callable[..., SuiteNode], dict[str, Any]]] = {
     "plant in lockstep": (RemusPlantNode, {"lockstep": True}),
     "driver": (MavlinkDriverNode, {"address": f"udpin:127.0.0.1:{free_port()}"}),
 }
-BY_NAME = {topic.name: topic for topic in (*topics.CONTRACT, topics.RECORDED_STEPS)}
+BY_NAME = {topic.name: topic for topic in (*topics.CONTRACT, *topics.RECORDING)}
 #: Numbers at the edges of float64, and a few that pass every check.
 NUMBERS = (math.nan, math.inf, -math.inf, 1e308, -1e308, 5e-324, -0.0, 0.0, 1.0, 1e8, 4.2)
 

@@ -7,10 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import rclpy
 from std_msgs.msg import String
 
 from auv_msgs_py import qos, topics
 from auv_msgs_py.errors import ConfigurationError
+from auv_sim.nodes import recorder_node
 from auv_sim.nodes.recorder_node import RecorderNode
 from auv_sim.recording import room
 from auv_sim.recording.bag import read_bag
@@ -100,3 +102,34 @@ def test_each_file_begins_with_what_is_latched(bench: Bench, tmp_path: Path) -> 
     bag = read_bag(tmp_path / "bag")
     assert bag.topics[f"/auv/{topics.MISSION_STATE.name}"].count == 1
     assert bag.notes == []
+
+
+def test_in_lockstep_it_fetches_on_request(
+    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The timer is far away: what is reported was fetched because the simulator asked."""
+    monkeypatch.setattr(recorder_node, "_POLL", 1000.0)
+    told: list[int] = []
+    steps = topics.RECORDED_STEPS
+    kind = qos.message_class(steps.type)
+    profile = qos.requested(steps, reliable=True)
+    simulator = rclpy.create_node(topics.PLANT, namespace="/auv")
+    bench.executor.add_node(simulator)
+    simulator.create_subscription(kind, steps.name, lambda message: told.append(message.data), profile)
+    ask = simulator.create_publisher(kind, topics.RECORD_REQUEST.name, qos.offered(topics.RECORD_REQUEST))
+    per_step = {
+        topic: bench.node.create_publisher(qos.message_class(topic.type), topic.name, qos.offered(topic))
+        for topic in topics.PER_STEP
+    }
+    node: Any = bench.start(RecorderNode, directory=str(tmp_path / "bag"), lockstep=True)
+    bench.until(lambda: all(p.get_subscription_count() for p in (ask, *per_step.values())))
+    bench.until(lambda: not node.gate_waits_for())
+    for _ in range(topics.RECORDING_REPORT):
+        for topic, publisher in per_step.items():
+            publisher.publish(qos.message_class(topic.type)())
+        bench.spin(0.01)
+    bench.spin(0.3)
+    assert told == []
+    ask.publish(kind(data=topics.RECORDING_REPORT))
+    bench.until(lambda: told == [topics.RECORDING_REPORT])
+    simulator.destroy_node()

@@ -11,7 +11,7 @@ from rich import box
 from rich.markup import escape
 from rich.table import Table
 
-from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.errors import ConfigurationError, printable
 from auv_sim.analysis.by_odometry import ByOdometry
 from auv_sim.analysis.metrics import MissionSummary
 from auv_sim.bags.arguments import add_choice
@@ -149,10 +149,11 @@ def _settings_table(labels: list[str], settings: dict[str, list[str | None]]) ->
     for label in labels:
         table.add_column(escape(label), justify="right")
     for name, values in settings.items():
-        table.add_row(escape(name), *["-" if value is None else _cell(value) for value in values])
+        table.add_row(_cell(name), *["-" if value is None else _cell(value) for value in values])
     return table
 
 
 def _cell(value: str) -> str:
-    """A value in a table: long lists are cut, for only their difference counts."""
+    """A text from a recording in a table: long lists are cut, for only their difference counts."""
+    value = printable(value)
     return escape(value if len(value) <= _LONG else f"{value[:_LONG]}…")

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from auv_msgs_py import params_file, topics
-from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.errors import ConfigurationError, printable
 from auv_path_following import config_files, vehicle
 from auv_path_following.paths import mission_file
 from auv_path_following.paths.mission_file import Mission
@@ -95,7 +95,7 @@ def flight_of(bag: Bag, mission: str | None = None, namespace: str | None = None
                 flown = mission_file.load(str(directory / MISSION), believed)
     if flown is None and run is not None:
         notes.append("no mission file in or beside the recording: name one with --mission for the figures")
-    return Flight(bag, run, flown, hull, notes)
+    return Flight(bag, run, flown, hull, [printable(note) for note in notes])
 
 
 def known_hull(directory: Path) -> Path:

@@ -12,6 +12,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from auv_msgs_py.errors import printable
 from auv_sim.analysis.flown_share import percent
 from auv_sim.analysis.metrics import MissionSummary, SubpathSummary
 from auv_sim.bags.events import Event
@@ -60,7 +61,7 @@ def _topics(facts: list[TopicFacts]) -> Table:
         table.add_column(heading, justify="right", no_wrap=True)
     for f in facts:
         table.add_row(
-            escape(f.name), escape(f.type.replace("/msg/", "/")), str(f.count), _number(f.rate, 2),
+            _cell(f.name), _cell(f.type.replace("/msg/", "/")), str(f.count), _number(f.rate, 2),
             _alarm(f.gaps), _number(f.longest_gap, 3), _number(f.jitter, 2), _alarm(f.out_of_order),
             _alarm(f.lost), size(f.bytes),
         )  # fmt: skip
@@ -117,7 +118,7 @@ def _events(events: list[Event], start: float, console: Console) -> None:
             else ""
         )
         kind = f"[{colour}]{event.kind}[/{colour}]" if colour else event.kind
-        table.add_row(f"{event.time - start:.2f}", kind, escape(event.text) + again)
+        table.add_row(f"{event.time - start:.2f}", kind, _cell(event.text) + again)
     console.print(table)
     if len(kept) < len(lines):
         console.print(f"[dim]and {len(lines) - len(kept)} other kinds (--json lists all)[/dim]")
@@ -155,6 +156,11 @@ def size(number: int) -> str:
         if number >= factor:
             return f"{number / factor:.1f} {unit}"
     return f"{number} B"
+
+
+def _cell(text: str) -> str:
+    """A text from a recording, fit for a terminal and no markup."""
+    return escape(printable(text))
 
 
 def _number(value: float | None, digits: int) -> str:

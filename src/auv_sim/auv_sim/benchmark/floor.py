@@ -37,7 +37,7 @@ from auv_sim.benchmark.stopwatch import Stopwatch
 NAMESPACE = "/auv"
 #: Sent once a step, in the order of the table.
 STEP = (topics.CLOCK, *topics.PER_STEP)
-#: How often a recorder fetches what has come, s.
+#: How often a recorder fetches what has come without being asked, s.
 _POLL = 0.02
 
 
@@ -81,6 +81,9 @@ class FloorNode(Node):  # type: ignore[misc]
         if name == topics.GUIDANCE:
             self._state = by_topic[topics.MISSION_STATE] = self._advertise(topics.MISSION_STATE)
             self.create_service(Trigger, topics.START_SERVICE, self._on_start)
+        self._request = None
+        if self._leads and recorded:
+            self._request = by_topic[topics.RECORD_REQUEST] = self._advertise(topics.RECORD_REQUEST)
         self._gate = LockstepGate(self, by_topic, recorded)
         for topic in inputs:
             self._listen(topic, self._on_input)
@@ -130,6 +133,8 @@ class FloorNode(Node):  # type: ignore[misc]
             self._waiting = False
             watch.step()
             self._publish()
+            if self._request is not None and watch.steps % topics.RECORDING_REQUEST == 0:
+                self._request.publish(UInt64(data=watch.steps))
 
     def _publish(self) -> None:
         while not self._begun and self._gate.waiting_for():
@@ -140,7 +145,7 @@ class FloorNode(Node):  # type: ignore[misc]
 
 
 class FloorRecorder(Node):  # type: ignore[misc]
-    """Fetches every message of the contract raw, as the recorder does, counts it and throws it away."""
+    """Fetches every message of the contract raw, on request as the recorder does, and only counts it."""
 
     def __init__(self) -> None:
         super().__init__(topics.RECORDER, namespace=NAMESPACE, use_global_arguments=False)
@@ -151,6 +156,9 @@ class FloorRecorder(Node):  # type: ignore[misc]
         self._progress = self.create_publisher(
             UInt64, topics.RECORDED_STEPS.name, qos.offered(topics.RECORDED_STEPS)
         )
+        request = topics.RECORD_REQUEST
+        profile = qos.requested(request, reliable=True)
+        self.create_subscription(UInt64, request.name, lambda _: self._poll(), profile)
         self.create_timer(_POLL, self._poll, clock=Clock(clock_type=ClockType.STEADY_TIME))
 
     def _subscribe(self, topic: Topic) -> tuple[str, Any, Any]:

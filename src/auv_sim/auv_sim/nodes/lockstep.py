@@ -44,6 +44,7 @@ class Lockstep:
         self._published = 0
         self._waits: dict[str, tuple[float, str]] = {}
         node.listen(topics.DIAGNOSTICS, self._on_diagnostics)
+        self._request = node.advertise(topics.RECORD_REQUEST) if node.parameters.recorded else None
         if node.parameters.recorded:
             node.listen(topics.RECORDED_STEPS, self._on_recorded)
         node.create_timer(0.2, self._check, clock=Clock(clock_type=ClockType.STEADY_TIME))
@@ -98,6 +99,8 @@ class Lockstep:
             self._recorded_at = time.monotonic()
         self._open_since = time.monotonic()
         self._node.publish_step()
+        if self._request is not None and self._published % topics.RECORDING_REQUEST == 0:
+            self._request.publish(UInt64(data=self._published))
 
     def _on_diagnostics(self, message: DiagnosticArray) -> None:
         for status in message.status:

@@ -25,7 +25,7 @@ from auv_sim.recording.selection import Selection
 
 #: Asked for before anything else; only granted to those who may.
 _PRIORITY = -10
-#: How often everything that has come is fetched, s.
+#: How often everything that has come is fetched unless the simulator asks for it, s.
 _POLL = 0.02
 #: How often the graph is asked for new topics and publishers, s.
 _LOOK_AROUND = 0.25
@@ -69,6 +69,9 @@ class RecorderNode(SuiteNode):
         self._per_step = [self.resolve_topic_name(topic.name) for topic in topics.PER_STEP]
         self.close_gate()
         self.selection = Selection(self, p, self.writer)
+        if p.lockstep:
+            self.listen(topics.RECORD_REQUEST, lambda _: self._poll())
+        # In lockstep too: for what comes after the last request, and for a simulator that sends none.
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(_POLL, self._poll, clock=steady)
         self.create_timer(_LOOK_AROUND, self._look_around, clock=steady)

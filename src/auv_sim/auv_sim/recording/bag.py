@@ -11,7 +11,7 @@ from mcap.records import Attachment, Channel, Metadata, Schema
 from zstandard import ZstdError
 
 from auv_msgs_py import topics
-from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.errors import ConfigurationError, printable
 from auv_sim.recording.bag_files import A_BAG, files_of, information_of, storage_of
 from auv_sim.recording.metadata import METADATA_FILE
 from auv_sim.recording.packed import SUFFIX as PACKED
@@ -199,6 +199,7 @@ def read_bag(path: Path, wanted: Wanted = everything, odometry: str | None = Non
     if isinstance(expected, int) and expected > bag.count + bag.repeated:
         readable = bag.count + bag.repeated
         bag.notes.append(f"{METADATA_FILE} lists {expected} messages, {readable} are readable")
+    bag.notes = [printable(note) for note in bag.notes]
     return bag
 
 

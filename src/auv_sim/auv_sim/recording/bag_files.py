@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from auv_msgs_py import yaml_file
-from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.errors import ConfigurationError, printable, shortened
 from auv_sim.recording.metadata import METADATA_FILE
 
 #: What a recording is expected to be.
@@ -118,7 +118,7 @@ def _inside(directory: Path, name: str, version: object) -> Path | None:
 
 def _shown(name: str) -> str:
     """A name from a file, fit for a terminal."""
-    return name if name.isprintable() and len(name) <= _LONG_NAME else f"{name[:_LONG_NAME]!r}"
+    return shortened(printable(name), _LONG_NAME)
 
 
 def _number(file: Path) -> tuple[int, str]:
