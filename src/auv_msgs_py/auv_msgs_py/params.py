@@ -49,6 +49,8 @@ def declare(
         if isinstance(leaf.default, float) and override is not None and type(override.value) is int:
             # `-p radius:=6` is meant as 6.0
             node._parameter_overrides[leaf.name] = Parameter(leaf.name, value=float(override.value))
+        elif leaf.auto and override is not None and override.value == "auto":
+            node._parameter_overrides[leaf.name] = Parameter(leaf.name, value=0.0)
         try:
             flat[leaf.name] = node.declare_parameter(leaf.name, leaf.default, _descriptor(leaf)).value
         except (InvalidParameterTypeException, InvalidParameterValueException):

@@ -14,7 +14,7 @@ import dataclasses
 import enum
 import json
 from collections.abc import Mapping
-from typing import Any, TypeVar, dataclass_transform
+from typing import Annotated, Any, TypeVar, dataclass_transform
 
 import pydantic
 from pydantic import ConfigDict, Field
@@ -26,6 +26,10 @@ T = TypeVar("T")
 
 #: A pair of numbers in a file, e.g. ``[north, east]`` in metres.
 Pair = tuple[float, float]
+
+#: A number for which a file may say `auto`: 0, which has the value computed.
+_AUTO = pydantic.BeforeValidator(lambda value: 0.0 if value == "auto" else value)
+Auto = Annotated[float, _AUTO]
 
 _POLICY = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False, validate_default=True)
 _MISSING: Any = dataclasses.MISSING
@@ -182,6 +186,7 @@ class SettingInfo:
     live: bool
     minimum: float | None
     maximum: float | None
+    auto: bool
 
 
 def leaves(cls: type[Any], prefix: str = "") -> list[SettingInfo]:
@@ -211,6 +216,7 @@ def leaves(cls: type[Any], prefix: str = "") -> list[SettingInfo]:
                 live=bool(extra.get("live", False)),
                 minimum=bounds.get("ge", bounds.get("gt")),
                 maximum=bounds.get("le", bounds.get("lt")),
+                auto=_AUTO in info.metadata,
             )
         )
     return found

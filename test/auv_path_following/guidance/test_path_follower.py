@@ -10,6 +10,7 @@ import pytest
 
 from auv_msgs_py.angles import wrap
 from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
+from auv_path_following.guidance.acceptance import Cornering
 from auv_path_following.guidance.adaptive_lookahead import AdaptiveLookaheadConfig
 from auv_path_following.guidance.ailos import AilosConfig
 from auv_path_following.guidance.approach import Agility, ApproachConfig
@@ -282,7 +283,7 @@ def test_a_circle_of_acceptance_does_not_count_before_the_subpath_was_joined():
 def test_far_from_the_path_the_references_stay_what_a_hull_can_turn():
     """P is drawn by 500 m of xe along a tight arc."""
     path = CompositePath([Arc(0.0, 0.0, 15.0, 0.0, 6.0)])
-    agility = Agility(speed=2.0, turn_rate=0.3)
+    agility = Agility(speed=2.0, turn_rate=0.3, cornering=Cornering(rate=0.4, lead=1.0))
     bare = PathFollowerConfig(approach=ApproachConfig(enabled=False))
     for _, output in glide(PathFollower(path, bare, agility), 300.0, 400.0, seconds=60.0):
         assert abs(output.r_d) <= 0.3

@@ -8,10 +8,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.settings import validated
+from auv_msgs_py.types import Current
+from auv_path_following.guidance.acceptance import Cornering, acceptance_radius, corner_of
 from auv_path_following.guidance.switching import CircleOfAcceptance, SwitchingConfig
 from auv_path_following.paths.arc import Arc
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.line import Line
+from auv_path_following.paths.mission_file import MissionSwitching
 from auv_path_following.paths.reverse import Reversed
 from auv_path_following.paths.spline import Spline
 
@@ -85,3 +90,35 @@ def test_a_small_lap_inside_its_own_circle_is_flown_half_at_least():
     small = Arc(0.0, 0.0, 2.0, 0.0, 2.0 * math.pi)
     laps = CircleOfAcceptance(CompositePath([small, small]), SwitchingConfig(mode="all", radius=6.0))
     assert [laps.reached(2.0, 0.0, 0, t) for t in (0.0, 0.4, 0.6)] == [False, False, True]
+
+
+CURRENT = Current(0.1, -0.2)
+CORNERING = Cornering(rate=0.5, lead=1.0)
+
+
+def computed(mode):
+    config = SwitchingConfig(mode=mode, radius=0.0)
+    return CircleOfAcceptance(PATH, config, cornering=CORNERING, lookahead=5.0)
+
+
+@pytest.mark.parametrize("mode", ["g0", "all"])
+def test_a_radius_of_0_is_computed_where_the_course_jumps(mode):
+    circles = computed(mode)
+    widest = acceptance_radius(CORNERING, corner_of(PATH, CORNER), 5.0, 1.9, CURRENT)
+    assert 0.0 < widest == circles.radius(CORNER, 1.9, CURRENT)
+    for distance in (0.99, 1.01):
+        x = 40.0 - distance * widest
+        assert circles.reached(x, 0.0, CORNER, 0.9, 1.9, CURRENT) is (distance < 1.0)
+    assert circles.radius(SMOOTH, 1.9, CURRENT) == 0.0
+
+
+def test_a_number_stays_a_number():
+    given_number = CircleOfAcceptance(PATH, SwitchingConfig(mode="g0", radius=3.0), cornering=CORNERING)
+    assert given_number.radius(CORNER, 1.9, CURRENT) == 3.0
+
+
+@pytest.mark.parametrize("settings_class", [SwitchingConfig, MissionSwitching])
+def test_a_file_may_say_auto(settings_class):
+    assert validated(settings_class, {"radius": "auto"}, "file").radius == 0.0
+    with pytest.raises(ConfigurationError, match="radius: found 'wide', expected a number"):
+        validated(settings_class, {"radius": "wide"}, "file")

@@ -152,6 +152,17 @@ def test_a_circle_goes_no_farther_than_the_look_ahead(mode, radius, lookahead, l
     assert not lines or f"switching.radius: found {radius:g} m with a look-ahead of 6 m" in lines[0]
 
 
+def test_computed_circles_are_never_too_wide_but_legs_may_be_too_short():
+    legs = smooth([(0, 0), (60, 0), (60, 9), (120, 9)], Smoothing(kind="linear"))
+    computed = SwitchingConfig(mode="g0", radius=0.0)
+    (line,) = (line for line in said(check(mission(*legs), REMUS, switching=computed)) if "circle" in line)
+    assert line.startswith("warning joint 1 at north 60.0, east 0.0")
+    assert "a circle of acceptance of 4.5 m (as do 1 more), expected 6.0 m" in line
+    sharp = smooth([(0, 0), (200, 0), (60, 80)], Smoothing(kind="linear"))
+    strong = check(mission(*sharp), REMUS, Current(0.4, 0.0), switching=computed, lookahead=1.0)
+    assert not strong.refusals and not any("circle" in line for line in said(strong))
+
+
 def test_a_path_without_circles_does_not_mind_their_radius():
     verdicts = check(
         mission(Line(0.0, 0.0, 500.0, 0.0)), REMUS, switching=SwitchingConfig(mode="all", radius=999.0)

@@ -11,8 +11,7 @@ from auv_msgs_py.settings import setting, settings
 from auv_msgs_py.types import STOP, Command, Navigation, Reference
 from auv_path_following.control.controller import HeadingController, HeadingInputs
 from auv_path_following.control.derivative import Derivative, DerivativeConfig
-from auv_path_following.control.hull_model import HullModel
-from auv_path_following.control.nism import LARGEST_CROSSOVER, LARGEST_RATE, Nism, NismConfig
+from auv_path_following.control.nism import Nism, NismConfig, kp_of
 from auv_path_following.control.pid import Pid, PidConfig
 from auv_path_following.control.reference_model import ReferenceConfig, ReferenceModel
 from auv_path_following.control.smc import Smc, SmcConfig
@@ -96,18 +95,8 @@ class HeadingAutopilot:
                 return Nism(self._nism(config), self.vehicle.rudder.max_angle)
 
     def _nism(self, config: AutopilotConfig) -> NismConfig:
-        """NISM's gains, with kp from rudder and hull where that is asked for.
-
-        kp is the rudder's rate, less ks. With a fast servo that would raise the crossover of the inner loop,
-        b kp k5, beyond what dead time and sampling allow, so it ends at `LARGEST_CROSSOVER`.
-        """
-        nism = config.nism
-        if not nism.kp_from_rudder:
-            return nism
-        kp = min(max(self.vehicle.rudder.max_rate - nism.ks, 1e-6), LARGEST_RATE)
-        if self.vehicle.hull is not None:
-            kp = min(kp, LARGEST_CROSSOVER / (HullModel(self.vehicle).b * nism.k5))
-        return dataclasses.replace(nism, kp=kp)
+        """NISM's gains, with kp from rudder and hull where that is asked for."""
+        return dataclasses.replace(config.nism, kp=kp_of(config.nism, self.vehicle))
 
     def _rudder_rate(self, config: AutopilotConfig) -> float:
         """The fastest that the controller moves the rudder, rad/s."""

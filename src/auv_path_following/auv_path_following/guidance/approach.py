@@ -9,6 +9,7 @@ from auv_msgs_py.angles import wrap
 from auv_msgs_py.settings import setting, settings
 from auv_msgs_py.types import Navigation
 from auv_path_following.control.hull_model import tightest_turn
+from auv_path_following.guidance.acceptance import Cornering, cornering_of
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.dubins import Pose, connect
 from auv_path_following.vehicle import Vehicle
@@ -42,10 +43,12 @@ class Agility(NamedTuple):
     Attributes:
         speed: through the water, straight ahead, m/s.
         turn_rate: of a steady turn with full rudder, rad/s.
+        cornering: how its heading is turned at a corner.
     """
 
     speed: float
     turn_rate: float
+    cornering: Cornering
 
 
 def agility_of(vehicle: Vehicle, thrust: float) -> Agility:
@@ -55,7 +58,7 @@ def agility_of(vehicle: Vehicle, thrust: float) -> Agility:
         ConfigurationError: no turn of the hull is steady, and none was measured.
     """
     thrust = min(thrust, vehicle.thrust_max)
-    return Agility(vehicle.speed_at(thrust), tightest_turn(vehicle, thrust).rate)
+    return Agility(vehicle.speed_at(thrust), tightest_turn(vehicle, thrust).rate, cornering_of(vehicle))
 
 
 def turn_radius(config: ApproachConfig, agility: Agility, lookahead: float) -> float:

@@ -117,7 +117,7 @@ class PathFollower:
         self.config = config
         self.progress.circle.config = config.switching
         self.progress.approach_config = config.approach
-        self.progress.lookahead = config.lookahead
+        self.progress.circle.lookahead = config.lookahead
         match config.law, self.law:
             case "ailos", Ailos():
                 self.law.config = config.ailos
@@ -170,14 +170,14 @@ class PathFollower:
         if not config.compensate_current:
             current = NO_CURRENT
 
-        switched = self.progress.move(navigation, dt)
+        Ur = math.hypot(water.ur, water.vr)  # Eq. (17)
+        switched = self.progress.move(navigation, Ur, current, dt)
         P = self.progress.point
         point = P.point()
         chi_p = point.chi
         xe, ye = path_errors(navigation, point, chi_p)
         self.progress.judge(math.hypot(xe, ye))
 
-        Ur = math.hypot(water.ur, water.vr)  # Eq. (17)
         beta_r = math.atan2(water.vr, water.ur)
         if Ur < config.minimum_speed:
             Ur = beta_r = 0.0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from auv_msgs_py.types import Navigation
+from auv_msgs_py.types import Current, Navigation
 from auv_path_following.guidance.approach import NEAR, Agility, ApproachConfig, approach_to, turn_radius
 from auv_path_following.guidance.rejoin import closest_ahead
 from auv_path_following.guidance.switching import CircleOfAcceptance
@@ -26,10 +26,8 @@ class Progress:
 
     def __init__(self, path: CompositePath, agility: Agility | None) -> None:
         self.path = path
-        self.circle = CircleOfAcceptance(path)
+        self.circle = CircleOfAcceptance(path, cornering=None if agility is None else agility.cornering)
         self.approach_config = ApproachConfig()
-        #: Delta, m, for the turns of an approach.
-        self.lookahead = 0.0
         self._agility = agility
         self._on_path = VirtualPoint(path)
         self.reset()
@@ -62,8 +60,15 @@ class Progress:
         """From P to the end of the path, m."""
         return self.approach_to_go + self.path.distance_to_go(self._on_path.i, self._on_path.t)
 
-    def move(self, navigation: Navigation, dt: float) -> bool:
-        """Move P for `dt` seconds; return whether it has come to another subpath, or to the path's end."""
+    def move(self, navigation: Navigation, Ur: float, current: Current, dt: float) -> bool:
+        """Move P for `dt` seconds; return whether it has come to another subpath, or to the path's end.
+
+        Args:
+            navigation: measured pose, NED.
+            Ur: speed through the water, m/s.
+            current: the observer's estimate, m/s, NED.
+            dt: seconds since the last call.
+        """
         P, approach = self._on_path, self._approach
         self._at = navigation[:2]
         if not self._is_planned:
@@ -77,7 +82,8 @@ class Progress:
                 P.advance(approach.beyond)
             return False
         switched = P.move(dt)
-        if not P.finished and self._has_joined and self.circle.reached(*navigation[:2], P.i, P.t):
+        x, y = self._at
+        if not P.finished and self._has_joined and self.circle.reached(x, y, P.i, P.t, Ur, current):
             P.go_on()
             switched = True
         self._has_joined = self._has_joined and not switched
@@ -112,6 +118,6 @@ class Progress:
         self._is_planned, self._approach = True, None
         if self._agility is None or not self.approach_config.enabled:
             return
-        self._radius = turn_radius(self.approach_config, self._agility, self.lookahead)
+        self._radius = turn_radius(self.approach_config, self._agility, self.circle.lookahead)
         way = approach_to(self.path.start_pose, navigation, self._radius)
         self._approach = None if way is None else VirtualPoint(way)

@@ -11,9 +11,10 @@ import pydantic
 
 from auv_msgs_py import result_files, yaml_file
 from auv_msgs_py.errors import ConfigurationError
-from auv_msgs_py.settings import setting, settings, validated
+from auv_msgs_py.settings import Auto, setting, settings, validated
 from auv_path_following import config_files, vehicle
 from auv_path_following.guidance.limits import LimitsConfig
+from auv_path_following.guidance.switching import SwitchingMode
 from auv_path_following.paths import bare_file, file_offers, smoothing
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.geodesy import Origin
@@ -42,10 +43,10 @@ _MOST_SUBPATHS = 100_000
 class MissionSwitching:
     """What the mission asks of the circles of acceptance, Eq. (44); the parameters decide the rest."""
 
-    mode: Literal["off", "g0", "all"] | None = setting(
-        None, "joints with a circle: off, g0 (corners only) or all"
+    mode: SwitchingMode | None = setting(None, "joints with a circle: off, g0 (corners only) or all")
+    radius: Auto | None = setting(
+        None, "radius Rk of the circles; 0 or auto: computed for each corner", unit="m", ge=0.0, le=1000.0
     )
-    radius: float | None = setting(None, "radius Rk of the circles", unit="m", ge=0.0, le=1000.0)
 
 
 _NO_WISHES = MissionSwitching(mode=None, radius=None)

@@ -14,6 +14,7 @@ import numpy.typing as npt
 from numpy.polynomial import chebyshev
 
 from auv_msgs_py.errors import ConfigurationError
+from auv_path_following.guidance.acceptance import corner_of
 from auv_path_following.guidance.switching import counts_from
 from auv_path_following.paths.arc import Arc
 from auv_path_following.paths.closest import samples
@@ -52,10 +53,10 @@ class Curve(NamedTuple):
 
 
 # Columns of `Curve.subpath`. A line: x0, y0, dx, dy; an arc: cx, cy, radius, a0, sweep; else the range of its
-# pieces and of its points. Then its length, the joint at its end, whether that is G0, and the t from which on
-# its circle counts.
-KIND, A, B, C, D, E, LENGTH, JOINT_X, JOINT_Y, CORNER, STRETCH = range(11)
-COLUMNS = 11
+# pieces and of its points. Then its length, the joint at its end, whether that is G0, the t from which on its
+# circle counts, and what `Corner` has of it.
+KIND, A, B, C, D, E, LENGTH, JOINT_X, JOINT_Y, CORNER, STRETCH, CHI_IN, CHI_OUT, WIDEST = range(14)
+COLUMNS = 14
 FIRST_PIECE, END_OF_PIECES, FIRST_POINT, END_OF_POINTS = A, B, C, D
 START, SCALE, TABLE = 0, 1, 2
 SIGNALS = 6
@@ -91,8 +92,9 @@ def curve_of(path: CompositePath) -> Curve:
                 ]  # fmt: skip
             row[:E] = PIECES, *known[id(segment)]
         row[LENGTH] = segment.length
-    for row, segment, joint in zip(subpath, path.segments, path.joints, strict=False):
-        row[JOINT_X:] = joint.x, joint.y, joint.geometric == "G0", counts_from(segment)
+    for i, (row, segment, joint) in enumerate(zip(subpath, path.segments, path.joints, strict=False)):
+        row[JOINT_X:CHI_IN] = joint.x, joint.y, joint.geometric == "G0", counts_from(segment)
+        row[CHI_IN:] = corner_of(path, i)
     return Curve(subpath, np.concatenate(pieces), np.concatenate(points))
 
 

@@ -6,14 +6,26 @@ import math
 from typing import NamedTuple
 
 from auv_msgs_py.types import Current, Navigation, WaterVelocity
+from auv_path_following.guidance.acceptance import Corner
 from auv_path_following.guidance.approach import NEAR
 from auv_path_following.guidance.law import LawInputs
 from auv_path_following.guidance.path_follower import LONGEST_STEP
 from auv_sim.batch.compiled import compiled
-from auv_sim.batch.curve import CORNER, JOINT_X, JOINT_Y, LENGTH, STRETCH, Curve
+from auv_sim.batch.curve import (
+    CHI_IN,
+    CHI_OUT,
+    CORNER,
+    JOINT_X,
+    JOINT_Y,
+    LENGTH,
+    STRETCH,
+    WIDEST,
+    Curve,
+)
 from auv_sim.batch.numbers import Guidance
 from auv_sim.batch.path_point import evaluate
 from auv_sim.batch.shared import (
+    acceptance_radius,
     ailos_update,
     is_at,
     los_update,
@@ -78,7 +90,9 @@ def follow(
     dt = min(dt, LONGEST_STEP)
     if not c.compensate_current:
         current = Current(0.0, 0.0)
-    approaching, lost, joined, i, t, finished = _moved(c, approach, curve, state, navigation, dt)
+    Ur = math.hypot(water.ur, water.vr)
+    moved = _moved(c, approach, curve, state, navigation, Ur, current, dt)
+    approaching, lost, joined, i, t, finished = moved
     point = evaluate(approach, i, t) if approaching else evaluate(curve, i, t)
     chi_p = math.atan2(point.dy, point.dx)
     xe, ye = path_errors(navigation, point, chi_p)
@@ -86,7 +100,6 @@ def follow(
     lost = lost or (approaching and off > c.approach_radius)
     joined = joined or (not approaching and off <= NEAR)
 
-    Ur = math.hypot(water.ur, water.vr)
     beta_r = math.atan2(water.vr, water.ur)
     if Ur < c.minimum_speed:
         Ur = beta_r = 0.0
@@ -115,7 +128,14 @@ def follow(
 
 @compiled
 def _moved(
-    c: Guidance, approach: Curve, curve: Curve, state: FollowerState, navigation: Navigation, dt: float
+    c: Guidance,
+    approach: Curve,
+    curve: Curve,
+    state: FollowerState,
+    navigation: Navigation,
+    Ur: float,
+    current: Current,
+    dt: float,
 ) -> tuple[bool, bool, bool, int, float, bool]:
     """`Progress.move`: whether approaching, lost and joined; subpath, t on it, whether the path ended."""
     along = approach if state.approaching else curve
@@ -134,7 +154,7 @@ def _moved(
         i, t, finished, _ = _onwards(curve, 0, beyond)
         return False, False, False, i, t, finished
     joined = state.joined and i == state.i
-    if not finished and state.joined and _reached(c, curve, navigation, i, t):
+    if not finished and state.joined and _reached(c, curve, navigation, i, t, Ur, current):
         i, t, finished, _ = _next(curve, i, 0.0)
         joined = False
     return False, False, joined, i, t, finished
@@ -163,14 +183,20 @@ def _next(curve: Curve, i: int, way: float) -> tuple[int, float, bool, float]:
 
 
 @compiled
-def _reached(c: Guidance, curve: Curve, navigation: Navigation, i: int, t: float) -> bool:
+def _reached(
+    c: Guidance, curve: Curve, navigation: Navigation, i: int, t: float, Ur: float, current: Current
+) -> bool:
     """`CircleOfAcceptance.reached`."""
-    if c.switching == 0 or i + 1 >= len(curve.subpath):
+    row = curve.subpath
+    if c.switching == 0 or i + 1 >= len(row):
         return False
-    if c.switching == 1 and curve.subpath[i, CORNER] == 0.0:
+    if (c.switching == 1 and row[i, CORNER] == 0.0) or t < row[i, STRETCH]:
         return False
-    dx, dy = curve.subpath[i, JOINT_X] - navigation.x, curve.subpath[i, JOINT_Y] - navigation.y
-    return math.hypot(dx, dy) <= c.radius and t >= curve.subpath[i, STRETCH]
+    radius = c.radius
+    if not radius > 0.0 and row[i, CORNER] > 0.0:
+        corner = Corner(row[i, CHI_IN], row[i, CHI_OUT], row[i, WIDEST])
+        radius = acceptance_radius(c.cornering, corner, c.lookahead, Ur, current)
+    return math.hypot(row[i, JOINT_X] - navigation.x, row[i, JOINT_Y] - navigation.y) <= radius
 
 
 @compiled

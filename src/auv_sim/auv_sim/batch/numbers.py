@@ -15,6 +15,7 @@ from auv_path_following.control.nism import NismConfig
 from auv_path_following.control.pid import PidConfig
 from auv_path_following.control.reference_model import Limits, ReferenceConfig
 from auv_path_following.control.smc import SmcConfig
+from auv_path_following.guidance.acceptance import Cornering
 from auv_path_following.guidance.adaptive_lookahead import AdaptiveLookaheadConfig
 from auv_path_following.guidance.ailos import AilosConfig
 from auv_path_following.guidance.ilos import IlosConfig
@@ -112,7 +113,10 @@ class Plant(NamedTuple):
 
 
 class Guidance(NamedTuple):
-    """`PathFollowerConfig` and `Agility`; `law` and `switching` are indices of `LAWS` and `SWITCHING`."""
+    """`PathFollowerConfig` and `Agility`; `law` and `switching` are indices of `LAWS` and `SWITCHING`.
+
+    `lookahead` is `PathFollowerConfig.lookahead`, which the law may not use at every distance.
+    """
 
     law: int
     compensate_current: bool
@@ -123,6 +127,8 @@ class Guidance(NamedTuple):
     turn_rate: float
     switching: int
     radius: float
+    cornering: Cornering
+    lookahead: float
     ailos: Configured
     ilos: Any
     los: Configured

@@ -84,6 +84,8 @@ def _guidance(config: PathFollowerConfig, agility: Agility) -> Guidance:
         turn_rate=float(agility.turn_rate),
         switching=SWITCHING.index(config.switching.mode),
         radius=float(config.switching.radius),
+        cornering=agility.cornering,
+        lookahead=float(config.lookahead),
         ailos=Configured(numbers_of(config.ailos)),
         ilos=numbers_of(config.ilos),
         los=Configured(numbers_of(config.los)),

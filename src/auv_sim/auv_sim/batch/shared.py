@@ -8,7 +8,7 @@ from auv_msgs_py import angles
 from auv_path_following.control import nism
 from auv_path_following.control.hull_model import HullModel
 from auv_path_following.control.reference_model import ReferenceModel
-from auv_path_following.guidance import adaptive_lookahead, ailos, virtual_point
+from auv_path_following.guidance import acceptance, adaptive_lookahead, ailos, virtual_point
 from auv_path_following.guidance import approach as guidance_approach
 from auv_path_following.guidance.ailos import Ailos
 from auv_path_following.guidance.los import Los
@@ -21,6 +21,8 @@ is_at = part(guidance_approach.is_at)
 path_errors = part(virtual_point.path_errors)
 saturated = part(virtual_point.saturated)
 tangential_speed = part(virtual_point.tangential_speed)
+crab_angle = part(acceptance.crab_angle)
+acceptance_radius = part(acceptance.acceptance_radius)
 adaptive_delta = part(adaptive_lookahead.adaptive_lookahead)
 adaptive_offset = part(ailos.adaptive_offset)
 rudder_rate: Any = part(nism.rudder_rate)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -20,7 +19,9 @@ from auv_path_following.guidance.switching import SwitchingConfig
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.paths.outline import look, tightest
 from auv_path_following.vehicle import Vehicle
+from auv_sim.planning.circles import circles
 from auv_sim.planning.crossings import crossings
+from auv_sim.planning.verdict import Verdict, at
 
 Array = npt.NDArray[np.float64]
 
@@ -29,32 +30,6 @@ _AMPLE = 0.8
 #: Less way over ground than this share of the speed through the water is warned of.
 _LITTLE_WAY = 0.2
 _MOST_CROSSINGS = 100
-#: Circles of more than so many look-aheads leave too much of the path out. One is the paper's bound; a little
-#: more is of use in a current.
-_FAR_TOO_WIDE = 2.0
-
-
-Level = Literal["refused", "warning"]
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """One thing to know before the vehicle is in the water.
-
-    Attributes:
-        level: "refused" or "warning".
-        where: the place on the path.
-        found: what is there.
-        expected: what would be better.
-    """
-
-    level: Level
-    where: str
-    found: str
-    expected: str
-
-    def __str__(self) -> str:
-        return f"{self.where}: found {self.found}, expected {self.expected}"
 
 
 @dataclass(frozen=True)
@@ -97,6 +72,7 @@ def check(
         ConfigurationError: the vehicle's turning ability cannot be found.
     """
     speed = vehicle.speed_at(mission.thrust)
+    lookahead = lookahead or PathFollowerConfig().lookahead
     turn = tightest_turn(vehicle)
     survey = _Survey(mission, current, speed)
     found = [
@@ -105,7 +81,7 @@ def check(
         *survey.way(current),
         *survey.turns(turn, vehicle.name),
         *_corners(mission),
-        *_circles(mission, switching or SwitchingConfig(), lookahead or PathFollowerConfig().lookahead),
+        *circles(mission, vehicle, switching or SwitchingConfig(), lookahead, speed, current),
         *_crossings(mission),
     ]
     refusals, warnings = (
@@ -147,7 +123,7 @@ def _geofence(mission: Mission) -> Iterator[Verdict]:
         outside = [k for k in range(len(s)) if not inside(mission.geofence, float(x[k]), float(y[k]))]
         if outside:
             k = outside[0]
-            found = f"{len(outside)} m of path outside the geofence, the first {_at(x[k], y[k])}"
+            found = f"{len(outside)} m of path outside the geofence, the first {at(x[k], y[k])}"
             yield Verdict("refused", "geofence", found, "all of the path inside it")
 
 
@@ -181,7 +157,7 @@ class _Survey:
     def _place(self, i: int, t: float) -> str:
         p = self._mission.path.evaluate(i, t)
         kind = self._mission.path.segments[i].kind
-        return f"subpath {i + 1} ({kind}) {_at(p.x, p.y)}"
+        return f"subpath {i + 1} ({kind}) {at(p.x, p.y)}"
 
     def way(self, current: Current) -> Iterator[Verdict]:
         """A current across that no heading can cancel, or ahead that the vehicle cannot beat."""
@@ -246,36 +222,8 @@ def _corners(mission: Mission) -> Iterator[Verdict]:
         sharpest = max(corners, key=lambda joint: abs(joint.angle_step))
         count = "a corner" if len(corners) == 1 else f"{len(corners)} corners, the sharpest one"
         found = f"{count} of {abs(math.degrees(sharpest.angle_step)):.0f} deg (G0)"
-        place = f"joint {sharpest.index} {_at(sharpest.x, sharpest.y)}"
+        place = f"joint {sharpest.index} {at(sharpest.x, sharpest.y)}"
         yield Verdict("warning", place, found, "a smoothing, since no vehicle turns on the spot")
-
-
-def _circles(mission: Mission, switching: SwitchingConfig, lookahead: float) -> Iterator[Verdict]:
-    # One joint more than the path has once: where it repeats itself, the next lap's first.
-    joints = [
-        j for j in mission.path.joints[: mission.once + 1] if switching.mode == "all" or j.geometric == "G0"
-    ]
-    if switching.mode == "off" or not joints:
-        return
-    if switching.radius > lookahead:
-        found = f"{switching.radius:g} m with a look-ahead of {lookahead:g} m"
-        level: Level = "refused" if switching.radius > _FAR_TOO_WIDE * lookahead else "warning"
-        yield Verdict(level, "switching.radius", found, "at most the look-ahead, Rk <= Delta of Eq. (44)")
-    # Along the path: a circle counts on the last stretch of its subpath only, see `CircleOfAcceptance`.
-    gaps = -np.diff([mission.path.distance_to_go(j.index, 0.0) for j in joints])
-    overlapping = np.flatnonzero(gaps < 2.0 * switching.radius)
-    if overlapping.size:
-        k = int(overlapping[np.argmin(gaps[overlapping])])
-        one, other = joints[k], joints[k + 1]
-        found = f"{gaps[k]:.1f} m apart with circles of acceptance of {switching.radius:g} m, which overlap"
-        if overlapping.size > 1:
-            found += f" (as do {overlapping.size - 1} more pairs)"
-        yield Verdict(
-            "warning",
-            f"joints {one.index} and {other.index}",
-            found,
-            "joints further apart, or smaller circles, or the subpath between is cut short",
-        )
 
 
 def _crossings(mission: Mission) -> Iterator[Verdict]:
@@ -285,15 +233,10 @@ def _crossings(mission: Mission) -> Iterator[Verdict]:
         times = "once" if len(found) == 1 else f"{len(found)} times"
         if len(found) == _MOST_CROSSINGS:
             times = f"at least {times}"
-        place = f"subpaths {first.first} and {first.second} {_at(first.x, first.y)}"
+        place = f"subpaths {first.first} and {first.second} {at(first.x, first.y)}"
         yield Verdict(
             "warning",
             place,
             f"a path that crosses itself {times}",
             "this to be meant: subpaths are followed in their order",
         )
-
-
-def _at(x: float, y: float) -> str:
-    """Rounded, and without a minus in front of a zero."""
-    return f"at north {round(x, 1) + 0.0:.1f}, east {round(y, 1) + 0.0:.1f}"

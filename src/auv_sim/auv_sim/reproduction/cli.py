@@ -30,7 +30,7 @@ from auv_sim.command_line import (
 )
 from auv_sim.command_line import console as terminal
 from auv_sim.pool import tracked
-from auv_sim.reproduction import claims_current, claims_following, corner, figures, page, starts
+from auv_sim.reproduction import claims_current, claims_following, corner, corners, figures, page, starts
 from auv_sim.reproduction.cases import flights
 from auv_sim.reproduction.claim import FAILS, HOLDS, Claim
 from auv_sim.reproduction.corner import Bound
@@ -75,8 +75,9 @@ def parser() -> argparse.ArgumentParser:
     )
     p.add_argument(
         "--study",
-        choices=("starts", "pictures"),
-        help="instead: starts, the random starts; pictures, those of docs/reproduction.md and docs/tuning.md",
+        choices=("starts", "corners", "pictures"),
+        help="instead: starts, the random starts; corners, one corner at a time, in currents from all sides; "
+        "pictures, those of docs/reproduction.md and docs/tuning.md",
     )
     p.add_argument(
         "--runs", type=at_least_one, default=1000, metavar="N", help="study starts: how many (default 1000)"
@@ -99,6 +100,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     make_directory(options.out)
     if options.study == "starts":
         return _starts(options, console)
+    if options.study == "corners":
+        return _corners(options, console)
     if options.study == "pictures":
         from auv_sim.reproduction import pictures
 
@@ -221,4 +224,33 @@ def _starts(options: argparse.Namespace, console: Console) -> int:
         )
     console.print(table)
     console.print(f"Every start: {options.out / name}.csv", highlight=False)
+    return 0
+
+
+def _corners(options: argparse.Namespace, console: Console) -> int:
+    flown = corners.corners()
+    with progress_bar(console) as bar:
+        task = bar.add_task("flying over corners", total=len(flown))
+        results = corners.fly(flown, options.workers, lambda: bar.advance(task))
+    corners.write(results, options.out / "corners.csv")
+    table = Table(title="Largest distance at a corner, m, both sides", title_justify="left")
+    for heading in (
+        "hull",
+        "model",
+        "corner",
+        "still",
+        "worst current",
+        "in the first minute",
+        "over REMUS's",
+    ):
+        table.add_column(heading, justify="left" if heading in ("hull", "model") else "right")
+    for row in corners.table(results):
+        table.add_row(
+            row.hull,
+            row.model,
+            f"{row.angle}°",
+            *(f"{value:.2f}" for value in (row.still, row.worst, row.early, row.ratio)),
+        )
+    console.print(table)
+    console.print(f"Every corner: {options.out}/corners.csv", highlight=False)
     return 0

@@ -1,0 +1,105 @@
+"""The radius of the circle of acceptance, Eq. (44), that suits a corner, a hull and a current."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from auv_msgs_py.angles import wrap
+from auv_msgs_py.types import NO_CURRENT, Current
+from auv_path_following.control.hull_model import tightest_turn
+from auv_path_following.control.nism import NismConfig, kp_of
+from auv_path_following.control.reference_model import ReferenceConfig, limits_of
+from auv_path_following.paths.composite import CompositePath
+from auv_path_following.vehicle import Vehicle
+
+#: Share of the speed through the water that a current across a leg may take.
+_LARGEST_SHARE = 0.95
+#: A sharper change of heading counts as this, rad: no measured one was larger.
+_SHARPEST = math.radians(135.0)
+#: Exponent of tan(change/2): with 1 the turn ends on the new leg, with less it overshoots the leg by about as
+#: much as it cuts the corner. Fitted, like the share of Delta, to the best radii at corners of 30 to 120 deg.
+_SHARPNESS = 0.85
+#: Share of Delta by which line of sight turns late at a shallow corner, and early at a sharp one.
+_LOOKAHEAD_SHARE = 0.17
+#: By how much the heading lags behind its reference, s.
+_LAG = 0.05
+#: Lead of a vehicle without a hull in its file, s: about that of all shipped hulls.
+_USUAL_LEAD = 1.0
+
+
+class Cornering(NamedTuple):
+    """How the heading is turned at a corner.
+
+    Attributes:
+        rate: largest yaw rate, rad/s.
+        lead: by how much a turn with limited acceleration and jerk has to begin before one without, s.
+    """
+
+    rate: float
+    lead: float
+
+
+def cornering_of(vehicle: Vehicle) -> Cornering:
+    """Return how the heading reference turns a vehicle, with the limits that hull and rudder allow.
+
+    They are those of the autopilot where its own are left at 0 (`limits_of`).
+
+    Raises:
+        ConfigurationError: no turn of the hull is steady, and none was measured.
+    """
+    if vehicle.hull is None:
+        return Cornering(vehicle.top_speed / tightest_turn(vehicle).radius, _USUAL_LEAD)
+    rudder_rate = kp_of(NismConfig(kp_from_rudder=True), vehicle)
+    rate, acceleration, jerk = limits_of(ReferenceConfig(), vehicle, rudder_rate)
+    return Cornering(rate, 0.5 * rate / acceleration + 0.5 * acceleration / jerk + _LAG)
+
+
+class Corner(NamedTuple):
+    """A joint as its circle needs it: courses of both legs there (rad), and the widest circle (m)."""
+
+    chi_in: float
+    chi_out: float
+    widest: float
+
+
+def corner_of(path: CompositePath, i: int) -> Corner:
+    """Return the corner at the end of subpath `i` (from 0); its circle takes half the shorter leg at most."""
+    before, after = path.segments[i : i + 2]
+    widest = 0.5 * min(before.length, after.length)
+    return Corner(before.evaluate(1.0).chi, after.evaluate(0.0).chi, widest)
+
+
+def acceptance_radius(
+    cornering: Cornering, corner: Corner, lookahead: float, Ur: float, current: Current = NO_CURRENT
+) -> float:
+    """Return Rk at which a turn on to the next leg has to begin, m.
+
+        Rk = Ug lead + (Ug / rate) tan(change / 2)^0.85 + 0.17 Delta cos(change)
+
+    Ug is the speed over ground on the leg in. The change is that of the heading, so it includes the crab
+    angles on both legs.
+
+    Args:
+        cornering: of the vehicle.
+        corner: the joint.
+        lookahead: Delta, m.
+        Ur: speed through the water, m/s.
+        current: m/s, NED.
+    """
+    if not Ur > 0.0:
+        return 0.0
+    crab_in, crab_out = crab_angle(corner.chi_in, Ur, current), crab_angle(corner.chi_out, Ur, current)
+    step = wrap((corner.chi_out + crab_out) - (corner.chi_in + crab_in))
+    change = min(abs(step), _SHARPEST)
+    along = math.cos(corner.chi_in) * current.Vx + math.sin(corner.chi_in) * current.Vy
+    Ug = max(along + Ur * math.cos(crab_in), 0.0)
+    turn = Ug / cornering.rate * math.pow(math.tan(0.5 * change), _SHARPNESS)
+    radius = Ug * cornering.lead + turn + _LOOKAHEAD_SHARE * lookahead * math.cos(change)
+    return min(max(radius, 0.0), corner.widest)
+
+
+def crab_angle(chi: float, Ur: float, current: Current) -> float:
+    """Return the heading on a straight course `chi` less the course, rad: theta_n of Eq. (31) is its sine."""
+    across = (-math.sin(chi) * current.Vx + math.cos(chi) * current.Vy) / Ur
+    return -math.asin(min(max(across, -_LARGEST_SHARE), _LARGEST_SHARE))
