@@ -39,6 +39,9 @@ class Health:
         look: called before each regular report, to set conditions.
     """
 
+    #: Key of the latest refusal in a report.
+    REFUSED = "condition refused"
+
     def __init__(
         self,
         node: Node,
@@ -134,7 +137,7 @@ class Health:
                 level, message = condition_level, text
         values = {"waiting_for": self._waiting_for(), **self._values()}
         if refusal:
-            values["condition refused"] = refusal
+            values[self.REFUSED] = refusal
         values |= {f"condition {name}": text for name, (_, text) in self._condition.items()}
         values |= {f"refused {topic}": count for topic, count in self.refused.items()}
         status = DiagnosticStatus(

@@ -7,6 +7,7 @@ import time
 from typing import Any
 
 import pytest
+from diagnostic_msgs.msg import KeyValue
 
 from auv_msgs_py import qos, topics
 from auv_msgs_py.types import Navigation
@@ -175,6 +176,36 @@ def test_a_new_place_found_without_velocity_through_water_is_rejoined_later(
     bench.until(lambda: node._rejoining)
     s = step(bench, 7.0, 60.0, 5.0)
     assert s == pytest.approx(0.55, abs=0.06)
+
+
+@pytest.mark.parametrize("watchdog", [True, False], ids=["watchdog first", "stamps first"])
+def test_a_gap_of_time_holds_and_rejoins_whichever_notices_it_first(
+    bench: Bench, tmp_path: Any, watchdog: bool
+) -> None:
+    """16 s between two stamps, at 12 m: at its last speed P would be at 36 m."""
+    node = fly_north(bench, tmp_path, holding__hold_after=1.0 if watchdog else 10.0)
+    if watchdog:
+        bench.until(lambda: states(bench)[-1] == "holding")
+    s = step(bench, 20.0, 12.0, 1.0)
+    bench.until(lambda: states(bench)[-2:] == ["holding", "running"])
+    assert s == pytest.approx(0.12, abs=1e-4)
+    assert node.follower.virtual_point.s == pytest.approx(s, abs=1e-9)
+
+
+def test_an_approach_is_a_phase_of_its_own(bench: Bench, tmp_path: Any) -> None:
+    mission = tmp_path / "north.yaml"
+    mission.write_text(NORTH)
+    node = bench.start(GuidanceNode, mission=str(mission), guidance__approach__overdue=0.3)
+    bench.call("start")
+    for k in range(3):
+        assert step(bench, 1.0 + 0.2 * k, -50.0 + 0.4 * k) == 0.0
+    assert node.report()["phase"] == "approaching: 49 m to the path's start"
+    assert bench.values(topics.DISTANCE_TO_GO)[0] == pytest.approx(150.0)
+    late = KeyValue(key="condition approach", value="the approach to the path's start takes more than 0.3 s")
+    bench.until(lambda: any(late in m.status[0].values for m in bench.received[topics.DIAGNOSTICS.name]))
+    assert step(bench, 40.0, -0.1) == 0.0  # a gap of time: planned anew, and the vehicle is there
+    assert node.report()["phase"] == "on the path"
+    bench.until(lambda: bench.values(topics.DISTANCE_TO_GO)[-1] == pytest.approx(100.0))
 
 
 @pytest.mark.parametrize("state", ["idle", "holding"])

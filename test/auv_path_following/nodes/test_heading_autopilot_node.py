@@ -68,6 +68,18 @@ def test_the_autopilot_stops_the_vehicle_when_odometry_falls_silent(bench: Bench
     bench.until(lambda: bench.diagnosed("no usable odom for 0.3 s: rudder and thrust are 0"))
 
 
+def test_a_gap_between_stamps_begins_anew_as_after_a_silence(bench: Bench) -> None:
+    """The laws would otherwise go on turning the rudder for the 5 s."""
+    bench.start(HeadingAutopilotNode, odometry_timeout=2.0)
+    for k in range(3):
+        bench.odometry(1.0 + 0.05 * k if k < 2 else 6.0, NORTHWARD)
+        bench.reference(math.pi / 2 + 0.3, 0.0, 6.0)
+        bench.until(lambda k=k: len(bench.values(topics.RUDDER_CMD)) > k)
+    assert bench.values(topics.RUDDER_CMD)[1] > 0.0
+    assert bench.values(topics.RUDDER_CMD)[2] == 0.0
+    assert bench.values(topics.THRUST_CMD)[-1] == 6.0
+
+
 def test_a_heading_that_jumps_does_not_reach_the_rudder(bench: Bench) -> None:
     node = bench.start(HeadingAutopilotNode)
     for k in range(5):

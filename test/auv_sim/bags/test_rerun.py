@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import dataclasses
 import json
 import shutil
 from pathlib import Path
@@ -15,7 +16,10 @@ from auv_msgs_py import params_file, topics, yaml_file
 from auv_msgs_py.frames import flip_yaw, quaternion_of_yaw
 from auv_path_following import config_files, vehicle
 from auv_path_following.paths import mission_file
+from auv_path_following.paths.composite import CompositePath
+from auv_path_following.paths.line import Line
 from auv_sim.bags import cli
+from auv_sim.bags.chain import _Chain, _Phase, _Step
 from auv_sim.closed_loop import Scenario, fly
 from auv_sim.parameters import SUITE
 from auv_sim.recording.bag_writer import BagWriter
@@ -140,6 +144,38 @@ def test_what_the_nodes_believed_counts_and_not_the_vehicle_that_flew(
     assert found["thrust_cmd"]["identical"] == found["thrust_cmd"]["compared"]
     assert cli.main(["inspect", str(run), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["mission"]["completed"] is True
+
+
+@pytest.mark.parametrize("resumes", [False, True], ids=["gap of stamps", "recorded hold"])
+def test_after_a_gap_the_chain_rejoins_as_the_nodes_did(resumes: bool) -> None:
+    """16 s without odometry, the vehicle carried to 12 m: at its last speed P would be at 36 m."""
+    parameters = params_file.load(config_files.find("params", "paper"), SUITE)
+    mission, hull = mission_file.load("paper_composite"), vehicle.load("remus100")
+    chain = _Chain(parameters, dataclasses.replace(mission, path=CompositePath([Line(0, 0, 100.0, 0)])), hull)
+
+    def step(seconds: float, north: float, phase: _Phase) -> float:
+        stamp = round(seconds * 1e9)
+        pose = make(
+            "geometry_msgs/msg/Pose",
+            make("geometry_msgs/msg/Point", 1.0 if north > 5 else 0.0, north, 0.0),
+            make("geometry_msgs/msg/Quaternion", 0.0, 0.0, *quaternion_of_yaw(flip_yaw(0.0))),
+        )
+        covered = make("geometry_msgs/msg/PoseWithCovariance", pose, np.zeros(36))
+        odometry = make(
+            "nav_msgs/msg/Odometry", stamped(stamp, "map"), "base_link", covered, twist(vector(1.9, 0.0))
+        )
+        through = make(TYPES["velocity_through_water"], stamped(stamp, "base_link"), twist(vector(1.9, 0.0)))
+        answer = chain.step(_Step(odometry, stamp, stamp, through), phase)
+        assert answer is not None
+        return answer.path_parameter
+
+    for k in range(26):
+        step(1.0 + 0.1 * k, 0.19 * k, _Phase(True, k == 0, False))
+    if resumes:
+        s = step(4.2, 12.0, _Phase(True, False, True))
+    else:
+        s = step(20.0, 12.0, _Phase(True, False, False))
+    assert s == pytest.approx(0.12, abs=1e-4)
 
 
 def test_other_gains_command_otherwise(

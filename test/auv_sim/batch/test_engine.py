@@ -16,6 +16,7 @@ from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.types import Current
 from auv_path_following import config_files, vehicle
 from auv_path_following.control.derivative import DerivativeConfig
+from auv_path_following.guidance.approach import ApproachConfig
 from auv_path_following.guidance.switching import SwitchingConfig
 from auv_path_following.paths import mission_file
 from auv_path_following.paths.composite import CompositePath
@@ -31,19 +32,25 @@ from auv_sim.plant.remus import PlantState
 
 CURRENT = Current(0.1, 0.2)
 ASIDE = PlantState(-35.0, 28.0, 2.5, 1.2, 0.1, -0.05)
+#: The laws alone; and a start from which guidance leads to the path first.
+BARE = {"approach": ApproachConfig(enabled=False)}
+FAR = PlantState(124.0, 301.0, 1.344, 1.2, 0.1, -0.05)
 #: Flights that between them take every branch of every law: name -> what is told.
 FLIGHTS = {
-    "robust, aside": {"initial": ASIDE, "current": CURRENT, "time_limit": 900.0},
+    "robust, aside": {"initial": ASIDE, "current": CURRENT, "time_limit": 900.0, "guidance": BARE},
+    "approach": {"initial": FAR, "current": CURRENT, "mission": "course_fermat", "time_limit": 300.0},
     "paper": {"params": "paper", "current": CURRENT, "time_limit": 900.0},
-    "paper, corners cut late": {"params": "paper", "mode": "off", "initial": ASIDE},
-    "table 2, limit cycle": {"params": "paper", "hull": "remus100_table2", "initial": ASIDE},
+    "paper, corners cut late": {"guidance": BARE, "params": "paper", "mode": "off", "initial": ASIDE},
+    "table 2, limit cycle": {"params": "paper", "hull": "remus100_table2", "guidance": BARE,
+                             "initial": ASIDE},
     "weak rudder": {"hull": "remus100_mismatch", "believed": "remus100", "current": CURRENT},
     "pid": {"params": "paper", "autopilot": {"controller": "pid"}, "current": CURRENT},
     "smc": {"params": "paper", "autopilot": {"controller": "smc"}, "believed": "remus100_table2"},
     "smc, shaped": {"autopilot": {"controller": "smc"}, "current": CURRENT},
-    "filtered dr/dt": {"autopilot": {"derivative": DerivativeConfig(bandwidth=4.0)}, "initial": ASIDE},
+    "filtered dr/dt": {"autopilot": {"derivative": DerivativeConfig(bandwidth=4.0)},
+                       "initial": ASIDE, "guidance": BARE},
     "los": {"guidance": {"law": "los"}, "current": CURRENT},
-    "ilos": {"guidance": {"law": "ilos"}, "current": CURRENT, "initial": ASIDE},
+    "ilos": {"guidance": {"law": "ilos", **BARE}, "current": CURRENT, "initial": ASIDE},
     "no compensation": {"guidance": {"compensate_current": False}, "current": CURRENT},
     "circles everywhere, 8 Hz": {"mode": "all", "step": 0.125, "time_limit": 900.0},
     "50 Hz": {"step": 0.02, "mission": "course_clothoid", "time_limit": 130.0},
@@ -100,6 +107,15 @@ def test_no_lap_is_skipped() -> None:
     flights = engine.fly([told])
     assert flights.completed[0]
     assert flights.duration[0] == pytest.approx(told.path.length / 2.0, rel=0.1)
+
+
+def test_a_flight_that_needs_a_second_approach_is_flown_all_the_same() -> None:
+    """Turns of 2 m, tighter than the hull can make: it is carried off its approach."""
+    told = scenario(initial=FAR, time_limit=60.0, guidance={"approach": ApproachConfig(radius=2.0)})
+    reference = closed_loop.fly(told)
+    assert np.abs(np.diff(np.hypot(reference.xe, reference.ye))).max() > 1.9  # P has jumped to the vehicle
+    assert largest_difference(engine.track(told), reference) == 0.0
+    assert engine.fly([told]).rms_distance[0] == judged(reference, told)["rms_distance"]
 
 
 def different(count: int) -> list[Scenario]:

@@ -43,6 +43,37 @@ def reports(**waiting: str) -> DiagnosticArray:
     )
 
 
+def refusal(node: str, text: str) -> DiagnosticArray:
+    values = [KeyValue(key="condition refused", value=text)]
+    return DiagnosticArray(status=[DiagnosticStatus(hardware_id=node, values=values)])
+
+
+TOO_FAST = "desired_yaw_rate: found 13.96, expected from -10 to 10"
+TOO_FAR = "rudder_cmd: found 0.9, expected from -0.61 to 0.61"
+
+
+@pytest.mark.parametrize(
+    ("node", "text", "waits", "named"),
+    [
+        ("heading_autopilot", TOO_FAST, "desired_yaw_rate", f"heading_autopilot refused {TOO_FAST}"),
+        ("heading_autopilot", TOO_FAST, "odom, desired_yaw_rate", f"heading_autopilot refused {TOO_FAST}"),
+        ("remus_plant", TOO_FAR, "", f"remus_plant refused {TOO_FAR}"),
+        # Of an earlier step: what is waited for now is another topic.
+        ("heading_autopilot", TOO_FAST, "desired_yaw", "ailos_guidance did not send desired_yaw"),
+    ],
+)
+def test_a_refused_message_is_named_with_its_value_and_not_its_sender(
+    node: str, text: str, waits: str, named: str
+) -> None:
+    simulator: Any = Simulator()
+    lockstep = Lockstep(simulator)
+    lockstep.on_mission_state()
+    lockstep._on_diagnostics(refusal(node, text))
+    lockstep._on_diagnostics(reports(**{node: waits}))
+    lockstep._check()
+    assert simulator.fault == f"step 7 (t = 1.35 s) got no answer within 0 s: {named}"
+
+
 @pytest.mark.parametrize(
     ("waiting", "named"),
     [

@@ -13,6 +13,7 @@ from rclpy.clock import Clock, ClockType
 from std_msgs.msg import UInt64
 
 from auv_msgs_py import topics
+from auv_msgs_py.health import Health
 from auv_msgs_py.lockstep_gate import LockstepGate
 from auv_msgs_py.pairing import Pairing
 from auv_msgs_py.types import Command
@@ -43,6 +44,7 @@ class Lockstep:
         self._recorded, self._recorded_at = 0, time.monotonic()
         self._published = 0
         self._waits: dict[str, tuple[float, str]] = {}
+        self._refused: dict[str, str] = {}
         node.listen(topics.DIAGNOSTICS, self._on_diagnostics)
         self._request = node.advertise(topics.RECORD_REQUEST) if node.parameters.recorded else None
         if node.parameters.recorded:
@@ -107,6 +109,8 @@ class Lockstep:
             for pair in status.values:
                 if pair.key == "waiting_for":
                     self._waits[status.hardware_id] = time.monotonic(), pair.value
+                elif pair.key == Health.REFUSED:
+                    self._refused[status.hardware_id] = pair.value
 
     def _check(self) -> None:
         """End the run, with the culprit's name, when a step stays without an answer."""
@@ -138,10 +142,18 @@ class Lockstep:
         return f"step {self._node.steps} (t = {self._node.stamp * 1e-9:.2f} s)"
 
     def _culprit(self) -> str:
-        """Follow who waits for whom: the first that reports nothing, or waits for nobody, is to blame."""
+        """Follow which node waits for which topic.
+
+        The first that reports nothing, or waits for nothing, is the culprit; on the way there, a message that
+        the waiting node has refused.
+        """
         topic = _BY_NAME[self._missing()[0]]
+        if refusal := self._refusal(topics.PLANT, ", ".join(self._missing())):
+            return refusal
         for _ in topics.CONTRACT:
             at, waits = self._waits.get(topic.publisher, (0.0, ""))
+            if refusal := self._refusal(topic.publisher, waits):
+                return refusal
             reported = self._open_since is not None and at > self._open_since
             following = _BY_NAME.get(waits.split(",")[0]) if reported else None
             if following is None or following.publisher == topics.PLANT:
@@ -150,3 +162,9 @@ class Lockstep:
                 break
             topic = following
         return f"{topic.publisher} did not send {topic.name}"
+
+    def _refusal(self, node: str, waits: str) -> str:
+        """What a node has refused of the topics that it waits for, with the value; else an empty text."""
+        refused = self._refused.get(node, "")
+        is_awaited = refused.partition(":")[0] in waits.split(", ")
+        return f"{node} refused {refused}" if refused and is_awaited else ""
