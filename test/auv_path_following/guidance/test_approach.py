@@ -70,6 +70,21 @@ def test_near_means_three_metres_and_sixty_degrees(x: float, y: float, off: floa
     assert (planned is None) is near
 
 
+@pytest.mark.parametrize(("behind", "length"), [(5.0, 5.0), (20.0, 20.0), (-5.0, None)])
+def test_the_last_leg_is_straight_unless_the_vehicle_is_too_close_for_it(
+    behind: float, length: float | None
+) -> None:
+    planned = approach_to((0.0, 0.0, 0.0), Navigation(-behind, 0.0, 0.0, 0.0), 12.0)
+    assert planned is not None
+    end = planned.segments[-1]
+    assert end.evaluate(1.0)[:2] == pytest.approx((0.0, 0.0), abs=1e-9)
+    assert (end.kind, end.evaluate(1.0).chi) == ("line", pytest.approx(0.0, abs=1e-9))
+    if length is None:
+        assert end.length == pytest.approx(12.0)
+    else:
+        assert planned.length == pytest.approx(length)
+
+
 @pytest.mark.parametrize("seed", range(12))
 def test_from_anywhere_the_start_is_reached_first_and_then_every_leg(seed: int) -> None:
     draw = np.random.default_rng(seed)

@@ -7,7 +7,6 @@ import time
 from typing import Any
 
 import pytest
-from diagnostic_msgs.msg import KeyValue
 
 from auv_msgs_py import qos, topics
 from auv_msgs_py.types import Navigation
@@ -201,8 +200,9 @@ def test_an_approach_is_a_phase_of_its_own(bench: Bench, tmp_path: Any) -> None:
         assert step(bench, 1.0 + 0.2 * k, -50.0 + 0.4 * k) == 0.0
     assert node.report()["phase"] == "approaching: 49 m to the path's start"
     assert bench.values(topics.DISTANCE_TO_GO)[0] == pytest.approx(150.0)
-    late = KeyValue(key="condition approach", value="the approach to the path's start takes more than 0.3 s")
-    bench.until(lambda: any(late in m.status[0].values for m in bench.received[topics.DIAGNOSTICS.name]))
+    late = "condition approach", "the approach to the path's start takes more than 0.3 s"
+    reports = bench.received[topics.DIAGNOSTICS.name]
+    bench.until(lambda: any(late == (v.key, v.value) for m in reports for v in m.status[0].values))
     assert step(bench, 40.0, -0.1) == 0.0  # a gap of time: planned anew, and the vehicle is there
     assert node.report()["phase"] == "on the path"
     bench.until(lambda: bench.values(topics.DISTANCE_TO_GO)[-1] == pytest.approx(100.0))

@@ -110,6 +110,27 @@ def test_the_seed_of_the_sea_is_the_runs(tmp_path: Path) -> None:
     assert plan.scenario(2).seed == seeds[2]
 
 
+def test_a_start_is_relative_to_any_place_on_the_path_and_the_hull_may_vary(tmp_path: Path) -> None:
+    """The paper's path: 200 sqrt(2) m to the north-east, then 200 m to the east, of 1276.5 m."""
+    text = (
+        "runs: 40\nvary:\n  initial.along: {choice: [0, 0.3, 1]}\n  initial.starboard: {choice: [4]}\n"
+        "  vehicle: {choice: [remus100, remus100_table2]}\n"
+    )
+    plan = study(tmp_path, text)
+    ends = {0.0: (-20.0, 20.0), 0.3: (180.0, 320.1), 1.0: (180.0, 20.0)}
+    seen = set()
+    for run in range(plan.runs):
+        values, scenario = plan.values(run), plan.scenario(run)
+        x, y, psi = scenario.initial[:3]  # type: ignore[index]
+        there = x + 4.0 * math.sin(psi), y - 4.0 * math.cos(psi)
+        along = float(values["initial.along"])
+        assert there == pytest.approx(ends[along], abs=0.1)
+        hull = vehicle.load(str(values["vehicle"]))
+        assert scenario.vehicle == scenario.controller_vehicle == hull
+        seen.add((along, values["vehicle"]))
+    assert len(seen) == 6
+
+
 @pytest.mark.parametrize("name", config_files.shipped("studies"))
 def test_shipped_studies_can_be_flown(name: str) -> None:
     plan = StudyPlan(config_files.find("studies", name))

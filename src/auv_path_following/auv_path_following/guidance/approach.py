@@ -12,6 +12,7 @@ from auv_path_following.control.hull_model import tightest_turn
 from auv_path_following.guidance.acceptance import Cornering, cornering_of
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.dubins import Pose, connect
+from auv_path_following.paths.line import Line
 from auv_path_following.vehicle import Vehicle
 
 #: A vehicle this near to a pose (m) and to its course (rad) is there: it needs no approach.
@@ -81,7 +82,11 @@ def is_at(x: float, y: float, psi: float, at_x: float, at_y: float, chi: float) 
 def approach_to(
     goal: tuple[float, float, float], navigation: Navigation, radius: float
 ) -> CompositePath | None:
-    """Return the shortest path with turns of one radius from the vehicle's pose to another one.
+    """Return a short path from the vehicle's pose to another one.
+
+    It is the shortest with turns of one radius (Dubins) to a point one radius before the goal, and a straight
+    leg from there, on which the vehicle settles. Where the leg costs more than twice its length, because the
+    vehicle is close behind the goal, the shortest path leads to the goal itself.
 
     Args:
         goal: x, y (m) and course (rad), NED.
@@ -94,7 +99,11 @@ def approach_to(
     x, y, psi, _ = navigation
     if is_at(x, y, psi, *goal):
         return None
-    return CompositePath(connect(Pose(x, y, psi), Pose(*goal), radius))
+    here, there = Pose(x, y, psi), Pose(*goal)
+    before = Pose(there.x - radius * math.cos(there.chi), there.y - radius * math.sin(there.chi), there.chi)
+    direct = CompositePath(connect(here, there, radius))
+    settled = CompositePath([*connect(here, before, radius), Line(*before[:2], radius, there.chi)])
+    return settled if settled.length <= direct.length + 2.0 * radius else direct
 
 
 class ApproachWatch:

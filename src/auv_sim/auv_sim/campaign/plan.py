@@ -18,6 +18,7 @@ from auv_msgs_py.settings import validated
 from auv_path_following import config_files, vehicle
 from auv_path_following.paths import mission_file
 from auv_path_following.paths.mission_file import Mission
+from auv_path_following.vehicle import Vehicle
 from auv_sim.batch.scenarios import flight_of
 from auv_sim.campaign import targets
 from auv_sim.campaign.distributions import Value
@@ -60,8 +61,6 @@ class StudyPlan:
             itertools.product(*[study.vary[name].grid or () for name in self.grids])
         )
         self.runs = study.runs * len(self.points)
-        self.hull = vehicle.load(self.file("vehicles", study.vehicle))
-        self.believed = vehicle.load(self.file("vehicles", study.believed)) if study.believed else self.hull
         self.sea: Sea | None = sea.load(self.file("seas", study.sea)) if study.sea else None
         self._check()
 
@@ -79,26 +78,36 @@ class StudyPlan:
         """Every file that the study names: its kind, its name there, itself and what belongs to it."""
         study = self.study
         for name in self.words("mission"):
-            mission = self.mission(name)
+            mission = self.mission_of({"mission": name})
             yield "missions", name, (mission.source, *mission.files)
         for name in self.words("params"):
             yield "params", name, (Path(self.file("params", name)),)
-        for name in dict.fromkeys(filter(None, (study.vehicle, study.believed))):
+        for name in dict.fromkeys(filter(None, (*self.words("vehicle"), study.believed))):
             yield "vehicles", name, (Path(self.file("vehicles", name)),)
         if study.sea:
             yield "seas", study.sea, (Path(self.file("seas", study.sea)),)
 
     def words(self, name: str) -> tuple[str, ...]:
-        """All files that the study names as mission or params."""
+        """All files that the study names as mission, vehicle or params."""
         distribution = self.study.vary.get(name)
         if distribution is None:
             return (getattr(self.study, name),)
         return tuple(str(word) for word in distribution.listed or ())
 
+    def mission_of(self, values: dict[str, Value]) -> Mission:
+        """The mission that is flown with these values of the varied parameters."""
+        name, hull = (str(values.get(word, getattr(self.study, word))) for word in ("mission", "vehicle"))
+        return self.mission(name, self.study.believed or hull)
+
     @functools.cache  # noqa: B019 - a plan lives as long as its process
-    def mission(self, name: str) -> Mission:
-        """A mission that the study names."""
-        return mission_file.load(self.file("missions", name), self.believed)
+    def mission(self, name: str, hull: str) -> Mission:
+        """A mission that the study names, with the thrust that a hull needs for its speed."""
+        return mission_file.load(self.file("missions", name), self.hull(hull))
+
+    @functools.cache  # noqa: B019
+    def hull(self, name: str) -> Vehicle:
+        """A vehicle that the study names."""
+        return vehicle.load(self.file("vehicles", name))
 
     @functools.cache  # noqa: B019
     def parameters(self, name: str) -> dict[str, Any]:
@@ -133,10 +142,11 @@ class StudyPlan:
     def scenario_of(self, values: dict[str, Value], where: str, seed: int = 0) -> Scenario:
         """What is flown with these values of the varied parameters."""
         study = self.study
-        mission = self.mission(str(values.get("mission", study.mission)))
+        mission = self.mission_of(values)
+        hull = self.hull(str(values.get("vehicle", study.vehicle)))
         told = self.parameters(str(values.get("params", study.params)))
         configs: dict[str, Any] = {
-            "vehicle": self.hull,
+            "vehicle": hull,
             "sea": self.sea,
             "guidance": told[topics.GUIDANCE].with_wishes_of(mission).guidance,
             "observer": told[topics.OBSERVER].observer,
@@ -170,7 +180,7 @@ class StudyPlan:
             guidance=configs["guidance"],
             observer=configs["observer"],
             autopilot=configs["autopilot"],
-            controller_vehicle=self.believed,
+            controller_vehicle=self.hull(study.believed) if study.believed else hull,
             time_limit=study.time_limit,
         )
 

@@ -1,13 +1,14 @@
 """What a study can vary: the start, the water, the hull, every gain, every flaw of the sea, by dotted names.
 
-initial.distance, initial.bearing_deg   how far from the path's start, and where; clockwise from its course
+initial.along                           place on the path, 0 (start) to 1 (end); the others are relative to it
+initial.distance, initial.bearing_deg   how far from that place, and where; clockwise from the path's course
 initial.ahead, initial.starboard        the same along the course and across it, m; all of them add up
 initial.heading_deg, initial.surge      off the path's course, deg; speed through the water, m/s
 current.speed, current.course_deg       m/s, and where it flows to, clockwise from north
 current.north, current.east             m/s; all of them add up
 vehicle.NAME, sea.NAME                  a key of the vehicle's or the sea's file: vehicle.hull.Nuud
 guidance.NAME, observer.NAME, autopilot.NAME        a parameter: autopilot.nism.k1
-mission, params                         a file, or the name of a shipped one
+mission, vehicle, params                a file, or the name of a shipped one
 """
 
 from __future__ import annotations
@@ -20,16 +21,19 @@ from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.settings import flattened, nested, validated
 from auv_msgs_py.types import Current
 from auv_path_following.paths.composite import CompositePath
+from auv_path_following.paths.segment import PathPoint
 from auv_sim.parameters import CRUISE
 from auv_sim.plant.remus import PlantState
 
 T = TypeVar("T")
+#: Steps of the search for a place on a path.
+_HALVINGS = 60
 
-START = ("distance", "bearing_deg", "ahead", "starboard", "heading_deg", "surge")
+START = ("along", "distance", "bearing_deg", "ahead", "starboard", "heading_deg", "surge")
 CURRENT = ("speed", "course_deg", "north", "east")
 #: Groups whose names are those of a settings class.
 CONFIGURED = ("vehicle", "sea", "guidance", "observer", "autopilot")
-WORDS = ("mission", "params")
+WORDS = ("mission", "vehicle", "params")
 
 
 def group_of(name: str, where: str) -> tuple[str, str]:
@@ -51,10 +55,12 @@ def start(path: CompositePath, given: Mapping[str, float]) -> PlantState:
     """The plant's first state.
 
     Args:
-        path: where it begins, everything is relative to its first point and course.
+        path: at one of whose points, the first if nothing else is given, everything is relative to it and its
+            course.
         given: values by the names of `START`.
     """
-    x, y, chi = path.start_pose
+    place = _point_along(path, given.get("along", 0.0))
+    x, y, chi = place.x, place.y, place.chi
     away, bearing = given.get("distance", 0.0), math.radians(given.get("bearing_deg", 0.0))
     ahead = given.get("ahead", 0.0) + away * math.cos(bearing)
     starboard = given.get("starboard", 0.0) + away * math.sin(bearing)
@@ -67,6 +73,17 @@ def start(path: CompositePath, given: Mapping[str, float]) -> PlantState:
         0.0,
         0.0,
     )
+
+
+def _point_along(path: CompositePath, share: float) -> PathPoint:
+    """Return the point behind `share` (0 to 1) of a path's length."""
+    to_go = (1.0 - share) * path.length
+    low, high = 0.0, float(path.n)
+    for _ in range(_HALVINGS if share > 0.0 else 0):
+        middle = 0.5 * (low + high)
+        i = min(int(middle), path.n - 1)
+        low, high = (middle, high) if path.distance_to_go(i, middle - i) > to_go else (low, middle)
+    return path.at(low)
 
 
 def current(given: Mapping[str, float]) -> Current:

@@ -73,7 +73,7 @@ def replay(store: Store, number: int, graph: bool, console: Console) -> int:
 def write_files(plan: StudyPlan, number: int, directory: Path) -> None:
     """Mission, hulls, sea and parameters of one run, such that `scripts/mission.py` flies it."""
     values, scenario = plan.values(number), plan.scenario(number)
-    mission = plan.mission(str(values.get("mission", plan.study.mission)))
+    mission = plan.mission_of(values)
     told = plan.parameters(str(values.get("params", plan.study.params)))
     directory.mkdir(parents=True)
     mission.copy_to(directory)
