@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import json
 import signal
+import subprocess
 import sys
+import threading
+import time
 from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
@@ -17,6 +20,7 @@ from auv_msgs_py import topics
 from auv_sim import closed_loop
 from auv_sim.mission import plan
 from auv_sim.mission.cli import main
+from auv_sim.mission.domains import free_domain
 from auv_sim.mission.plan import Options
 from auv_sim.recording.load import load, load_messages
 
@@ -37,9 +41,23 @@ def messages(bag: Path) -> dict[str, list[bytes]]:
 
 @pytest.fixture(scope="module")
 def paper_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The paper's whole mission in a current, over separate processes."""
-    run = tmp_path_factory.mktemp("paper") / "run"
-    assert main(["--params", "paper", "--current", "0.1", "0.2", "--quiet", "--out", str(run)]) == 0
+    """The paper's whole mission in a current, over separate processes; a second launcher changes nothing."""
+    run, domain = tmp_path_factory.mktemp("paper") / "run", str(free_domain())
+    asked = ["--quiet", "--domain", domain, "--out"]
+    second: list[subprocess.CompletedProcess[str]] = []
+
+    def intrude() -> None:
+        """Start a second launcher, of another namespace, when the first one's nodes are there."""
+        while not (run / "bag").exists():
+            time.sleep(0.05)
+        command = [sys.executable, "-m", "auv_sim.mission", "--namespace", "/auv2", *asked, f"{run}2"]
+        second.append(subprocess.run(command, capture_output=True, text=True, timeout=120, check=False))
+
+    intruder = threading.Thread(target=intrude, daemon=True)
+    intruder.start()
+    assert main(["--params", "paper", "--current", "0.1", "0.2", *asked, str(run)]) == 0
+    intruder.join(120.0)
+    assert [(one.returncode, "/clock" in one.stderr) for one in second] == [(2, True)]
     return run
 
 

@@ -87,6 +87,10 @@ class Health:
         self._last_refusal, self._last_refusal_at = text, time.monotonic()
         self._news()
 
+    def expect(self, name: str, text: str) -> None:
+        """Set a condition at WARN that is normal at the start: it is in every report, but not in the log."""
+        self._condition[name] = (_WARN, text)
+
     def warn(self, name: str, text: str) -> None:
         """Set or (with an empty text) clear a lasting condition; a new one is logged."""
         self._set(name, _WARN, text)

@@ -38,6 +38,8 @@ class SuiteNode(Node):  # type: ignore[misc]
 
     def __init__(self, name: str, parameters: type[Any], **arguments: Any) -> None:
         self._stamp: int | None = None
+        #: Names of the topics that are listened to and have one publisher each.
+        self._heard: list[str] = []
         super().__init__(name, **arguments)
         self._steady_to_ros = float(self.get_clock().now().nanoseconds) * 1e-9 - time.monotonic()
         self.parameters: Any = params.declare(
@@ -94,6 +96,8 @@ class SuiteNode(Node):  # type: ignore[misc]
         A message that `wire` knows arrives as its light class, the same object each time: do not keep it.
         """
         decode = decoder(topic)
+        if topic is not topics.DIAGNOSTICS:  # every node publishes that
+            self._heard.append(topic.name)
         tells_time = topic is topics.ODOM and self.parameters.lockstep
         name, rates = topic.name, self._rates
 
@@ -115,6 +119,7 @@ class SuiteNode(Node):  # type: ignore[misc]
     def create_subscription(self, kind: Any, name: str, callback: Any, *arguments: Any, **named: Any) -> Any:
         """As rclpy's; what comes on /clock is checked before rclpy sets the clock by it."""
         if name == topics.CLOCK.name and not named.get("raw"):
+            self._heard.append(name)
             return super().create_subscription(
                 kind, name, self._guarded_clock(callback), *arguments, raw=True, **named
             )
@@ -133,8 +138,20 @@ class SuiteNode(Node):  # type: ignore[misc]
 
         return guarded
 
+    def _strangers(self) -> str:
+        """Topics that more than one node publishes, for people: the contract has one publisher for each."""
+        found = []
+        for name in self._heard:
+            if self.count_publishers(name) > 1:
+                infos = self.get_publishers_info_by_topic(self.resolve_topic_name(name))
+                nodes = sorted({topics.full_name(info.node_namespace, info.node_name) for info in infos})
+                if len(nodes) > 1:
+                    found.append(f"{name} is published by {', '.join(nodes)}")
+        return "; ".join(found)
+
     def _look(self) -> None:
-        """Free running: what no single message shows."""
+        """What no single message shows."""
+        self.health.warn("publishers", self._strangers())
         if self.parameters.lockstep:
             return
         now = self.now()

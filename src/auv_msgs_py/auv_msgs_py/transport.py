@@ -12,6 +12,9 @@ from auv_msgs_py import qos, wire
 from auv_msgs_py.errors import MessageRefused
 from auv_msgs_py.topics import Topic
 
+#: The encapsulation identifiers of DDS end here (DDS-XTypes 1.3, table 60).
+_LAST_ENCODING = b"\x0b"
+
 
 class WirePublisher(Publisher):  # type: ignore[misc]
     """Sends light messages as the bytes that they are, and generated ones as ever."""
@@ -44,6 +47,8 @@ def decoder(topic: Topic) -> Callable[[bytes], Any]:
         try:
             light.read(data)
         except wire.ForeignLayout:
+            if data[:2] == wire.LITTLE_ENDIAN:
+                raise _refused(topic, data) from None
             return generated(data)
         return light
 
@@ -55,10 +60,16 @@ def generated_decoder(topic: Topic) -> Callable[[bytes], Any]:
     kind = qos.message_class(topic.type)
 
     def decode(data: bytes) -> Any:
+        # The deserialiser writes ten lines to stderr for each failure, so what is obvious does not get there.
+        if data[:1] != b"\0" or data[1:2] > _LAST_ENCODING:
+            raise _refused(topic, data)
         try:
             return deserialize_message(data, kind)
         except Exception:  # the middlewares raise what they like
-            found = f"{len(data)} bytes that do not decode"
-            raise MessageRefused(topic.name, found, topic.type) from None
+            raise _refused(topic, data) from None
 
     return decode
+
+
+def _refused(topic: Topic, data: bytes) -> MessageRefused:
+    return MessageRefused(topic.name, f"{len(data)} bytes that do not decode", topic.type)

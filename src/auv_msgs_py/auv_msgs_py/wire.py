@@ -23,7 +23,7 @@ from auv_msgs_py.wire_parts import (
     Vector,
 )
 
-_LITTLE_ENDIAN = b"\x00\x01"
+LITTLE_ENDIAN = b"\x00\x01"
 _HEADER = b"\x00\x01\x00\x00"
 _STAMP = struct.Struct("<iI")
 _LENGTH = struct.Struct("<I")
@@ -63,7 +63,7 @@ class Float64(Message):
         self.data = data
 
     def read(self, data: bytes) -> None:
-        if data[:2] != _LITTLE_ENDIAN or len(data) < _FLOAT64.size:
+        if data[:2] != LITTLE_ENDIAN or len(data) < _FLOAT64.size:
             raise ForeignLayout
         (self.data,) = _FLOAT64.unpack_from(data)
 
@@ -80,7 +80,7 @@ class Clock(Message):
         self.clock = Time()
 
     def read(self, data: bytes) -> None:
-        if data[:2] != _LITTLE_ENDIAN or len(data) < _TEXTS:
+        if data[:2] != LITTLE_ENDIAN or len(data) < _TEXTS:
             raise ForeignLayout
         self.clock.sec, self.clock.nanosec = _STAMP.unpack_from(data, len(_HEADER))
 
@@ -112,7 +112,7 @@ class _Stamped(Message):
 
     def _read_numbers(self, data: bytes) -> tuple[float, ...]:
         """Take stamp and frame ids; the numbers are returned."""
-        if data[:2] != _LITTLE_ENDIAN:
+        if data[:2] != LITTLE_ENDIAN:
             raise ForeignLayout
         try:
             stamp = self.header.stamp

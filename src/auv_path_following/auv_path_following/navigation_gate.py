@@ -27,11 +27,11 @@ class NavigationGateConfig:
     )  # fmt: skip
     heading_margin: float = setting(0.35, "a heading may jump so far at once", unit="rad", ge=0.0, live=True)
     accept_after: float = setting(
-        3.0, "a new place that agrees with itself for this long is believed", unit="s", gt=0.0, le=600.0,
+        3.0, "a new place that agrees with itself for this long is believed", unit="s", ge=0.1, le=600.0,
         live=True,
     )  # fmt: skip
     frozen_after: float = setting(
-        2.0, "the same pose to the last bit for this long under way is not believed", unit="s", gt=0.0,
+        2.0, "the same pose to the last bit for this long under way is not believed", unit="s", ge=0.1,
         le=600.0, live=True,
     )  # fmt: skip
 

@@ -27,7 +27,7 @@ class NodeParameters:
     recorded: bool = setting(
         False, "in lockstep: a recorder takes part, nothing is published before it listens"
     )
-    flood_rate: float = setting(200.0, "a topic that comes more often is reported", unit="Hz", gt=0.0, le=1e6)
+    flood_rate: float = setting(200.0, "a topic that comes more often is reported", unit="Hz", ge=1.0, le=1e6)
 
 
 @settings
@@ -38,12 +38,12 @@ class NavigationParameters(NodeParameters):
     vehicle: str = setting("remus100", "vehicle file, or the name of a shipped one: what it can do")
     gate: NavigationGateConfig = setting(factory=NavigationGateConfig, doc="which odometry is believed")
     lateness: float = setting(
-        1.0, "odometry that comes so much later after its stamp than it used to is refused", unit="s", gt=0.0,
-        le=60.0,
+        1.0, "odometry that comes so much later after its stamp than it used to is refused", unit="s",
+        ge=0.05, le=60.0,
     )  # fmt: skip
     odometry_timeout: float = setting(
         0.5, "odometry silent for this long is an error; the autopilot sets rudder and thrust to 0", unit="s",
-        gt=0.0, le=10.0, live=True,
+        ge=0.1, le=10.0, live=True,
     )  # fmt: skip
 
 
@@ -53,7 +53,7 @@ class ObserverParameters(NavigationParameters):
 
     observer: CurrentObserverConfig = setting(factory=CurrentObserverConfig, doc="Eq. (35)")
     water_velocity_timeout: float = setting(
-        1.0, "oldest velocity through water that is still used", unit="s", gt=0.0, le=60.0, live=True
+        1.0, "oldest velocity through water that is still used", unit="s", ge=0.05, le=60.0, live=True
     )
 
 
@@ -69,13 +69,13 @@ class GuidanceParameters(NavigationParameters):
     holding: HoldingConfig = setting(factory=HoldingConfig, doc="what missing navigation leads to")
     limits: LimitsConfig = setting(factory=LimitsConfig, doc="what ends a mission")
     water_velocity_timeout: float = setting(
-        1.0, "oldest velocity through water that is still used", unit="s", gt=0.0, le=60.0, live=True
+        1.0, "oldest velocity through water that is still used", unit="s", ge=0.05, le=60.0, live=True
     )
     current_timeout: float = setting(
         5.0,
         "older estimates of the current are reported, and the last one is kept",
         unit="s",
-        gt=0.0,
+        ge=0.1,
         le=600.0,
         live=True,
     )
@@ -95,5 +95,5 @@ class AutopilotParameters(NavigationParameters):
 
     autopilot: AutopilotConfig = setting(factory=AutopilotConfig, doc="controller and gains")
     reference_timeout: float = setting(
-        0.5, "guidance silent for this long: rudder and thrust go to 0", unit="s", gt=0.0, le=10.0, live=True
+        0.5, "guidance silent for this long: rudder and thrust go to 0", unit="s", ge=0.1, le=10.0, live=True
     )

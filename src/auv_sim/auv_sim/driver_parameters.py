@@ -32,7 +32,7 @@ class MavlinkDriverParameters(NodeParameters):
         5.0,
         "silence of the vehicle after which another address can take its place",
         unit="s",
-        gt=0.0,
+        ge=0.1,
         le=3600.0,
     )
     signing_key: str = setting(
@@ -52,10 +52,10 @@ class MavlinkDriverParameters(NodeParameters):
         1, "output of SERVO_OUTPUT_RAW that moves the rudder, for rudder_state; 0 for none", ge=0, le=8
     )
     command_timeout: float = setting(
-        1.0, "commands silent for this long: the vehicle is stopped", unit="s", gt=0.0, le=10.0
+        1.0, "commands silent for this long: the vehicle is stopped", unit="s", ge=0.1, le=10.0
     )
     link_timeout: float = setting(
-        1.0, "vehicle silent for this long: an error in /diagnostics", unit="s", gt=0.0, le=60.0
+        1.0, "vehicle silent for this long: an error in /diagnostics", unit="s", ge=0.1, le=60.0
     )
     settling: float = setting(
         1.0,

@@ -58,13 +58,17 @@ class PlantParameters(NodeParameters):
     sea: str = setting("", "sea file, or the name of a shipped one: what is not ideal; empty: nothing")
     seed: int = setting(0, "of everything that is random in the sea", ge=0)
     step: float = setting(0.05, "time between two odometries", unit="s", ge=0.001, le=1.0)
-    speed: float = setting(1.0, "free running: how many times faster than the wall clock", gt=0.0, le=1000.0)
+    speed: float = setting(1.0, "free running: how many times faster than the wall clock", ge=0.01, le=1000.0)
     hold_until_running: bool = setting(True, "stay at the initial state until the mission runs")
     command_timeout: float = setting(
-        1.0, "without a command for this long: rudder and thrust 0", unit="s", gt=0.0, le=60.0
+        1.0, "without a command for this long: rudder and thrust 0", unit="s", ge=0.1, le=60.0
     )
     answer_timeout: float = setting(
-        10.0, "lockstep: wall time after which a step without an answer ends the run", unit="s", gt=0.0
+        10.0,
+        "lockstep: wall time after which a step without an answer ends the run",
+        unit="s",
+        ge=0.1,
+        le=3600.0,
     )
     world_frame: str = setting(
         "map", "frame id of the odometry; map and odom are ENU, map_ned and odom_ned NED"
@@ -87,7 +91,7 @@ class RecorderParameters(NodeParameters):
     all_topics: bool = setting(False, "every topic that appears")
     compression: Literal["none", "zstd"] = setting("zstd", "of the chunks: zstd or none")
     flush_period: float = setting(
-        0.5, "a crash loses at most so much, of wall time and of recorded time", unit="s", gt=0.0, le=60.0
+        0.5, "a crash loses at most so much, of wall time and of recorded time", unit="s", ge=0.05, le=60.0
     )
     max_size: int = setting(0, "begin a new file after so many MB; 0 for never", ge=0, le=1_000_000)
     max_duration: float = setting(
@@ -99,7 +103,20 @@ class RecorderParameters(NodeParameters):
 
 
 #: What `fault_relay` can do to a topic; `auv_sim.faults.injection` says what each does.
-Fault = Literal["none", "stop", "delay", "nan", "freeze", "jump", "reverse", "flood", "frameless"]
+Fault = Literal[
+    "none",
+    "stop",
+    "delay",
+    "nan",
+    "freeze",
+    "jump",
+    "reverse",
+    "flood",
+    "frameless",
+    "timeless",
+    "cut",
+    "forge",
+]
 
 
 @settings
@@ -112,10 +129,11 @@ class FaultRelayParameters(NodeParameters):
         "the topics it stands between, separated by blanks",
     )
     fault: Fault = setting(
-        "none", "stop, delay, nan, freeze, jump, reverse, flood, frameless, or none", live=True
+        "none", "stop, delay, nan, freeze, jump, reverse, flood, frameless, timeless, cut, forge, or none",
+        live=True,
     )  # fmt: skip
     on: str = setting("", "only these of the topics have the fault; all if empty", live=True)
-    delay: float = setting(2.0, "of fault delay", unit="s", gt=0.0, le=600.0, live=True)
+    delay: float = setting(2.0, "of fault delay", unit="s", ge=0.001, le=600.0, live=True)
     jump: float = setting(100.0, "of fault jump, in the unit of the topic", live=True)
     copies: int = setting(100, "of each message in a flood", ge=1, le=10_000, live=True)
 

@@ -85,3 +85,17 @@ def test_what_was_delayed_is_forgotten_when_the_fault_ends() -> None:
     assert injector.pass_on(serialize_message(Float64(data=1.0)), 0.0) == []
     injector.fault = "none"
     assert injector.due(100.0) == []
+
+
+def test_a_timeless_message_has_no_time_and_a_cut_one_is_half_a_message() -> None:
+    (first, *_) = spoiled("timeless", TRACK)
+    assert first.header.stamp.nanosec == 2**32 - 1
+    injector = Injector(Float64)
+    injector.fault = "cut"
+    data = serialize_message(Float64(data=1.0))
+    assert injector.pass_on(data, 0.0) == [data[: len(data) // 2]]
+
+
+def test_one_state_is_forged_behind_the_first_message() -> None:
+    said = spoiled("forge", [String(data="running")] * 4)
+    assert [message.data for message in said] == ["running", "complete", "running"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 from std_msgs.msg import Float64
 
@@ -46,18 +47,28 @@ def test_the_plant_stops_by_itself_when_no_command_comes(bench: Bench) -> None:
     bench.until(lambda: bench.diagnosed("for 1 s: stopped"))
 
 
-def test_the_plant_waits_for_the_mission_and_begins_its_clock_at_one_second(bench: Bench) -> None:
-    bench.start(RemusPlantNode, speed=50.0, initial__x=3.0, initial__y=4.0)
-    bench.spin(0.3)
-    assert bench.received["odom"] == []
+def test_before_the_mission_the_plant_lies_at_its_beginning_and_time_passes(bench: Bench) -> None:
+    bench.start(RemusPlantNode, speed=50.0, initial__x=3.0, initial__y=4.0, current__Vx=0.2)
+    bench.until(lambda: len(bench.received["odom"]) > 20)
+    resting = bench.received["odom"][:20]
+    assert (resting[0].header.stamp.sec, resting[0].header.stamp.nanosec) == (1, 0)
+    assert np.unique(np.diff([nanoseconds(message.header.stamp) for message in resting])) == [50_000_000]
+    for message in resting:
+        pose, twist = message.pose.pose.position, message.twist.twist
+        assert (pose.x, pose.y, twist.linear.x, twist.linear.y, twist.angular.z) == (4.0, 3.0, 0.0, 0.0, 0.0)
+    water = bench.received["velocity_through_water"][0].twist.twist.linear
+    assert (water.x, water.y) == pytest.approx((-0.2, 0.0))
     bench.send(topics.MISSION_STATE, qos.message_class(topics.MISSION_STATE.type)(data="running"))
-    bench.until(lambda: len(bench.received["odom"]) > 3)
-    first = bench.received["odom"][0]
-    assert (first.header.stamp.sec, first.header.stamp.nanosec) == (1, 0)
-    assert (first.pose.pose.position.x, first.pose.pose.position.y) == (4.0, 3.0)
+    bench.until(lambda: bench.received["odom"][-1].pose.pose.position.y > 3.0)
     bench.call("reset")
     stamps = [nanoseconds(message.header.stamp) for message in bench.received["odom"]]
     bench.until(lambda: nanoseconds(bench.received["odom"][-1].header.stamp) < stamps[-1])
+
+
+def test_in_lockstep_nothing_moves_before_the_mission(bench: Bench) -> None:
+    bench.start(RemusPlantNode, lockstep=True)
+    bench.spin(0.3)
+    assert bench.received["odom"] == []
 
 
 def test_a_state_stops_the_plant_when_it_is_said_twice(bench: Bench) -> None:

@@ -25,12 +25,12 @@ class HoldingConfig:
         1.0,
         "without navigation for this long the mission holds: thrust 0",
         unit="s",
-        gt=0.0,
+        ge=0.1,
         le=60.0,
         live=True,
     )
     abort_after: float = setting(
-        30.0, "holding for this long ends the mission", unit="s", gt=0.0, le=3600.0, live=True
+        30.0, "holding for this long ends the mission", unit="s", ge=0.1, le=3600.0, live=True
     )
 
 

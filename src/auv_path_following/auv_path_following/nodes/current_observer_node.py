@@ -40,10 +40,10 @@ class CurrentObserverNode(SuiteNode):
         if inputs.moved:
             self.observer.relocate()
         output = self.observer.update(inputs.navigation, inputs.water, inputs.dt)
-        blind = inputs.water is None
-        text = f"no fresh {topics.WATER_VELOCITY.name}: the estimate rests" if blind else ""
+        late = inputs.water is None and inputs.water_age > self.parameters.water_velocity_timeout
+        text = f"no fresh {topics.WATER_VELOCITY.name}: the estimate rests" if late else ""
         self.health.warn("water", text)
-        if blind:
+        if inputs.water is None:
             return
         fill_current(self._message, output.current, inputs.stamp)
         self.answer(self._publish)

@@ -142,10 +142,9 @@ class GuidanceNode(SuiteNode):
         dt = 0.0 if begins else inputs.dt
         self._rejoining = (self._rejoining or inputs.moved) and not begins
         self._look_for_gap(dt, water is not None)
-        if water is None:
-            self.health.warn("water", f"no fresh {topics.WATER_VELOCITY.name}")
-        else:
-            self.health.warn("water", "")
+        late = water is None and inputs.water_age > self.parameters.water_velocity_timeout
+        self.health.warn("water", f"no fresh {topics.WATER_VELOCITY.name}" if late else "")
+        if water is not None:
             self._last_usable = self.now()
             self._rejoining = self._rejoining or self.state.state is State.HOLDING
             self.state.navigation_back()

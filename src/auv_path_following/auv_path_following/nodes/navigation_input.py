@@ -26,11 +26,13 @@ from auv_path_following.nodes.odometry_intake import OdometryIntake
 class Inputs(NamedTuple):
     """One step's input. `water` is None when there is none that is fresh enough; the stamp is in ns.
 
+    `water_age`, `current_age`: s; of what has never come, since the first odometry.
     `moved`: this navigation does not continue the last one.
     """
 
     navigation: Navigation
     water: WaterVelocity | None
+    water_age: float
     current: Current
     current_age: float
     dt: float
@@ -71,6 +73,7 @@ class NavigationInput:
         self._pairing = Pairing(
             (*parts, topics.CURRENT_ESTIMATE.name) if with_current else parts, strict=True
         )
+        self._first: int | None = None
         self._water: tuple[WaterVelocity, int] | None = None
         self._current: tuple[Current, int] | None = None
         node.listen(topics.ODOM, self._on_odometry)
@@ -85,6 +88,8 @@ class NavigationInput:
 
     def _on_odometry(self, message: Odometry) -> None:
         navigation, dt, stamp, restarted, moved = self.odometry.take(message)
+        if restarted or self._first is None:
+            self._first = stamp
         if restarted:
             if not self._lockstep:
                 self._water = self._current = None
@@ -95,14 +100,17 @@ class NavigationInput:
             if self._pairing.put(topics.ODOM.name, (navigation, dt, stamp), stamp):
                 self._paired()
             return
-        water, current, age = None, NO_CURRENT, float("inf")
-        bound = self._node.parameters.water_velocity_timeout * 1e9
-        if self._water is not None and abs(stamp - self._water[1]) <= bound:
-            water = self._water[0]
-            self.odometry.under_way = water.ur > _UNDER_WAY
+        water, current = None, NO_CURRENT
+        # What has never come is as old as the first odometry: the first of all is not late yet.
+        water_age = age = (stamp - self._first) * 1e-9
+        if self._water is not None:
+            water_age = abs(stamp - self._water[1]) * 1e-9
+            if water_age <= self._node.parameters.water_velocity_timeout:
+                water = self._water[0]
+                self.odometry.under_way = water.ur > _UNDER_WAY
         if self._current is not None:
             current, age = self._current[0], (stamp - self._current[1]) * 1e-9
-        self._step(Inputs(navigation, water, current, age, dt, stamp, moved))
+        self._step(Inputs(navigation, water, water_age, current, age, dt, stamp, moved))
 
     def _in_order(self, topic: Topic, stamp: int) -> None:
         """Free running, where an odometry takes the newest: a message that was overtaken is not that."""
@@ -136,4 +144,4 @@ class NavigationInput:
     def _paired(self) -> None:
         (navigation, dt, stamp), water, *rest = self._pairing.take()
         current = rest[0] if rest else NO_CURRENT
-        self._step(Inputs(navigation, water, current, 0.0, dt, stamp, False))
+        self._step(Inputs(navigation, water, 0.0, current, 0.0, dt, stamp, False))

@@ -59,6 +59,8 @@ class OdometryIntake:
         self._silent = False
         #: Set by the node: whether the vehicle is known to move, so that a pose that stands still is wrong.
         self.under_way = False
+        self._heard = False
+        node.health.expect("odometry", f"no {topics.ODOM.name} yet")
         if self._free:
             node.every(0.1, self._watch)
 
@@ -101,6 +103,9 @@ class OdometryIntake:
         if verdict is Verdict.REFUSE:
             raise MessageRefused(topics.ODOM.name, "a stamp that is not newer than the last", "rising stamps")
         restarted = verdict is Verdict.RESTART
+        if not self._heard:
+            self._heard = True
+            self._node.health.error("odometry", "")
         if not self._free:
             return Measured(navigation, dt, stamp, restarted, restarted)
         if restarted or stepped:

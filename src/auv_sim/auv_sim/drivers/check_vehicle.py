@@ -49,7 +49,9 @@ def parser() -> argparse.ArgumentParser:
         allow_abbrev=False,
     )
     p.add_argument(
-        "--namespace", type=ros_namespace, default="/auv", help="of the vehicle's topics (default /auv)"
+        "--namespace",
+        type=ros_namespace,
+        help="of the vehicle's topics (default: that of `-r __ns:=`, else /auv); / is the root",
     )
     p.add_argument(
         "--duration", type=positive, default=10.0, metavar="S", help="how long to listen (default 10 s)"
@@ -115,6 +117,9 @@ def _check(options: argparse.Namespace, arguments: list[str], hull: Vehicle) -> 
     rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
     stop = StopRequest()
     node = Node("check_vehicle", start_parameter_services=False)
+    if options.namespace is None:
+        remapped = any("__ns:=" in argument for argument in arguments)
+        options.namespace = node.get_namespace() if remapped else "/auv"
     try:
         listener = VehicleListener(node, options.namespace, hull if options.wiggle else None)
         recording = _listen(node, listener, options, stop)

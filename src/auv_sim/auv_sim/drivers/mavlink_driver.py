@@ -16,6 +16,7 @@ from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64
 
 from auv_msgs_py import topics
+from auv_msgs_py.claim import Claim, of_simulator
 from auv_msgs_py.conversions import fill_odometry, fill_water_velocity, finite, set_stamp
 from auv_msgs_py.errors import ConfigurationError, MessageRefused
 from auv_msgs_py.runtime import SuiteNode, run_nodes
@@ -99,6 +100,10 @@ class MavlinkDriverNode(SuiteNode):
         steady = RosClock(clock_type=ClockType.STEADY_TIME)
         for period, look in ((_LISTEN, self._listen_to_vehicle), (_LOOK, self._look)):
             self.create_timer(period / max(p.clock_speed, 1.0), look, clock=steady)
+
+    def claim(self) -> Claim | None:
+        emulated = self.parameters.clock_speed > 0.0
+        return of_simulator(self.get_namespace(), self.get_name()) if emulated else None
 
     def report(self) -> dict[str, Any]:
         values = {"vehicle": self._status or "not heard yet", **self._link_watch.values()}

@@ -48,6 +48,10 @@ def parser() -> argparse.ArgumentParser:
         "rows", nargs="*", metavar="ROW", help="only these, e.g. 'odom jump' (default: a representative part)"
     )
     p.add_argument("--full", action="store_true", help="all rows of the table in docs/safety.md")
+    p.add_argument(
+        "--hostile", type=positive, metavar="S",
+        help="no rows: fly for S seconds of wall time beside a node that publishes nonsense on every topic",
+    )  # fmt: skip
     p.add_argument("--list", action="store_true", help="print the names of all rows")
     p.add_argument("--speed", type=positive, default=SPEED, metavar="N", help="of the simulator (default 4)")
     p.add_argument("--json", type=target, metavar="FILE", help="write the results there")
@@ -63,6 +67,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     if arguments.list:
         print("\n".join(row.name for row in TABLE))
         return EXIT_DONE
+    if arguments.hostile is not None and (arguments.rows or arguments.full or arguments.json):
+        raise ConfigurationError("--hostile", "together with rows or --json", "it alone")
     rows = _rows(arguments)
     if arguments.out is not None:
         make_directory(arguments.out, new=True)
@@ -70,6 +76,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     console = terminal()
     with tempfile.TemporaryDirectory(prefix="auv-faults-") as scratch:
+        if arguments.hostile is not None:
+            directory = arguments.out or Path(scratch)
+            return _besiege(directory, arguments.speed, arguments.hostile, console)
         results = _run(rows, arguments.out or Path(scratch), arguments.speed, console)
     good = sum(result.good for result in results)
     if arguments.json is not None:
@@ -122,6 +131,29 @@ def _run(rows: list[Expectation], directory: Path, speed: float, console: Consol
         highlight=False,
     )
     return results
+
+
+def _besiege(directory: Path, speed: float, seconds: float, console: Console) -> int:
+    from auv_sim.faults.siege import besiege  # rclpy, only when it is needed
+
+    with progress_bar(console, disable=not console.is_terminal) as bar:
+        task = bar.add_task("under attack", total=round(seconds))
+        found = besiege(
+            directory, speed, seconds, lambda share: bar.update(task, completed=round(share * seconds))
+        )
+    table = Table(title=f"{seconds:g} s beside a hostile node", title_justify="left")
+    for heading in ("process", "grew by (MB)", "topics named in /diagnostics"):
+        table.add_column(heading)
+    for name, grown in found.growth.items():
+        table.add_row(name, f"{grown:.1f}", ", ".join(sorted(found.named.get(name, ()))))
+    console.print(table)
+    console.print(
+        f"{found.refused} messages refused, rudder at most {math.degrees(found.largest_rudder):.1f} degrees",
+        highlight=False,
+    )
+    for text in found.wrong:
+        console.print(text, style="red", highlight=False, markup=False)
+    return EXIT_FAILED if found.wrong else EXIT_DONE
 
 
 def _table(results: list) -> Table:  # type: ignore[type-arg]

@@ -86,6 +86,7 @@ def _reference(place: str) -> list[Expectation]:
         _E(place, "stop", _AUTOPILOT, "guidance is silent", 0.6, **stops),
         _E(place, "delay", _AUTOPILOT, "guidance is silent", 0.6, **stops),
         _E(place, "nan", _AUTOPILOT, f"{place}: found nan", 0.1, **stops),
+        _E(place, "cut", _AUTOPILOT, "bytes that do not decode", 0.1, **stops),
         _E(place, "jump", _AUTOPILOT, "expected from", 0.1, **stops),
         _E(place, "reverse", "", "", 0.0, "goes on"),
         _E(place, "flood", _AUTOPILOT, f"{place} comes at", **_FLOOD),
@@ -98,6 +99,7 @@ def _command(place: str) -> list[Expectation]:
         _E(place, "stop", _PLANT, f"no {place}", 1.1, **stops),
         _E(place, "delay", _PLANT, f"no {place}", 1.1, **stops),
         _E(place, "nan", _PLANT, f"{place}: found nan", 0.1, **stops),
+        _E(place, "cut", _PLANT, "bytes that do not decode", 0.1, **stops),
         _E(place, "jump", _PLANT, "expected from", 0.1, **stops),
         _E(place, "reverse", "", "", 0.0, "goes on"),
         _E(place, "flood", _PLANT, f"{place} comes at", **_FLOOD),
@@ -128,6 +130,8 @@ TABLE: tuple[Expectation, ...] = (
     ),
     _odom("reverse", "odom: found a stamp"),
     _odom("frameless", "frame_id ''"),
+    _odom("timeless", "odom: found a stamp of"),
+    _odom("cut", "bytes that do not decode"),
     _E("odom", "flood", _AUTOPILOT, "odom comes at", **_FLOOD),
     _water("stop", "no fresh velocity_through_water", within=1.1),
     _water("delay", "no fresh velocity_through_water", within=1.1),
@@ -140,6 +144,8 @@ TABLE: tuple[Expectation, ...] = (
     ),
     _water("reverse", "velocity_through_water: found a stamp"),
     _water("frameless", "velocity_through_water: found frame_id ''"),
+    _water("timeless", "velocity_through_water: found a stamp of"),
+    _water("cut", "bytes that do not decode"),
     _E("velocity_through_water", "flood", _GUIDANCE, "velocity_through_water comes at", **_FLOOD),
     _current("stop", "no fresh current_estimate", within=5.2, lasts=6.0, set_by="current_timeout"),
     _current(
@@ -150,6 +156,8 @@ TABLE: tuple[Expectation, ...] = (
     _current("jump", "current_estimate: found"),
     _current("reverse", "current_estimate: found a stamp"),
     _current("frameless", "current_estimate: found frame_id ''"),
+    _current("timeless", "current_estimate: found a stamp of"),
+    _current("cut", "bytes that do not decode"),
     _E("current_estimate", "flood", _GUIDANCE, "current_estimate comes at", **_FLOOD),
     *_reference("desired_yaw"),
     _E("desired_yaw", "freeze", _GUIDANCE, "limit path_", 90.0, **_OFF_PATH),
@@ -176,6 +184,8 @@ TABLE: tuple[Expectation, ...] = (
     _E("mission_state", "stop", _GUIDANCE, "aborted: abort was called", 0.1, "aborts", 0.2, then_abort=True),
     _E("mission_state", "delay", _GUIDANCE, "aborted: abort was called", 0.1, "aborts", 0.2, then_abort=True),
     _E("mission_state", "nan", _AUTOPILOT, "mission_state: found 'nan'", 0.1, "aborts", 0.2, then_abort=True),
+    _E("mission_state", "cut", _AUTOPILOT, "bytes that do not decode", 0.1, "aborts", 0.2, then_abort=True),
+    _E("mission_state", "forge", _AUTOPILOT, "'complete' once among 'running'", 2.5, "goes on", wall=True),
     _E(
         "mission_state", "freeze", _GUIDANCE, "aborted: abort was called", 0.1, "aborts", 0.2, then_abort=True
     ),
@@ -198,7 +208,8 @@ TABLE: tuple[Expectation, ...] = (
 #: What the tests run: one of each way to notice and of each outcome.
 REPRESENTATIVE = (
     "odom jump", "odom stop", "velocity_through_water reverse", "desired_yaw nan",
-    "rudder_cmd stop", "thrust_cmd freeze then abort", "heading_autopilot kill", "ailos_guidance kill",
+    "rudder_cmd stop", "mission_state forge", "thrust_cmd freeze then abort", "heading_autopilot kill",
+    "ailos_guidance kill",
 )  # fmt: skip
 
 

@@ -125,6 +125,11 @@ class Nodes:
         process.send_signal(signal.SIGKILL)
         process.wait()
 
+    @property
+    def ids(self) -> dict[str, int]:
+        """Name -> process id."""
+        return {name: process.pid for name, process in self._processes.items()}
+
     def crashed(self) -> list[str]:
         """The nodes that ended and were not killed."""
         return [name for name, process in self._processes.items() if process.poll() is not None]
@@ -241,14 +246,18 @@ class Flight:
         """
         deadline = time.monotonic() + patience
         while not condition():
-            if self._stop.requested:
-                raise KeyboardInterrupt
+            self.check_stop()
             if time.monotonic() > deadline:
                 crashed = ", ".join(self.nodes.crashed())
                 raise GraphFailed(
                     f"{what}: not within {patience:g} s" + (f" ({crashed} ended)" * bool(crashed))
                 )
             self.executor.spin_once(timeout_sec=0.02)
+
+    def check_stop(self) -> None:
+        """Raise KeyboardInterrupt if a signal came."""
+        if self._stop.requested:
+            raise KeyboardInterrupt
 
     def pass_time(self, seconds: float) -> None:
         """So much ROS time."""

@@ -27,6 +27,9 @@ class Injector:
     reverse     the last good messages in reverse order, as they were, and the first of them from then on.
     flood       the message so many times, spread over the time to the next one.
     frameless   an empty frame_id.
+    timeless    a stamp of 4294967295 ns, which is no time.
+    cut         the first half of its bytes.
+    forge       the message, and behind the first one the text ``complete`` once.
 
     Args:
         kind: the message class.
@@ -39,6 +42,7 @@ class Injector:
         self.kind = kind
         self.delay, self.jump, self.copies = delay, jump, copies
         self._fault: Fault = "none"
+        self._forged = False
         self._past: deque[bytes] = deque(maxlen=_MEMORY)
         self._under_way: deque[tuple[float, bytes]] = deque()
         self._came = 0.0
@@ -51,6 +55,7 @@ class Injector:
     @fault.setter
     def fault(self, fault: Fault) -> None:
         self._fault = fault
+        self._forged = False
         self._under_way.clear()
 
     def pass_on(self, data: bytes, now: float) -> list[bytes]:
@@ -67,6 +72,13 @@ class Injector:
                 return self.due(now)
             case "reverse":
                 return [self._past.pop() if len(self._past) > 1 else self._past[0]] if self._past else []
+            case "cut":
+                return [data[: len(data) // 2]]
+            case "forge" if self._forged:
+                return [data]
+            case "forge":
+                self._forged = True
+                return [data, bytes(serialize_message(self.kind(data="complete")))]
             case "flood":
                 gap = min(now - self._came, 1.0) / self.copies
                 self._came = now
@@ -92,6 +104,8 @@ class Injector:
                 message = frozen
             case "frameless" if hasattr(message, "header"):
                 message.header.frame_id = ""
+            case "timeless" if hasattr(message, "header"):
+                message.header.stamp.nanosec = 2**32 - 1
             case "nan":
                 _set_first_number(message, lambda _: math.nan)
             case "jump":

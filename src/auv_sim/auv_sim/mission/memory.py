@@ -6,6 +6,15 @@ from collections.abc import Sequence
 from pathlib import Path
 
 
+def resident(pid: int) -> int:
+    """Resident memory of a process, kB; 0 if it has ended."""
+    try:
+        status = Path(f"/proc/{pid}/status").read_text()
+    except OSError:
+        return 0
+    return int(status.split("VmRSS:")[1].split()[0]) if "VmRSS:" in status else 0
+
+
 def of_children(pid: int) -> dict[str, int]:
     """Resident memory (kB) of each direct child that runs a module: last part of the module's name -> kB."""
     found: dict[str, int] = {}

@@ -22,6 +22,7 @@ from auv_msgs_py.types import STOP, Command
 from auv_msgs_py.wire import Clock, Float64, Odometry, TwistWithCovarianceStamped, Vector3Stamped
 from auv_path_following import vehicle
 from auv_path_following.guidance.mission_state import State
+from auv_sim.nodes.held_commands import HeldCommands
 from auv_sim.nodes.lockstep import Lockstep
 from auv_sim.nodes.pacing import Pacer
 from auv_sim.parameters import PlantParameters
@@ -30,8 +31,6 @@ from auv_sim.plant.simulated import SimulatedVehicle
 
 #: States of a mission in which the vehicle, free running, obeys no command: it may have come late.
 _OVER = (State.HOLDING, State.COMPLETE, State.ABORTED)
-#: A rudder command may miss the stop by rounding, rad.
-_ROUNDING = 1e-9
 
 
 class RemusPlantNode(SuiteNode):
@@ -49,7 +48,7 @@ class RemusPlantNode(SuiteNode):
         self._mission = MissionWord(State)
         self.command = STOP
         self._released = not p.hold_until_running
-        self._commands: dict[str, tuple[float, int]] = {}
+        self._commands = HeldCommands(self.vehicle.rudder.max_angle, self.vehicle.thrust_max)
         self._reset_wanted = False
         self._begun = False
         self._odometry = Odometry(p.world_frame, p.body_frame)
@@ -74,9 +73,8 @@ class RemusPlantNode(SuiteNode):
         self.listen(topics.MISSION_STATE, self._on_mission_state)
         self.create_service(Trigger, topics.RESET_SERVICE, self._on_reset)
         if self.pacer is not None:
-            self.create_timer(
-                self.pacer.ask_every, self._tick, clock=RosClock(clock_type=ClockType.STEADY_TIME)
-            )
+            steady = RosClock(clock_type=ClockType.STEADY_TIME)
+            self.create_timer(self.pacer.ask_every, self._tick, clock=steady)
 
     def _check_frames(self, p: PlantParameters) -> None:
         try:
@@ -110,8 +108,11 @@ class RemusPlantNode(SuiteNode):
         """Publish the present state, once the readers are there."""
         vehicle, stamp = self.simulated, self.stamp
         set_stamp(self._clock_message.clock, stamp)
-        fill_odometry(self._odometry, vehicle.navigation, *vehicle.ground_velocity, stamp)
-        fill_water_velocity(self._water, vehicle.water_velocity, stamp)
+        rest = self._at_rest
+        fill_odometry(
+            self._odometry, vehicle.navigation, *((0.0, 0.0) if rest else vehicle.ground_velocity), stamp
+        )
+        fill_water_velocity(self._water, vehicle.passing_water if rest else vehicle.water_velocity, stamp)
         self._rudder_message.data = vehicle.rudder
         fill_current(self._true_current, vehicle.current, stamp)
         if self._truth is not None:
@@ -138,17 +139,13 @@ class RemusPlantNode(SuiteNode):
         self.steps += 1
 
     def _on_rudder(self, message: Float64) -> None:
-        limit = self.vehicle.rudder.max_angle
-        self._on_command(topics.RUDDER_CMD.name, message.data, -limit, limit)
+        self._on_command(topics.RUDDER_CMD.name, message.data)
 
     def _on_thrust(self, message: Float64) -> None:
-        self._on_command(topics.THRUST_CMD.name, message.data, 0.0, self.vehicle.thrust_max)
+        self._on_command(topics.THRUST_CMD.name, message.data)
 
-    def _on_command(self, topic: str, value: float, lowest: float, highest: float) -> None:
-        finite(value, topic)
-        if not lowest - _ROUNDING <= value <= highest + _ROUNDING:
-            raise MessageRefused(topic, f"{value:g}", f"from {lowest:g} to {highest:g}")
-        self._commands[topic] = value, self.stamp
+    def _on_command(self, topic: str, value: float) -> None:
+        self._commands.put(topic, finite(value, topic), self.stamp)
         if self._lockstep is not None:
             self._lockstep.on_command(topic, value)
 
@@ -170,24 +167,28 @@ class RemusPlantNode(SuiteNode):
     def _tick(self) -> None:
         """Free running: the next step, when the wall clock asks for it."""
         assert self.pacer is not None
-        if not self._released:
-            self.pacer.restart(time.monotonic())
+        if not self.pacer.due(time.monotonic()):
             return
-        if self.pacer.due(time.monotonic()):
-            self.command = self._held_command()
-            if self._begun:
-                self.advance(self.command)
-            self._begun = True
-            self.publish_step()
+        self.command = self._held_command()
+        if self._begun and self._at_rest and not self._reset_wanted:
+            self.steps += 1
+        elif self._begun:
+            self.advance(self.command)
+        self._begun = True
+        self.publish_step()
+
+    @property
+    def _at_rest(self) -> bool:
+        """Free running, before the mission: time passes, and the vehicle lies where it will begin."""
+        return self._lockstep is None and not self._released
 
     def _held_command(self) -> Command:
-        """The newest commands; a stop when none came for too long, as any vehicle must do by itself."""
-        names, bound = (topics.RUDDER_CMD.name, topics.THRUST_CMD.name), self.parameters.command_timeout
-        held = [self._commands.get(name, (0.0, self.stamp)) for name in names]
-        silent = [name for name, (_, at) in zip(names, held, strict=True) if at < self.stamp - bound * 1e9]
+        """The newest commands; a stop when none came for too long, as any vehicle must do on its own."""
+        bound = self.parameters.command_timeout
+        command, silent = self._commands.at(self.stamp, bound)
         self.health.warn("commands", f"no {', '.join(silent)} for {bound:g} s: stopped" if silent else "")
         over = self._mission.at(time.monotonic()) in _OVER
-        return STOP if silent or over else Command(held[0][0], held[1][0])
+        return STOP if silent or over else command
 
 
 def main(args: Sequence[str] | None = None) -> int:

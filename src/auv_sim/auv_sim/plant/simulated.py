@@ -6,6 +6,8 @@ navigator fuses, the servo has play, and only `true_navigation` knows where the 
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from auv_msgs_py.types import NO_CURRENT, Command, Current, Navigation, WaterVelocity
@@ -69,6 +71,13 @@ class SimulatedVehicle:
     def truth(self) -> tuple[Navigation, float, float]:
         """Where it really is, and its true (u, v) over ground, m/s."""
         return self.plant.navigation, *self.plant.ground_velocity(self.current)
+
+    @property
+    def passing_water(self) -> WaterVelocity:
+        """Velocity through the water while held over ground: the reversed current, m/s, FRD."""
+        psi, (Vx, Vy) = self.navigation.psi, self.current
+        cos, sin = math.cos(psi), math.sin(psi)
+        return WaterVelocity(-cos * Vx - sin * Vy, sin * Vx - cos * Vy)
 
     @property
     def water_velocity(self) -> WaterVelocity:
