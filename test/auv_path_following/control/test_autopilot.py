@@ -231,7 +231,8 @@ def test_a_rudder_however_fast_gives_a_kp(rate):
     measured = dataclasses.replace(
         fast, hull=None, cruise=Cruise(thrust=6.48, speed=2.0), turning=Turning(radius=9.0)
     )
-    assert HeadingAutopilot(measured, config).controller.config.kp == min(fast.rudder.max_rate, 10.0)
+    kp = HeadingAutopilot(measured, config).controller.config.kp  # by b = 1.8 u^2/L^2, no hull being there
+    assert kp == pytest.approx(min(fast.rudder.max_rate, 12.0 / (1.8 * (2.0 / 1.6) ** 2 * nism.k5)))
 
 
 @pytest.mark.parametrize("name", config_files.shipped("vehicles"))

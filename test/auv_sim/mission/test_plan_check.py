@@ -165,4 +165,4 @@ def test_a_vehicle_without_a_hull_needs_limits_and_flies_by_those_that_the_launc
         )
     ]
     errors = [float(np.sqrt(np.mean(run.ye**2))) for run in runs]
-    assert errors[1] < 1.2 * errors[0] + 0.01
+    assert errors[1] < 1.5 * errors[0]  # narrower limits: they assume a sluggish hull

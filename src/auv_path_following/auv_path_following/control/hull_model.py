@@ -48,6 +48,23 @@ def tightest_turn(vehicle: Vehicle, thrust: float | None = None) -> SteadyTurn:
     return SteadyTurn(vehicle.turning.radius, vehicle.speed_at(thrust), "measured")
 
 
+#: b L^2/u^2 of torpedoes of length L at the speed u, with b = |dr/dt per rad|: the least of 14 (the largest
+#: has 3.1), and what lies a factor of 1.8 from either end.
+LEAST_EFFECT, TYPICAL_EFFECT = 1.0, 1.8
+
+
+def rudder_effect(vehicle: Vehicle, without_hull: float = TYPICAL_EFFECT) -> float:
+    """Return b = |dr/dt| for each radian of rudder at the speed of full thrust, 1/s^2.
+
+    Args:
+        vehicle: with a hull, or with its length and measured speed.
+        without_hull: b L^2/u^2 to assume where the file has no hull.
+    """
+    if vehicle.hull is not None:
+        return HullModel(vehicle).b
+    return without_hull * (vehicle.top_speed / vehicle.length) ** 2
+
+
 class HullModel:
     """Eqs. (18), (19) as a controller's own model; the plant may be another hull.
 

@@ -6,7 +6,7 @@ import math
 
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.control.controller import ControllerOutput, HeadingInputs
-from auv_path_following.control.hull_model import HullModel
+from auv_path_following.control.hull_model import rudder_effect
 from auv_path_following.vehicle import Vehicle
 
 #: Of the rudder rate's two parts, rad/s: beyond anything that moves a fin.
@@ -63,15 +63,13 @@ def kp_of(config: NismConfig, vehicle: Vehicle) -> float:
     """Return kp, rad/s: as given, or from rudder and hull where that is asked for.
 
     kp is then the rudder's rate, less ks. With a fast servo that would raise the crossover of the inner loop,
-    b kp k5, beyond what dead time and sampling allow, so it ends at `LARGEST_CROSSOVER`. A vehicle's file
-    without a hull does not give b: there the rate alone counts.
+    b kp k5, beyond what dead time and sampling allow, so it ends at `LARGEST_CROSSOVER`. Where the
+    vehicle's file has no hull, b is that of a typical torpedo of its length and speed.
     """
     if not config.kp_from_rudder:
         return config.kp
     kp = min(max(vehicle.rudder.max_rate - config.ks, 1e-6), LARGEST_RATE)
-    if vehicle.hull is None:
-        return kp
-    return min(kp, LARGEST_CROSSOVER / (HullModel(vehicle).b * config.k5))
+    return min(kp, LARGEST_CROSSOVER / (rudder_effect(vehicle) * config.k5))
 
 
 class Nism:

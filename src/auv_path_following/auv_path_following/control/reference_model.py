@@ -14,7 +14,7 @@ from typing import NamedTuple
 from auv_msgs_py.angles import wrap
 from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.settings import setting, settings
-from auv_path_following.control.hull_model import HullModel, tightest_turn
+from auv_path_following.control.hull_model import LEAST_EFFECT, rudder_effect, tightest_turn
 from auv_path_following.vehicle import Vehicle
 
 
@@ -67,8 +67,6 @@ JERK_SHARE = 0.9
 BUILD_UP = 0.8
 #: Share of the full rudder that the acceleration may take.
 RUDDER_SHARE = 1.0 / 3.0
-#: b L^2/u^2 of a torpedo of length L at the speed u: the least of 14, of which the largest has 3.1.
-LEAST_EFFECT = 1.0
 
 
 def limits_of(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> Limits:
@@ -91,9 +89,11 @@ def limits_of(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> 
     """
     if config.max_rate and config.max_acceleration and config.max_jerk:
         return Limits(config.max_rate, config.max_acceleration, config.max_jerk)
+    # By the least b, limits without a hull are narrow rather than wide.
+    limits = _derived(config, vehicle, rudder_effect(vehicle, LEAST_EFFECT), rudder_rate)
     if vehicle.hull is not None:
-        return _derived(config, vehicle, HullModel(vehicle).b, rudder_rate)
-    advice = _derived(config, vehicle, _least_b(vehicle), rudder_rate)._asdict()
+        return limits
+    advice = limits._asdict()
     missing = [name for name in advice if not getattr(config, f"max_{name}")]
     names = ", ".join(f"reference.max_{name}" for name in missing)
     numbers = ", ".join(f"max_{name}: {advice[name]:.2g}" for name in missing)
@@ -112,11 +112,6 @@ def _derived(config: ReferenceConfig, vehicle: Vehicle, b: float, rudder_rate: f
     fastest = vehicle.top_speed / tightest_turn(vehicle).radius
     rate = config.max_rate or min(acceleration / config.bandwidth, fastest)
     return Limits(rate, acceleration, jerk)
-
-
-def _least_b(vehicle: Vehicle) -> float:
-    """The b of a sluggish torpedo of this length and speed: limits by it are narrow rather than wide."""
-    return LEAST_EFFECT * (vehicle.top_speed / vehicle.length) ** 2
 
 
 class ReferenceModel:
