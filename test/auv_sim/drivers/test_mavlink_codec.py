@@ -43,6 +43,14 @@ def test_what_follows_a_wrong_checksum_is_read_and_what_follows_garbage_is_not()
     assert codec.unpack(sender.pack(attitude(5))[:-1]) == ([], "a message cut short")
 
 
+def test_a_datagram_of_nothing_but_failures_costs_little() -> None:
+    codec, sender = Codec(255, 191), Codec(1, 1)
+    broken = bytearray(sender.pack(attitude(1)))
+    broken[15] ^= 0xFF
+    assert times(codec, 3 * bytes(broken) + sender.pack(attitude(2))) == [2]
+    assert times(codec, 4 * bytes(broken) + sender.pack(attitude(3))) == []
+
+
 @given(st.binary(max_size=600), st.booleans())
 def test_no_bytes_end_the_reading_with_an_exception(data: bytes, prefixed: bool) -> None:
     frames, damage = Codec(255, 191, KEY).unpack(b"\xfd" + data if prefixed else data)

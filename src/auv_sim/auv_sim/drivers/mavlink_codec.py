@@ -10,6 +10,8 @@ from auv_sim.drivers.mavlink_signing import Reader, keep_time, signing
 
 #: More than an Ethernet frame holds; larger ones only cost time, bytes.
 LARGEST_DATAGRAM = 2048
+#: Messages of one datagram that may fail their checks before the rest is left unread: each costs time.
+_MOST_FAILURES = 4
 
 
 class Frame(NamedTuple):
@@ -44,14 +46,14 @@ class Codec:
 
         Returns:
             The messages in it, and what was wrong with the rest ("": nothing). A message that fails its
-            checks is skipped; where none begins, the reading ends.
+            checks is skipped; where none begins, and after `_MOST_FAILURES`, the reading ends.
         """
         if not 0 < len(datagram) <= LARGEST_DATAGRAM:
             return [], "too large a datagram" if datagram else "an empty datagram"
         keep_time(self._signing)
         frames: list[Frame] = []
-        at, damage = 0, ""
-        while at < len(datagram):
+        at, failures, damage = 0, 0, ""
+        while at < len(datagram) and failures < _MOST_FAILURES:
             end = at + _length(datagram, at)
             if not at < end <= len(datagram):
                 return frames, "no MAVLink" if end == at else "a message cut short"
@@ -59,7 +61,7 @@ class Codec:
             try:
                 message = self._reader.decode(bytearray(data))
             except mavlink.MAVError as error:
-                damage = str(error.message)
+                failures, damage = failures + 1, str(error.message)
             else:
                 known = not isinstance(message, mavlink.MAVLink_unknown)
                 frames.append(Frame(*_sender(data), message if known else None))

@@ -37,10 +37,10 @@ class Configured:
         if not self._host or (self._port is not None and not 0 < self._port < 65536):
             raise ConfigurationError(where, f"'{text}'", "HOST or HOST:PORT")
 
-    def __contains__(self, sender: object) -> bool:
-        return isinstance(sender, tuple) and sender in {
-            (self._host, sender[1] if self._port is None else self._port)
-        }
+    def allows(self, sender: Address) -> bool:
+        """Whether a sender may be the vehicle."""
+        host, port = sender
+        return host == self._host and self._port in (None, port)
 
 
 class Peer:
@@ -70,7 +70,7 @@ class Peer:
         """Whether a datagram is worth reading: its sender is the vehicle, or might become it."""
         if sender == self.address:
             return True
-        allowed = self._allowed is None or sender in self._allowed
+        allowed = self._allowed is None or self._allowed.allows(sender)
         return allowed and (self.address is None or now > self._heard_at + self._patience)
 
     def is_vehicle(self, sender: Address, frames: Sequence[Frame], now: float) -> bool:
