@@ -82,6 +82,14 @@ def test_the_parameter_service_refuses_with_a_reason(bench: Bench) -> None:
     assert "guidance.switching.mode: found 'sometimes', expected one of 'off', 'g0' or 'all'" in result.reason
 
 
+def test_a_parameter_may_say_auto_where_0_means_that(bench: Bench) -> None:
+    node = bench.start(GuidanceNode, guidance__switching__radius="auto")
+    assert node.get_parameter("guidance.switching.radius").value == 0.0
+    assert node.parameters.guidance.switching.radius == 0.0
+    with pytest.raises(ConfigurationError, match="found 'auto', expected a number"):
+        bench.start(GuidanceNode, guidance__ailos__lookahead="auto")
+
+
 @pytest.mark.parametrize(
     ("make", "parameters", "expected"),
     [

@@ -157,7 +157,7 @@ def test_computed_circles_are_never_too_wide_but_legs_may_be_too_short():
     computed = SwitchingConfig(mode="g0", radius=0.0)
     (line,) = (line for line in said(check(mission(*legs), REMUS, switching=computed)) if "circle" in line)
     assert line.startswith("warning joint 1 at north 60.0, east 0.0")
-    assert "a circle of acceptance of 4.5 m (as do 1 more), expected 6.0 m" in line
+    assert "room for a circle of acceptance of 4.5 m (likewise at 1 more), expected room for 6.0 m" in line
     sharp = smooth([(0, 0), (200, 0), (60, 80)], Smoothing(kind="linear"))
     strong = check(mission(*sharp), REMUS, Current(0.4, 0.0), switching=computed, lookahead=1.0)
     assert not strong.refusals and not any("circle" in line for line in said(strong))

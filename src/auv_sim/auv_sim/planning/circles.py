@@ -63,11 +63,16 @@ def _computed_circles(
                 short.append((radius - corner.widest, radius, joint))
     if short:
         lacking, radius, joint = max(short, key=lambda item: item[0])
-        found = f"legs that leave a circle of acceptance of {radius - lacking:.1f} m"
+        found = f"legs with room for a circle of acceptance of {radius - lacking:.1f} m"
         if len(short) > 1:
-            found += f" (as do {len(short) - 1} more)"
+            found += f" (likewise at {len(short) - 1} more)"
         place = f"joint {joint.index} {at(joint.x, joint.y)}"
-        yield Verdict("warning", place, found, f"{radius:.1f} m, half of the shorter leg, for this turn")
+        yield Verdict(
+            "warning",
+            place,
+            found,
+            f"room for {radius:.1f} m, which this turn needs on half of the shorter leg",
+        )
 
 
 def _given_circles(mission: Mission, switching: SwitchingConfig, lookahead: float) -> Iterator[Verdict]:
