@@ -227,7 +227,7 @@ def test_a_plan_is_flown_and_leaves_a_mission_file_that_flies_the_same(
     ]
     assert main(asked) == 0
     said = capsys.readouterr().out
-    assert "notice pier.plan is no mission file; assumed: straight legs" in said
+    assert "notice pier.plan is not a mission file; assumed: straight legs" in said
     assert "notice pier.plan: altitudes (-5 m) not taken" in said
     flown = mission_file.load(str(run / "config" / "mission.yaml"))
     assert flown.path.length == pytest.approx(22.3, abs=0.1)

@@ -43,5 +43,5 @@ def test_what_is_not_taken_of_a_waypoint_file_is_logged(
     (tmp_path / "a.plan").write_text(json.dumps({"fileType": "Plan", "mission": {"items": items}}))
     bench.start(GuidanceNode, mission=str(tmp_path / "a.plan"), vehicle="remus100")
     logged = capfd.readouterr().err
-    assert "a.plan is no mission file; assumed: straight legs" in logged
+    assert "a.plan is not a mission file; assumed: straight legs" in logged
     assert "a.plan: hold of 60 s (items 1, 2) not taken" in logged

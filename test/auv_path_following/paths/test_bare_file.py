@@ -27,7 +27,7 @@ def test_a_plan_is_flown_straight_from_waypoint_to_waypoint_and_says_so(tmp_path
     assert mission.speed == 1.5
     assert (mission.origin.latitude_deg, mission.origin.longitude_deg) == (59.9, 10.6)
     assert mission.notices[0] == (
-        "harbour.plan is no mission file; assumed: straight legs (smoothing linear), speed 1.5 m/s,"
+        "harbour.plan is not a mission file; assumed: straight legs (smoothing linear), speed 1.5 m/s,"
         " origin [59.9, 10.6]"
     )
 

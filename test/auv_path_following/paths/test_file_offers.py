@@ -65,6 +65,13 @@ def test_a_geofence_of_the_mission_goes_before_the_plans(loaded):
     assert "a.plan: its inclusion fence not taken: the mission file has its own geofence" in mission.notices
 
 
+def test_a_fence_of_the_route_gives_way_to_a_geofence_of_another_file_with_a_line(loaded, tmp_path):
+    (tmp_path / "area.csv").write_text("lat,lon\n59.8,10.5\n59.8,10.7\n60,10.6\n")
+    mission = loaded(HEAD + "speed: 1\ngeofence: {file: area.csv}\n" + WAY, fences=1)
+    assert len(mission.geofence) == 3
+    assert "a.plan: its inclusion fence not taken: the mission file has its own geofence" in mission.notices
+
+
 def test_several_fences_are_named_and_chosen(loaded):
     mission = loaded(HEAD + "speed: 1\n" + WAY, fences=2)
     assert mission.geofence == ()

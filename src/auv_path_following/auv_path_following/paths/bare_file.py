@@ -20,7 +20,7 @@ def is_bare(source: Path) -> bool:
     return suffix in waypoint_files.SUFFIXES and suffix not in _AMBIGUOUS
 
 
-def notice(mission: dict[str, Any], source: Path, speed: float | None) -> str:
+def notice(mission: dict[str, Any], source: Path, speed: float) -> str:
     """Say what is assumed.
 
     Args:
@@ -31,7 +31,7 @@ def notice(mission: dict[str, Any], source: Path, speed: float | None) -> str:
     words = ["straight legs (smoothing linear)", f"speed {speed:g} m/s"]
     if origin := mission.get("origin"):
         words.append(f"origin [{origin['latitude_deg']:g}, {origin['longitude_deg']:g}]")
-    return f"{source.name} is no mission file; assumed: {', '.join(words)}"
+    return f"{source.name} is not a mission file; assumed: {', '.join(words)}"
 
 
 def assumed(source: Path) -> dict[str, Any]:

@@ -7,7 +7,7 @@ from auv_path_following.paths.site import Point, Site
 
 
 def speed(site: Site, thrust: float | None, asked: float | None) -> float | None:
-    """The mission's speed through the water, m/s: as asked for, else that of its waypoint file.
+    """Return the mission's speed through the water, m/s: as asked for, else that of its waypoint file.
 
     Args:
         site: with the files that were read.
@@ -31,7 +31,7 @@ def speed(site: Site, thrust: float | None, asked: float | None) -> float | None
 
 
 def geofence(site: Site) -> list[Point]:
-    """The corners (north, east), m, of the one inclusion fence that a route's file brings; empty without."""
+    """Place the corners (north, east), m, of the one inclusion fence of the route's file; empty without."""
     for path, content in list(site.files.items()):
         name = path.relative_to(site.folder).as_posix()
         if len(content.fences) == 1:
@@ -45,8 +45,13 @@ def geofence(site: Site) -> list[Point]:
     return []
 
 
-def leave_geofence(site: Site) -> None:
-    """Note the inclusion fences of files where the mission has a geofence of its own."""
+def leave_geofence(site: Site, taken: str = "") -> None:
+    """Note the inclusion fences that give way to the mission's own geofence.
+
+    Args:
+        site: with the files that were read.
+        taken: the file that the geofence comes from; empty where it stands in the mission file.
+    """
     for path, content in site.files.items():
-        if content.fences:
+        if content.fences and path != site.folder / taken:
             site.note(f"{path.name}: its inclusion fence not taken: the mission file has its own geofence")

@@ -196,7 +196,7 @@ def load(name_or_path: str, hull: Vehicle | None = None) -> Mission:
         speed = file_offers.speed(site, spec.thrust, spec.speed)
         geofence = _geofence(spec, site)
         if assumed is not None:
-            site.notices.insert(0, bare_file.notice(assumed, source, speed))
+            site.notices.insert(0, bare_file.notice(assumed, source, speed or bare_file.SPEED))
     except ArithmeticError as error:
         kind = exactly_one(spec, _ROUTES, "kinds of route")
         found = f"numbers that no path can be computed from ({error})"
@@ -233,6 +233,7 @@ def _geofence(spec: MissionSpec, site: Site) -> tuple[Point, ...]:
     if isinstance(spec.geofence, GeofenceFile):
         with within("geofence"):
             corners = spec.geofence.build(site)
+        file_offers.leave_geofence(site, spec.geofence.file)
     else:
         with within("geofence", joined=""):
             corners = site.points(spec.geofence)

@@ -96,7 +96,7 @@ class Site:
         return placed
 
     def read(self, name: str, use: Use, feature: str | None = None) -> Given:
-        """What a waypoint file in the mission file's folder holds for `use`, placed.
+        """Place what a waypoint file in the mission file's folder holds for `use`.
 
         Raises:
             ConfigurationError: it is elsewhere, missing, not understood, or does not fit; names the feature.

@@ -198,7 +198,7 @@ WRONG = {
     "a.kml": ("<kml>", "not XML"),
     "entities.kml": ('<!DOCTYPE kml [<!ENTITY a "b">]><kml/>', "a document type"),
     "text.kml": (_kml("<Point><coordinates>here</coordinates></Point>"), "1 numbers in 'here'"),
-    "spaces.kml": (_kml("<Point><coordinates>10, 63, 0</coordinates></Point>"), "'' is no number"),
+    "spaces.kml": (_kml("<Point><coordinates>10, 63, 0</coordinates></Point>"), "'' is not a number"),
     "glued.kml": (
         _kml("<LineString><coordinates>10,63,0,10.1,63,0,10.2,63,0</coordinates></LineString>"),
         "9 numbers in '10,63,0,10.1",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from typing import Literal, NamedTuple
 
 from auv_msgs_py.errors import ConfigurationError
@@ -84,8 +85,8 @@ def _pool(content: Content, use: Use) -> list[Shape]:
     return content.shapes
 
 
-def _names(names: object) -> str:
-    return listed(map(shown, names))  # type: ignore[call-overload]
+def _names(names: Iterable[str]) -> str:
+    return listed(map(shown, names))
 
 
 def _nothing(content: Content, use: Use) -> ConfigurationError:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import math
 from collections import Counter
@@ -94,7 +95,7 @@ def bounded(parts: S) -> S:
 
 
 def shape(kind: Kind, name: str, places: Sequence[Sequence[float]], holes: int = 0) -> Shape:
-    """A shape of (latitude, longitude[, height]); a ring's repeated end is left out."""
+    """Make a shape from (latitude, longitude[, height]); leave out a ring's repeated end."""
     points = [(place[0], place[1]) for place in places]
     if kind == "polygon" and len(points) > 1 and points[0] == points[-1]:
         points.pop()
@@ -102,7 +103,7 @@ def shape(kind: Kind, name: str, places: Sequence[Sequence[float]], holes: int =
 
 
 def extent(heights: Iterable[float]) -> tuple[float, float] | None:
-    """Smallest and largest height, m; None where all are 0 or not finite."""
+    """Return the smallest and the largest height, m; None where all are 0 or not finite."""
     known = [height for height in heights if math.isfinite(height)]
     return (min(known), max(known)) if any(known) else None
 
@@ -125,13 +126,13 @@ def json_object(data: bytes, what: str) -> dict[str, Any]:
 
 
 def number(value: Any) -> float:
-    """A number of a JSON file.
+    """Convert a number of a JSON file.
 
     Raises:
         ValueError: it is something else, or larger than a float.
     """
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise ValueError(f"{value!r:.40} is no number")
+        raise ValueError(f"{value!r:.40} is not a number")
     try:
         return float(value)
     except OverflowError:
@@ -139,21 +140,19 @@ def number(value: Any) -> float:
 
 
 def decimal(text: str) -> float:
-    """A number of a text file.
+    """Convert a number of a text file.
 
     Raises:
         ValueError: it is something else.
     """
-    try:
+    with contextlib.suppress(ValueError):
         if "_" not in text:  # 1_000 is Python's own way to write a number
             return float(text)
-    except ValueError:
-        pass
-    raise ValueError(f"{text!r:.40} is no number")
+    raise ValueError(f"{text!r:.40} is not a number")
 
 
 def labels(shapes: Sequence[Shape]) -> list[str]:
-    """A distinct label for each shape: its name, or its kind; numbered where several would be alike."""
+    """Label each shape with its name, or else its kind; number labels that several shapes share."""
     plain = [shape.name or shape.kind for shape in shapes]
     alike, seen = Counter(plain), Counter[str]()
     found = []
@@ -164,12 +163,12 @@ def labels(shapes: Sequence[Shape]) -> list[str]:
 
 
 def listed(words: Iterable[Any]) -> str:
-    """Words with commas between; a long list is cut and counted."""
+    """Join words with commas; cut a long list and count the rest."""
     items = [str(word) for word in words]
     more = f" and {len(items) - _LISTED} more" if len(items) > _LISTED else ""
     return ", ".join(items[:_LISTED]) + more
 
 
 def shown(name: str) -> str:
-    """A name of a file in quotes: control characters escaped, cut at 60 characters."""
+    """Quote a name from a file: escape control characters, cut it at 60 characters."""
     return repr(name if len(name) <= 60 else name[:57] + "...")

@@ -35,8 +35,8 @@ def _place(point: Element, name: str) -> list[float]:
     """[latitude, longitude, height]."""
     try:
         height = text_of(point, "ele")
-        place = [decimal(point.attrib["lat"]), decimal(point.attrib["lon"])]
+        place = [decimal(point.get("lat", "")), decimal(point.get("lon", ""))]
         return [*place, decimal(height)] if height else place
-    except (KeyError, ValueError) as error:
+    except ValueError as error:
         where = shown(name) if name else ""
         raise ConfigurationError(where, f"a position that is not a number ({error})", "lat and lon") from None

@@ -81,10 +81,9 @@ _MOVING = {
     252: "override",
     601: "jump to a tag",
 }
-_CONVERT = {
-    177: "waypoints written out, or `closed: true` and `repeat: N` in the mission file",
-    601: "waypoints written out, or `closed: true` and `repeat: N` in the mission file",
-}
+_CONVERT = dict.fromkeys(
+    (177, 601), "waypoints written out, or `closed: true` and `repeat: N` in the mission file"
+)
 _DELETE = "waypoints only (commands 16 and 82): delete the item, or put waypoints in its place"
 
 
@@ -106,7 +105,7 @@ class Item(NamedTuple):
     goes_on: bool = True
 
     def value(self, index: int) -> float:
-        """A parameter; 0 where it is left empty.
+        """Return a parameter; 0 where it is left empty.
 
         Raises:
             ConfigurationError: it is not a number.
@@ -122,7 +121,7 @@ class Item(NamedTuple):
 
 
 def follow(items: Iterable[Item], content: Content) -> None:
-    """Add what a list of items comes down to: its line, the speed of all of it, its inclusion fences.
+    """Add the line through a list of items, the one speed along it, and its inclusion fences.
 
     A command that would lead the vehicle elsewhere makes the line's `refusal`; every other one that is not
     taken gets a notice.
@@ -210,13 +209,13 @@ class _Walk:
         self.left_out.setdefault(what, []).append(item.label)
 
     def whole_speed(self) -> float | None:
-        """The speed from the first waypoint, where the path begins, to the last one; None if it changes."""
+        """Return the speed from the first waypoint, where the path begins, to the last, if it is one."""
         if any(passed > 1 for passed, _, _ in self.speeds):
             return None
         return self.speeds[-1][1] if self.speeds else None
 
     def notices(self) -> list[str]:
-        """What is not taken, one line for each kind."""
+        """List what is not taken, one line for each kind."""
         kinds = list(self.left_out.items())
         found = [f"{what} ({_numbered(labels)}) not taken" for what, labels in kinds[:_MOST_KINDS]]
         if len(kinds) > _MOST_KINDS:

@@ -40,7 +40,7 @@ def _is_old(document: dict[str, Any]) -> bool:
 
 
 def content(document: dict[str, Any]) -> Content:
-    """What a plan holds.
+    """Sort out what a plan holds.
 
     Raises:
         ConfigurationError: as `read`.
