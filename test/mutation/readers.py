@@ -14,12 +14,13 @@ from typing import NamedTuple
 from auv_msgs_py import params_file
 from auv_msgs_py.errors import SuiteError
 from auv_path_following import config_files, vehicle
+from auv_path_following.paths import mission_file
 from auv_sim.bags import cli as bag_command
 from auv_sim.campaign.plan import StudyPlan
 from auv_sim.parameters import SUITE
 from auv_sim.planning import cli as plan_command
 from auv_sim.plant import sea
-from mutation import seeds
+from mutation import seeds, waypoint_seeds
 from mutation.mutate import mutate
 
 
@@ -112,14 +113,20 @@ def _bag(file: Path) -> None:
     _run(bag_command.main, "repair", bag, "--out", str(file.parent.parent / "whole"))
 
 
-def _waypoints(suffix: str, make: Callable[[Path], bytes], is_text: bool = True) -> Reader:
+def _waypoints(suffix: str, is_text: bool = True) -> Reader:
     def around(_: Path, directory: Path) -> None:
-        (directory / "m.yaml").write_text(seeds.AROUND.format(suffix=suffix), encoding="utf-8")
+        for use, keys in seeds.USES.items():
+            text = seeds.AROUND + keys.format(suffix=suffix)
+            (directory / f"{use}.yaml").write_text(text, encoding="utf-8")
 
     def read(file: Path) -> None:
-        _plan(file.with_name("m.yaml"))
+        for use in ("survey", "geofence"):
+            with contextlib.suppress(SuiteError):
+                mission_file.load(str(file.with_name(f"{use}.yaml")))
+        _plan(file.with_name("waypoints.yaml"))
 
-    return Reader(f"places.{suffix}", lambda made: [make(made)], read, around, is_text)
+    files = functools.partial(waypoint_seeds.files, suffix)
+    return Reader(f"places.{suffix}", lambda made: files(), read, around, is_text)
 
 
 def _recording(write: Callable[[Path], Path], spoiled: str, is_text: bool) -> Reader:
@@ -146,8 +153,10 @@ _PACKED = functools.partial(seeds.mcap, compression="zstd")
 #: Every reader by the name of what it reads.
 READERS = {
     "mission": Reader("m.yaml", lambda made: seeds.missions(), _plan, _beside_missions),
-    **{name: _waypoints(name, lambda _, text=text: text.encode()) for name, text in seeds.WAYPOINTS.items()},
-    "kmz": _waypoints("kmz", seeds.kmz, is_text=False),
+    # `mission` stands for a mission file here, not for QGroundControl's old format of that suffix.
+    **{suffix: _waypoints(suffix) for suffix in waypoint_seeds.TEXTS if suffix != "mission"},
+    "qgc_mission": _waypoints("mission"),
+    "kmz": _waypoints("kmz", is_text=False),
     "vehicle": _yaml("vehicles", lambda file: vehicle.load(str(file))),
     "params": _yaml("params", lambda file: params_file.load(file, SUITE)),
     "sea": _yaml("seas", lambda file: sea.load(str(file))),

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -14,45 +12,15 @@ from auv_path_following import config_files
 from auv_sim.recording.bag_writer import BagWriter
 from auv_sim.recording.definitions import typestore
 
-_PLACES = [(63.447, 10.399), (63.448, 10.401), (63.446, 10.403)]
-_LON_LAT = [[lon, lat] for lat, lon in _PLACES]
-_KML_POINTS = " ".join(f"{lon},{lat},0" for lon, lat in _LON_LAT)
-_ITEMS = [{"command": 16, "frame": 3, "params": [0, 0, 0, None, *place, 0]} for place in _PLACES]
-_SURVEY = {"TransectStyleComplexItem": {"Items": _ITEMS[1:]}, "polygon": _PLACES, "complexItemType": "survey"}
-_FENCE = {"polygons": [{"inclusion": True, "polygon": _PLACES}], "circles": []}
-_GPX = "".join(f'<rtept lat="{lat}" lon="{lon}"/>' for lat, lon in _PLACES)
-_KML = (
-    '<?xml version="1.0"?><kml xmlns="http://www.opengis.net/kml/2.2"><Document><Placemark><name>a</name>'
-    f"<LineString><coordinates>{_KML_POINTS}</coordinates></LineString></Placemark></Document></kml>"
-)
-#: Suffix -> one small file of waypoints in that format.
-WAYPOINTS = {
-    "geojson": json.dumps(
-        {
-            "type": "FeatureCollection",
-            "features": [
-                {
-                    "type": "Feature",
-                    "properties": {"name": "a"},
-                    "geometry": {"type": "LineString", "coordinates": _LON_LAT},
-                }
-            ],
-        }
-    ),
-    "kml": _KML,
-    "csv": "name,latitude,longitude\n" + "".join(f"a,{lat},{lon}\n" for lat, lon in _PLACES),
-    "plan": json.dumps(
-        {"fileType": "Plan", "geoFence": _FENCE, "mission": {"items": [_ITEMS[0], _SURVEY]}, "version": 1}
-    ),
-    "gpx": f'<gpx version="1.1" xmlns="http://www.topografix.com/GPX/1/1"><rte>{_GPX}</rte></gpx>',
-    "waypoints": "QGC WPL 110\n"
-    + "".join(f"{k}\t0\t3\t16\t0\t0\t0\t0\t{lat}\t{lon}\t0\t1\n" for k, (lat, lon) in enumerate(_PLACES)),
-}
-#: The mission beside each of them.
+#: The mission beside each waypoint file, and what it takes of the file.
 AROUND = (
-    "version: 1\nname: m\nframe: wgs84\norigin: {{latitude_deg: 63.447, longitude_deg: 10.399}}\nthrust: 6\n"
-    "waypoints: {{file: places.{suffix}, smoothing: {{kind: linear}}}}\n"
+    "version: 1\nname: m\nframe: wgs84\norigin: {latitude_deg: 63.447, longitude_deg: 10.399}\nthrust: 6\n"
 )
+USES = {
+    "waypoints": "waypoints: {{file: places.{suffix}, smoothing: {{kind: linear}}}}\n",
+    "survey": "survey: {{file: places.{suffix}, spacing: 30, heading_deg: 0, smoothing: {{kind: linear}}}}\n",
+    "geofence": "geofence: {{file: places.{suffix}}}\nloiter: {{centre: [63.447, 10.399], radius: 9}}\n",
+}
 _ROUTES = """version: 1
 name: "all keys"
 description: "of one \\u00e9 text"
@@ -89,14 +57,6 @@ def missions() -> list[bytes]:
 def shipped(kind: config_files.Kind) -> list[bytes]:
     """The files that come with the suite."""
     return [path.read_bytes() for path in config_files.shipped(kind).values()]
-
-
-def kmz(directory: Path) -> bytes:
-    """A KML file, packed."""
-    file = directory / "a.kmz"
-    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("doc.kml", _KML)
-    return file.read_bytes()
 
 
 def _messages() -> list[tuple[str, str, int, bytes]]:
