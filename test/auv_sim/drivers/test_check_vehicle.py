@@ -11,7 +11,9 @@ import pytest
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
+from rosgraph_msgs.msg import Clock
 
+from auv_msgs_py.graph_look import GraphTaken
 from auv_path_following import vehicle
 from auv_sim.drivers.check_listener import VehicleListener
 from auv_sim.drivers.check_self_test import find_all
@@ -128,3 +130,15 @@ def test_it_does_not_take_the_rudder_from_somebody_else(
         rclpy.try_shutdown()
     assert main(CONSENT) == 2
     assert "heading_autopilot sending commands" in capsys.readouterr().err
+
+
+def test_the_self_test_stays_out_of_a_graph_that_has_a_clock(domain: int) -> None:
+    rclpy.init(args=[], domain_id=domain)
+    other = rclpy.create_node("gazebo")
+    other.create_publisher(Clock, "/clock", 10)
+    try:
+        with pytest.raises(GraphTaken, match="found /clock published by /gazebo"):
+            find_all([PLANTED[0]], REMUS)
+    finally:
+        other.destroy_node()
+        rclpy.try_shutdown()

@@ -19,7 +19,9 @@ from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64
 
 from auv_msgs_py import qos
+from auv_msgs_py.claim import Claim
 from auv_msgs_py.conversions import set_stamp
+from auv_msgs_py.graph_look import GraphLook
 from auv_msgs_py.types import Command
 from auv_path_following.vehicle import Vehicle
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED
@@ -140,6 +142,18 @@ def _matched(drivers: list[PlantedDriver], clock: Any) -> bool:
     return all(driver.ready() for driver in drivers) and clock.get_subscription_count() > 0
 
 
+def _look_around(node: Node, executor: EventsExecutor) -> None:
+    """Look for another /clock first: a mission may be flying in this domain.
+
+    Raises:
+        GraphTaken: there is one.
+    """
+    claim = Claim(holder="check_vehicle --self-test", namespace="/", names=(), clock=True)
+    look = GraphLook(node, claim)
+    while not look.ended():
+        executor.spin_once(timeout_sec=0.02)
+
+
 def find_all(
     planted: Sequence[Planted], hull: Vehicle, progress: Callable[[float], None] | None = None
 ) -> dict[str, set[Mistake]]:
@@ -172,6 +186,7 @@ def find_all(
                 executor.spin_once(timeout_sec=0.005)
 
     try:
+        _look_around(drivers_node, driving)
         tell_time = drivers_node.create_publisher(Clock, "/clock", 10)
         drivers = [PlantedDriver(drivers_node, p, hull) for p in planted]
         listeners = [VehicleListener(check_node, driver.namespace, hull) for driver in drivers]

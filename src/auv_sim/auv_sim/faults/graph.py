@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import os
 import signal
@@ -23,8 +24,9 @@ from std_msgs.msg import Float64, String
 from std_srvs.srv import Trigger
 
 from auv_msgs_py import qos, topics
-from auv_msgs_py.errors import SuiteError
+from auv_msgs_py.errors import MessageRefused, SuiteError
 from auv_msgs_py.runtime import StopRequest
+from auv_msgs_py.transport import decoder
 from auv_path_following import config_files
 from auv_sim.faults.relay import RELAYED, FaultRelay, raw
 from auv_sim.mission.composed import NODES
@@ -210,7 +212,13 @@ class Flight:
         self._abort = self.node.create_client(Trigger, topics.ABORT_SERVICE)
 
     def _listen(self, topic: topics.Topic, name: str, kind: type[Any], callback: Any) -> None:
-        self.node.create_subscription(kind, name, callback, qos.requested(topic, topic.latched))
+        decode = decoder(topic)
+
+        def guarded(data: bytes) -> None:
+            with contextlib.suppress(MessageRefused):
+                callback(decode(data))
+
+        self.node.create_subscription(kind, name, guarded, qos.requested(topic, topic.latched), raw=True)
 
     def _on_diagnostics(self, message: DiagnosticArray) -> None:
         for status in message.status:

@@ -15,8 +15,10 @@ from rosbags.interfaces import QosDurability, QosReliability
 from rosbags.rosbag2.metadata import parse_qos
 from rosgraph_msgs.msg import Clock as ClockMessage
 
+from auv_msgs_py.claim import Claim
 from auv_msgs_py.conversions import set_stamp
 from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.graph_look import GraphLook, GraphTaken
 from auv_msgs_py.qos import message_class
 from auv_msgs_py.topics import CLOCK
 from auv_sim.recording.bag import Bag, RecordedTopic
@@ -119,13 +121,15 @@ class Player:
         console: where the position is shown.
 
     Raises:
-        ConfigurationError: a type is not installed.
+        ConfigurationError: a type is not installed, or /clock is published already.
     """
 
     def __init__(self, selected: Selected, rate: float, clock: bool, console: Console) -> None:
         self._selected, self._rate, self._console = selected, rate, console
         rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
         self._node = rclpy.create_node("replay")
+        if clock or CLOCK.name in selected.topics:
+            self._look_around()
         self._publishers: dict[str, Publisher] = {}
         for name, topic in selected.topics.items():
             try:
@@ -138,6 +142,18 @@ class Player:
         self._clock = self._node.create_publisher(ClockMessage, CLOCK.name, _DEPTH) if clock else None
         self._message = ClockMessage()
         self._told = -1
+
+    def _look_around(self) -> None:
+        """Look for another /clock before this one is published."""
+        claim = Claim(holder="replay", namespace="/", names=(), clock=True)
+        look = GraphLook(self._node, claim)
+        try:
+            while not look.ended():
+                rclpy.spin_once(self._node, timeout_sec=0.02)
+        except GraphTaken:
+            self._node.destroy_node()
+            rclpy.try_shutdown()
+            raise
 
     def play(self, delay: float, loop: bool, paused: bool) -> int:
         """Play to the end (again and again); returns the exit code."""
