@@ -97,7 +97,7 @@ def test_own_publishers_of_the_clock_do_not_count(party: Any) -> None:
     assert looks((me, GraphLook(me.node, of_simulator("/auv", "remus_plant"), ("/auv/remus_plant",)))) == [""]
 
 
-def test_who_comes_later_gives_way_to_one_that_holds_and_of_two_at_once_one_stays(party: Any) -> None:
+def test_a_later_claim_gives_way_to_a_held_one_and_of_two_at_once_one_stays(party: Any) -> None:
     first, second, third = (party("mission_launcher", name) for name in ("/auv", "/auv2", "/auv"))
     at_once = looks((first, GraphLook(first.node, MISSION)), (second, GraphLook(second.node, MISSION)))
     assert sorted(bool(found) for found in at_once) == [False, True]

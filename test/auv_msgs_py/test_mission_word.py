@@ -1,4 +1,4 @@
-"""The mission's state as its readers take it, and what a single word of a stranger does to it: nothing."""
+"""The mission's state as its readers take it, and that a single foreign word does not change it."""
 
 from __future__ import annotations
 

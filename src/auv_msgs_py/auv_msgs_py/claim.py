@@ -28,7 +28,7 @@ class Claim:
         clock: whether /clock is published.
         held: False while the claimant still looks.
         process: for people, where it runs.
-        since, token: wall time (ns) of the claim, and what tells two of the same time apart. `GraphLook`
+        since, token: wall time of the claim (ns), and a unique text for two of the same time. `GraphLook`
             fills in these and `process`.
     """
 

@@ -37,7 +37,7 @@ class GraphLook:
 
     Args:
         node: whose publisher and subscription are used; spin it.
-        claim: what is wanted.
+        claim: what the process is going to publish; `process`, `since` and `token` are filled in here.
         own: full names of nodes of this process that are in the graph and publish /clock.
     """
 
@@ -56,8 +56,8 @@ class GraphLook:
         self._decode = generated_decoder(topic)
         self._publisher = node.create_publisher(String, topic.name, qos.offered(topic))
         self._publisher.publish(String(data=self.claim.encode()))
-        wanted = qos.requested(topic, reliable=True, depth=100)
-        node.create_subscription(String, topic.name, self._on_claim, wanted, raw=True)
+        profile = qos.requested(topic, reliable=True, depth=100)
+        node.create_subscription(String, topic.name, self._on_claim, profile, raw=True)
 
     def _on_claim(self, data: bytes) -> None:
         with contextlib.suppress(MessageRefused):

@@ -138,7 +138,7 @@ class SuiteNode(Node):  # type: ignore[misc]
 
         return guarded
 
-    def _strangers(self) -> str:
+    def _second_publishers(self) -> str:
         """Topics that more than one node publishes, for people: the contract has one publisher for each."""
         found = []
         for name in self._heard:
@@ -151,7 +151,7 @@ class SuiteNode(Node):  # type: ignore[misc]
 
     def _look(self) -> None:
         """What no single message shows."""
-        self.health.warn("publishers", self._strangers())
+        self.health.warn("publishers", self._second_publishers())
         if self.parameters.lockstep:
             return
         now = self.now()

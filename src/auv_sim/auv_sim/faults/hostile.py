@@ -52,7 +52,7 @@ class Malice:
         self._fill(message)
         if topic is topics.GRAPH_CLAIMS:
             claim = Claim(
-                holder="/stranger", namespace="/auv", names=(topics.GUIDANCE,), clock=True, held=True
+                holder="/hostile", namespace="/auv", names=(topics.GUIDANCE,), clock=True, held=True
             )
             message.data = self._chance.choice(("{}", "[" * 500, claim.encode()))
         if topic is topics.ODOM and self._chance.random() < 0.5:  # right in all but one thing
@@ -82,7 +82,7 @@ class Malice:
 def publish(seconds: float, namespace: str = "/auv", seed: int = 0) -> None:
     """Publish for so long, s of wall time."""
     rclpy.init(args=[])
-    node = rclpy.create_node("stranger", namespace=namespace, start_parameter_services=False)
+    node = rclpy.create_node("hostile", namespace=namespace, start_parameter_services=False)
     publishers = {
         topic: node.create_publisher(
             qos.message_class(topic.type), topic.name, qos.offered(topic), publisher_class=WirePublisher

@@ -21,7 +21,7 @@ from auv_sim.mission.memory import resident
 FLAT = 20.0
 #: Share of the time, and at least so many seconds, after which a process has all that it needs.
 _WARM, _WARM_AT_LEAST = 0.2, 10.0
-#: The mission is started again so often if it has ended, s of wall time: a stranger can stop it.
+#: The mission is started again so often if it has ended, s of wall time: a hostile node can stop it.
 _RESTART = 5.0
 _CHAIN = (topics.OBSERVER, topics.GUIDANCE, topics.AUTOPILOT)
 _NODES = (topics.RECORDER, *_CHAIN)
@@ -90,7 +90,7 @@ class _Watch:
                     named |= {part.split(" is published by ")[0] for part in pair.value.split("; ")}
 
     def start_again(self) -> None:
-        """As an operator would, who sees that the mission has ended."""
+        """Start a mission that has ended, as an operator would."""
         if time.monotonic() >= self._next_start and self.flight.thrust_cmd == 0.0:
             self._next_start = time.monotonic() + _RESTART
             self.flight.call(topics.START_SERVICE)
@@ -115,16 +115,16 @@ def besiege(directory: Path, speed: float, seconds: float, tell: Callable[[float
     for name in _NODES:
         nodes.start(name)
     flight = Flight(nodes, speed, mission_file.load(str(mission)).path.start_pose)
-    stranger = None
+    hostile = None
     try:
         flight.until(lambda: set(_NODES) <= set(flight.said), "all nodes to report")
         flight.call(topics.START_SERVICE)
         flight.until(lambda: flight.thrust_cmd > 0.0, "the mission to run")
         command = [sys.executable, "-m", "auv_sim.faults.hostile", str(seconds)]
-        stranger = subprocess.Popen(command, stdin=subprocess.DEVNULL)  # noqa: S603 - our own module
+        hostile = subprocess.Popen(command, stdin=subprocess.DEVNULL)  # noqa: S603 - our own module
         watch = _Watch(flight, seconds)
         begin = time.monotonic()
-        while stranger.poll() is None:
+        while hostile.poll() is None:
             flight.executor.spin_once(timeout_sec=0.01)
             flight.check_stop()
             watch.look()
@@ -133,9 +133,9 @@ def besiege(directory: Path, speed: float, seconds: float, tell: Callable[[float
         _judge(watch.found, flight)
         return watch.found
     finally:
-        if stranger is not None and stranger.poll() is None:
-            stranger.kill()
-            stranger.wait()
+        if hostile is not None and hostile.poll() is None:
+            hostile.kill()
+            hostile.wait()
         flight.close()
         nodes.stop()
 
