@@ -65,6 +65,21 @@ def test_complete_means_flown(
         assert "short: complete" in said.out
 
 
+def test_complete_is_not_reported_where_the_recording_does_not_reach_the_end(
+    short_mission: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """However much was flown: whatever mission_state said, it may have been forged."""
+    run = closed_loop.fly(plan.make(Options(mission=str(short_mission)), tmp_path).scenario())
+    short = run.select(run.s < 3.0)
+    monkeypatch.setattr(results, "load", lambda _: short)
+    monkeypatch.setattr(launcher, "fly", lambda *_: Outcome("complete", "", 10.0, 40.0))
+    asked = ["--mission", str(short_mission), "--flown", "0", "--quiet", "--out", str(tmp_path / "run")]
+    assert cli.main(asked) == 1
+    record = json.loads((tmp_path / "run" / "summary.json").read_text(encoding="utf-8"))
+    assert (record["outcome"], record["completed"]) == ("incomplete", False)
+    assert "without the path's end" in capsys.readouterr().err
+
+
 def test_an_aborted_mission_stays_aborted(
     skips_a_fifth: Run, short_mission: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

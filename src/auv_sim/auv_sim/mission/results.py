@@ -21,6 +21,9 @@ from auv_sim.mission.launcher import Outcome
 from auv_sim.mission.plan import Plan
 from auv_sim.recording.load import load
 
+#: What was said on `mission_state` is no proof; what was recorded is.
+_UNFINISHED = "found a recording without the path's end, expected it where mission_state is complete"
+
 
 def conclude(plan: Plan, directory: Path, outcome: Outcome) -> tuple[Outcome, MissionSummary | None]:
     """Load the bag, judge the mission, write `summary.json` and `overview.png`.
@@ -31,15 +34,18 @@ def conclude(plan: Plan, directory: Path, outcome: Outcome) -> tuple[Outcome, Mi
         outcome: how the mission ended on the graph.
 
     Returns:
-        The outcome, incomplete where too little of the path was flown; and the figures, None without a bag.
+        The outcome, incomplete where too little of the path was flown or its end was not reached; and the
+        figures, None without a bag.
     """
     try:
         run = load(directory / "bag")
     except ConfigurationError:
         return outcome, None
     summary = summarise(run, plan.mission.path)
-    if outcome.state == "complete" and (reason := summary.shortfall(plan.options.flown / 100.0)):
-        outcome = dataclasses.replace(outcome, state="incomplete", reason=reason)
+    if outcome.state == "complete":
+        reason = summary.shortfall(plan.options.flown / 100.0) or ("" if summary.completed else _UNFINISHED)
+        if reason:
+            outcome = dataclasses.replace(outcome, state="incomplete", reason=reason)
     record: dict[str, Any] = {
         "outcome": outcome.state,
         "reason": outcome.reason,
