@@ -164,6 +164,9 @@ READERS = {
     "mcap": _recording(_MCAP, "bag_0.mcap", is_text=False),
     "mcap_zstd": _recording(_PACKED, "bag_0.mcap", is_text=False),
     "sqlite": _recording(seeds.sqlite, "bag.db3", is_text=False),
+    "sqlite_packed": _recording(seeds.packed, "bag.db3.zstd", is_text=False),
+    "sqlite_wal": _recording(seeds.unmerged, "whole.db3-wal", is_text=False),
+    "ros1": _recording(seeds.ros1, "bag.bag", is_text=False),
     "metadata": _recording(_MCAP, "metadata.yaml", is_text=True),
     "metadata_sqlite": _recording(seeds.sqlite, "metadata.yaml", is_text=True),
 }

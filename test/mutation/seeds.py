@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import shutil
+import sqlite3
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.rosbag1 import Writer as Ros1Writer
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
+from rosbags.typesys import Stores, get_typestore
 
 from auv_path_following import config_files
 from auv_sim.recording.bag_writer import BagWriter
@@ -116,10 +120,56 @@ def mcap(directory: Path, compression: str) -> Path:
 
 def sqlite(directory: Path) -> Path:
     """Write a rosbag2 directory in SQLite; returns the storage file."""
-    with Writer(directory, version=9, storage_plugin=StoragePlugin.SQLITE3) as writer:
+    _fill(Writer(directory, version=9, storage_plugin=StoragePlugin.SQLITE3))
+    return next(directory.glob("*.db3"))
+
+
+def _fill(opened: Writer) -> None:
+    with opened as writer:
         connections: dict[str, Any] = {}
         for topic, kind, at, data in _messages():
             if topic not in connections:
                 connections[topic] = writer.add_connection(topic, kind, typestore=typestore())
             writer.write(connections[topic], at, data)
-    return next(directory.glob("*.db3"))
+
+
+def packed(directory: Path) -> Path:
+    """Write a rosbag2 directory in SQLite, the file packed; returns it."""
+    writer = Writer(directory, version=9, storage_plugin=StoragePlugin.SQLITE3)
+    writer.set_compression(CompressionMode.FILE, CompressionFormat.ZSTD)
+    _fill(writer)
+    return next(directory.glob("*.zstd"))
+
+
+def unmerged(directory: Path) -> Path:
+    """Write a rosbag2 directory in SQLite that was not closed; returns what lies beside the file."""
+    whole = directory.with_name("whole")
+    file = sqlite(whole)
+    connection = sqlite3.connect(file)
+    connection.execute("PRAGMA journal_mode = WAL")
+    connection.execute("UPDATE messages SET timestamp = timestamp + 1 WHERE id % 3 = 0")
+    connection.commit()
+    shutil.copytree(whole, directory, ignore=shutil.ignore_patterns("*-shm"))
+    connection.close()
+    shutil.rmtree(whole)
+    return directory / f"{file.name}-wal"
+
+
+def ros1(directory: Path) -> Path:
+    """Write a ROS 1 bag; returns it."""
+    store = get_typestore(Stores.ROS1_NOETIC)
+    kinds: Any = store.types
+    directory.mkdir()
+    with Ros1Writer(directory / "bag.bag") as writer:
+        text = writer.add_connection("/auv/mission_state", "std_msgs/msg/String", typestore=store)
+        fence = writer.add_connection("/auv/origin", "geometry_msgs/msg/PointStamped", typestore=store)
+        for k in range(20):
+            at = (100 + k) * 10**9
+            header = kinds["std_msgs/msg/Header"](k, kinds["builtin_interfaces/msg/Time"](100 + k, 0), "map")
+            point = kinds["geometry_msgs/msg/PointStamped"](
+                header, kinds["geometry_msgs/msg/Point"](k, 0.0, 0.0)
+            )
+            running = kinds["std_msgs/msg/String"]("running")
+            writer.write(text, at, store.serialize_ros1(running, "std_msgs/msg/String"))
+            writer.write(fence, at, store.serialize_ros1(point, "geometry_msgs/msg/PointStamped"))
+    return directory / "bag.bag"

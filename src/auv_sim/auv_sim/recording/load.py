@@ -100,7 +100,8 @@ def run_of(bag: Bag, namespace: str | None = None, frame_ids: FrameIds | None = 
     state = bag.find(_STATE.name, namespace)
     states = messages_of(state) if state is not None and state.type == _STATE.type else []
     try:
-        return _assemble(recorded, states, table, bag.path)
+        with np.errstate(over="ignore", invalid="ignore"):  # numbers of a damaged message
+            return _assemble(recorded, states, table, bag.path)
     except MessageRefused as refused:
         raise ConfigurationError(f"{bag.path}: {refused.topic}", refused.found, refused.expected) from None
 

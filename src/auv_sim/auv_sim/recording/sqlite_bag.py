@@ -19,6 +19,8 @@ from auv_sim.recording.bag_files import companions
 from auv_sim.recording.sqlite_pages import Row, rows_of
 
 _SQLITE = "a rosbag2 SQLite file"
+#: What reading a damaged file raises: names of columns may be no text.
+_DAMAGE = (sqlite3.Error, UnicodeError)
 _TABLES = ("topics", "messages")
 #: Longer values than the file has bytes are never asked for; a small file still needs room for its schema.
 _LEAST_LENGTH = 100_000
@@ -26,10 +28,11 @@ _LEAST_LENGTH = 100_000
 
 @dataclass
 class _Content:
-    """Number of a topic -> topic; the rows that were read; what is wrong, a line each."""
+    """Number of a topic -> topic; the rows that were seen, messages and others; why reading ended early."""
 
     topics: dict[int, RecordedTopic] = field(default_factory=dict)
-    rows: set[int] = field(default_factory=set)
+    seen: set[int] = field(default_factory=set)
+    messages: int = 0
     strange: int = 0
     trouble: str = ""
 
@@ -45,7 +48,7 @@ def read_sqlite(bag: Bag, file: Path, wanted: Wanted) -> None:
         try:
             for topic, number in _topics(connection):
                 content.topics[number] = _joined(bag, file, topic)
-        except sqlite3.Error as error:
+        except _DAMAGE as error:
             raise ConfigurationError(
                 str(file), f"a recording that cannot be read ({error})", _SQLITE
             ) from None
@@ -53,13 +56,13 @@ def read_sqlite(bag: Bag, file: Path, wanted: Wanted) -> None:
             query = "SELECT id, topic_id, timestamp, data FROM messages NOT INDEXED ORDER BY id"
             for row in connection.execute(query):
                 _take(bag, content, row, wanted)
-        except sqlite3.Error as error:
+        except _DAMAGE as error:
             content.trouble = str(error)
         if content.trouble:
-            before = len(content.rows)
+            before = content.messages
             for row in sorted(row for row in rows_of(readable) if row[1] in content.topics):
                 _take(bag, content, row, wanted)
-            further = len(content.rows) - before
+            further = content.messages - before
             content.trouble += f"; {before} messages are readable, {further} more page by page"
     bag.notes += [f"{file.name}: {note}" for note in _notes(file, content)]
 
@@ -93,7 +96,7 @@ def _opened(file: Path) -> Iterator[tuple[sqlite3.Connection, Path]]:
             connection = sqlite3.connect(f"{readable.absolute().as_uri()}?{mode}", uri=True)
         except OSError as error:
             raise ConfigurationError(str(file), f"{error.strerror}", "room for a copy of it") from None
-        except sqlite3.Error as error:
+        except _DAMAGE as error:
             raise ConfigurationError(str(file), str(error), _SQLITE) from None
         stack.callback(connection.close)
         connection.text_factory = lambda text: text.decode("utf-8", "replace")
@@ -117,7 +120,7 @@ def _topics(connection: sqlite3.Connection) -> Iterator[tuple[RecordedTopic, int
         raise sqlite3.DatabaseError(f"no table {' and no table '.join(missing)}")
     definitions: dict[str, tuple[str, str]] = {}
     if "message_definitions" in tables:
-        with contextlib.suppress(sqlite3.Error):  # rosbag2 has it since Iron; topics are readable without
+        with contextlib.suppress(*_DAMAGE):  # rosbag2 has it since Iron; topics are readable without
             query = "SELECT topic_type, encoding, encoded_message_definition FROM message_definitions"
             definitions = {
                 str(name): (str(kind), str(text)) for name, kind, text in connection.execute(query)
@@ -165,13 +168,14 @@ def _joined(bag: Bag, file: Path, topic: RecordedTopic) -> RecordedTopic:
 def _take(bag: Bag, content: _Content, row: Row, wanted: Wanted) -> None:
     """Append a message, once; a row of other values than a message's is counted."""
     number, topic_number, log_ns, data = row
-    if number in content.rows:
+    if number in content.seen:
         return
+    content.seen.add(number)
     topic = content.topics.get(topic_number) if isinstance(topic_number, int) else None
     if topic is None or not isinstance(log_ns, int) or log_ns < 0 or not isinstance(data, bytes):
         content.strange += 1
         return
-    content.rows.add(number)
+    content.messages += 1
     if bag.topics.get(topic.name) is topic:
         bag.order.append((topic, topic.count))
         topic.put(0, log_ns, log_ns, data, wanted(topic.name, topic.type))
