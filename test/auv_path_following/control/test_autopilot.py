@@ -235,8 +235,9 @@ def test_a_rudder_however_fast_gives_a_kp(rate):
     assert kp == pytest.approx(min(fast.rudder.max_rate, 12.0 / (1.8 * (2.0 / 1.6) ** 2 * nism.k5)))
 
 
+@pytest.mark.parametrize("k5", [5.0, 15.0, 200.0])
 @pytest.mark.parametrize("name", config_files.shipped("vehicles"))
-def test_a_shipped_hull_takes_its_rudders_whole_rate(name):
+def test_a_shipped_hull_takes_its_rudders_whole_rate_whatever_k5(name, k5):
     hull = vehicle.load(name)
-    config = dataclasses.replace(CONFIG, nism=dataclasses.replace(CONFIG.nism, kp_from_rudder=True))
+    config = dataclasses.replace(CONFIG, nism=dataclasses.replace(CONFIG.nism, kp_from_rudder=True, k5=k5))
     assert HeadingAutopilot(hull, config).controller.config.kp == hull.rudder.max_rate

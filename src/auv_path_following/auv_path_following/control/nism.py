@@ -64,12 +64,13 @@ def kp_of(config: NismConfig, vehicle: Vehicle) -> float:
 
     kp is then the rudder's rate, less ks. With a fast servo that would raise the crossover of the inner loop,
     b kp k5, beyond what dead time and sampling allow, so it ends at `LARGEST_CROSSOVER`. Where the
-    vehicle's file has no hull, b is that of a typical torpedo of its length and speed.
+    vehicle's file has no hull, b is that of a typical torpedo of its length and speed. A k5 above the
+    default counts as the default: raising it must not take rate from the rudder.
     """
     if not config.kp_from_rudder:
         return config.kp
     kp = min(max(vehicle.rudder.max_rate - config.ks, 1e-6), LARGEST_RATE)
-    return min(kp, LARGEST_CROSSOVER / (rudder_effect(vehicle) * config.k5))
+    return min(kp, LARGEST_CROSSOVER / (rudder_effect(vehicle) * min(config.k5, NismConfig().k5)))
 
 
 class Nism:
