@@ -29,6 +29,11 @@ _PROLOGUE = struct.Struct("<QQQII")  # of a chunk: first, last, uncompressed siz
 _FOOTER_SIZE = _RECORD.size + 20 + len(MAGIC)
 _COMPRESSIONS = (b"", b"lz4", b"zstd")
 _MCAP = "an MCAP file"
+#: Chunks are unpacked up to this many times the size of their file, and that many bytes for a small file: a
+#: file that holds more was made to fill the memory.
+_MOST_PACKED, _LEAST_ROOM = 50, 32_000_000
+#: More topics than this are no recording of a vehicle.
+_MOST_CHANNELS = 10_000
 #: The note of a file that lacks its index and nothing else.
 NOT_CLOSED = "the end is missing (not closed)"
 _READERS: dict[int, Any] = {
@@ -73,7 +78,7 @@ def scan(path: Path, sink: Sink) -> ScanResult:
         sink: gets every message that is whole, in the order of the file.
 
     Raises:
-        ConfigurationError: it cannot be opened, is empty, or is no MCAP file at all.
+        ConfigurationError: it cannot be opened, is empty, has too many topics, or is no MCAP file at all.
     """
     try:
         with path.open("rb") as stream:
@@ -98,6 +103,7 @@ class _Scanner:
         self._notes: list[str] = []
         self._statistics: Statistics | None = None
         self._messages = 0
+        self._room = _LEAST_ROOM + _MOST_PACKED * len(data)
 
     def run(self) -> ScanResult:
         data, size = self._data, len(self._data)
@@ -165,6 +171,10 @@ class _Scanner:
             self._schemas[record.id] = record
         elif isinstance(record, Channel):
             self._channels[record.id] = record
+            if len(self._channels) > _MOST_CHANNELS:
+                raise ConfigurationError(
+                    str(self._path), f"more than {_MOST_CHANNELS} topics", "a recording of vehicles"
+                )
         elif isinstance(record, Statistics):
             self._statistics = record
         elif isinstance(record, Metadata):
@@ -180,6 +190,12 @@ class _Scanner:
         chunk = _read(Chunk, self._data[body:end])
         if chunk is None:
             return False
+        unpacked = max(chunk.uncompressed_size, len(chunk.data), _frame_size(chunk))
+        self._room -= unpacked
+        if self._room < 0:
+            said = f"{unpacked} bytes unpacked are too many for a file of {len(self._data)}"
+            self._notes.append(f"chunk at byte {start}: {said}; {_span(chunk)} left out")
+            return True
         try:
             stream, size = get_chunk_data_stream(chunk, validate_crc=True)
             raw = stream.read(size)
@@ -201,7 +217,7 @@ class _Scanner:
         while position + _RECORD.size <= size:
             opcode, length = _RECORD.unpack_from(raw, position)
             end = position + _RECORD.size + length
-            if end > size:
+            if end > size or not opcode:
                 return False
             if opcode == Opcode.MESSAGE and length >= head.size - _RECORD.size:
                 _, _, channel, sequence, log_ns, publish_ns = head.unpack_from(raw, position)
@@ -223,7 +239,8 @@ class _Scanner:
         before = self._messages
         with contextlib.suppress(Exception):
             if name == b"zstd":
-                rest = zstandard.ZstdDecompressor().decompressobj().decompress(rest)
+                with zstandard.ZstdDecompressor().stream_reader(rest) as packed:
+                    rest = packed.read(max(self._room, 0))
             if name != b"lz4":
                 self._batch(rest, position)
         if self._messages > before:
@@ -256,6 +273,14 @@ def _read(kind: Any, body: bytes) -> Any:
         return kind.read(stream)
     except Exception:
         return None
+
+
+def _frame_size(chunk: Chunk) -> int:
+    """Size that the compressed data say they have, bytes: the decompressor makes room for it at once."""
+    try:
+        return zstandard.frame_content_size(chunk.data) if chunk.compression == "zstd" else 0
+    except zstandard.ZstdError:
+        return 0  # unpacking will say what is wrong
 
 
 def _span(chunk: Chunk) -> str:
