@@ -101,6 +101,16 @@ def exists(path: Path) -> bool:
     return os.path.exists(path)  # noqa: PTH110 - Path.exists() raises for such names
 
 
+def is_file(path: Path) -> bool:
+    """Whether a regular file is there; False for a name that no file can have."""
+    return os.path.isfile(path)  # noqa: PTH113 - Path.is_file() raises for such names
+
+
+def is_directory(path: Path) -> bool:
+    """Whether a directory is there; False for a name that no directory can have."""
+    return os.path.isdir(path)  # noqa: PTH112 - Path.is_dir() raises for such names
+
+
 def from_home(name: str) -> Path:
     """The path that a name stands for, with a leading ``~`` as the home directory where there is one."""
     try:

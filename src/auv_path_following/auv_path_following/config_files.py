@@ -38,7 +38,7 @@ def find(kind: Kind, name_or_path: str) -> Path:
     """
     path = user_files.from_home(name_or_path)
     exists = user_files.exists(path)
-    if exists and not path.is_dir():
+    if exists and not user_files.is_directory(path):
         return path
     files = shipped(kind)
     name = name_or_path.removesuffix(".yaml")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -106,6 +107,10 @@ class Site:
             expected = "one in the mission file's own folder, so that the two stay together"
             raise ConfigurationError("file", repr(name), expected)
         path = self.folder / relative
+        if not Path(os.path.realpath(path)).is_relative_to(os.path.realpath(self.folder)):
+            # Messages quote what a file holds: a link must not make them quote any file of the machine.
+            expected = "a file in the mission file's own folder, not a link that leads out of it"
+            raise ConfigurationError("file", repr(name), expected)
         with within("file", joined=": "):
             if path not in self.files:
                 self.files[path] = waypoint_files.read(path, name)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import tempfile
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from types import ModuleType
@@ -72,5 +73,7 @@ def digest_of(files: Iterable[Path]) -> str:
 if COMPILED:
     # Numba looks at the file of the compiled function only, not at the others whose functions it calls: so
     # the compiled code of every version of the laws gets a folder of its own.
-    _BASE = os.environ.get("NUMBA_CACHE_DIR") or Path("~/.cache/auv_sim").expanduser()
+    _HOME = os.path.expanduser("~")  # noqa: PTH111 - Path.expanduser() raises where there is no home
+    _CACHES = Path(_HOME) / ".cache" if _HOME != "~" else Path(tempfile.gettempdir())
+    _BASE = os.environ.get("NUMBA_CACHE_DIR") or _CACHES / "auv_sim"
     numba.config.CACHE_DIR = str(Path(_BASE) / digest_of(files_of(_COMPILED_FROM)))

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from auv_msgs_py import params_file, topics, yaml_file
+from auv_msgs_py import params_file, topics, user_files, yaml_file
 from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.settings import validated
 from auv_path_following import config_files, vehicle
@@ -68,9 +68,9 @@ class StudyPlan:
         """A file that the study names: as it was bundled, beside the study, from here, or a shipped one."""
         if name in self._bundled.get(kind, {}):
             return str(self.source.parent / self._bundled[kind][name])
-        beside = self.source.parent / Path(name).expanduser()
+        beside = self.source.parent / user_files.from_home(name)
         try:
-            return str(beside if beside.is_file() else config_files.find(kind, name))
+            return str(beside if user_files.is_file(beside) else config_files.find(kind, name))
         except ConfigurationError as error:
             raise ConfigurationError(f"{self.where}: {error.where}", error.found, error.expected) from None
 

@@ -21,6 +21,7 @@ FIGURES = tuple(
     if not field.name.startswith("subpath_") and field.name not in ("completed", "finite")
 )
 _MOST_RUNS = 10_000_000
+_MOST_POINTS = 1_000_000
 
 
 @settings
@@ -66,6 +67,8 @@ class Study:
         cells = 1
         for distribution in self.vary.values():
             cells *= len(distribution.grid or (None,))
+        if cells > _MOST_POINTS:
+            raise unfit(f"{cells} points of the grids", f"at most {_MOST_POINTS}")
         if cells * self.runs > _MOST_RUNS:
             raise unfit(f"{cells * self.runs} flights", f"at most {_MOST_RUNS}")
         return self

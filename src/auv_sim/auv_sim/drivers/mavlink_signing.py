@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 import stat
 import time
-from pathlib import Path
 from typing import Any
 
 from pymavlink.dialects.v20 import common as mavlink
 
+from auv_msgs_py import user_files
 from auv_msgs_py.errors import ConfigurationError
 
 _KEY_BYTES = 32
@@ -33,7 +33,7 @@ def load_key(path: str, where: str) -> bytes | None:
     if not path:
         return None
     try:
-        with Path(path).expanduser().open("rb") as file:
+        with user_files.from_home(path).open("rb") as file:
             status = os.fstat(file.fileno())
             _refuse_exposed(status, f"{where}: {path}")
             text = file.read(4 * _KEY_BYTES).strip()

@@ -22,6 +22,7 @@ from rich.progress import (
 )
 from rich.table import Table
 
+from auv_msgs_py import user_files
 from auv_msgs_py.errors import ConfigurationError, SuiteError
 from auv_msgs_py.result_files import write_text
 from auv_path_following import config_files
@@ -95,8 +96,8 @@ def _again(argv: Sequence[str] | None) -> str:
 
 
 def _store(options: argparse.Namespace) -> Store:
-    given = Path(options.study).expanduser()
-    if given.is_dir():
+    given = user_files.from_home(options.study)
+    if user_files.is_directory(given):
         return Store(given)
     plan = StudyPlan(config_files.find("studies", options.study).absolute())
     return Store((options.out or Path("campaigns") / plan.source.stem).absolute(), plan)
