@@ -287,3 +287,11 @@ def test_text_from_a_file_cannot_steer_the_terminal(capsys: pytest.CaptureFixtur
     assert "\x1b]" not in shown and "\x1b[2J" not in shown and "\x07" not in shown
     assert shown.count("a\\x1b]0;title") == 3
     assert "\x1b[31m" in shown  # rich's own colour
+
+
+def test_text_from_recordings_is_printed_in_one_place() -> None:
+    for folder in ("bags", "mission"):
+        for path in sorted((ROOT / "src" / "auv_sim" / "auv_sim" / folder).glob("*.py")):
+            for line in path.read_text(encoding="utf-8").splitlines():
+                plain = re.match(r"\s*print\(", line) and "json.dumps" not in line
+                assert not plain, f"{path.name}: {line.strip()}: say() shows it as it is safe"

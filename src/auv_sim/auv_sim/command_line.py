@@ -51,7 +51,7 @@ def command(name: str, interrupted: str = "interrupted") -> Callable[[Callable[P
                 say(f"{name} failed: {error}", error=True)
                 return EXIT_FAILED
             except KeyboardInterrupt as stop:
-                print(str(stop) or interrupted, file=sys.stderr)
+                say(str(stop) or interrupted, error=True)
                 return EXIT_INTERRUPTED
             except BrokenPipeError:
                 discard_output()
@@ -189,7 +189,7 @@ def discard_output() -> None:
 
 def say(text: object, error: bool = False) -> None:
     """Print a line in which text from files is shown as it is safe."""
-    print(printable_lines(str(text)), file=sys.stderr if error else sys.stdout)
+    print(printable_lines(str(text)), file=sys.stderr if error else sys.stdout, flush=True)
 
 
 def console(quiet: bool = False, **options: Any) -> Console:

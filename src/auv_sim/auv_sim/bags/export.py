@@ -13,7 +13,7 @@ from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.result_files import replacing
 from auv_sim.analysis.run import Run
 from auv_sim.bags.arguments import add_choice
-from auv_sim.command_line import target
+from auv_sim.command_line import say, target
 from auv_sim.recording.bag import read_bag
 from auv_sim.recording.load import run_of
 
@@ -39,7 +39,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Write the table and say where."""
     bag = read_bag(arguments.bag, odometry=arguments.odometry)
     for note in bag.notes:
-        print(f"damaged: {note}")
+        say(f"damaged: {note}")
     flown = run_of(bag, arguments.namespace)
     if arguments.rate is not None:
         flown = _resampled(flown, arguments.rate)
@@ -54,7 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
             raise ConfigurationError("--out", str(file), "a name that ends in .csv or .parquet")
     except OSError as error:
         raise ConfigurationError(str(file), f"{error.strerror}", "a place to write to") from None
-    print(f"{file}: {flown.steps} rows, {len(columns)} columns")
+    say(f"{file}: {flown.steps} rows, {len(columns)} columns")
     return 0
 
 

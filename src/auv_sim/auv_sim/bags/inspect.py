@@ -8,7 +8,6 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import json
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +20,7 @@ from auv_sim.bags.events import Event, events_of
 from auv_sim.bags.flight import Flight, flight_of
 from auv_sim.bags.topic_facts import TopicFacts, facts_of
 from auv_sim.command_line import console as terminal
-from auv_sim.command_line import go_on, to_type
+from auv_sim.command_line import go_on, say, to_type
 from auv_sim.recording.bag import Bag, read_bag
 from auv_sim.recording.bag_files import storage_of
 from auv_sim.recording.metadata import METADATA_FILE
@@ -114,7 +113,7 @@ def _many(bags: list[Path], arguments: argparse.Namespace, console: Console) -> 
         if readable:
             go_on(console, "Look into one of them", to_type("bag.py", "inspect", readable[-1]))
     if all(flight is None for _, flight, _ in rows):
-        print("none of them can be read", file=sys.stderr)
+        say("none of them can be read", error=True)
         return 2
     return 0
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from auv_sim.command_line import say
 from auv_sim.recording.repair import repair
 
 
@@ -27,11 +28,11 @@ def run(arguments: argparse.Namespace) -> int:
     """Repair and say what was wrong."""
     done = repair(arguments.bag, arguments.out, arguments.compression)
     for note in done.notes:
-        print(f"was damaged: {note}")
+        say(f"was damaged: {note}")
     if not done.notes and arguments.out is None and arguments.bag.is_dir():
-        print(f"{done.directory}: whole already, {done.messages} messages")
+        say(f"{done.directory}: whole already, {done.messages} messages")
         return 0
-    print(f"{done.directory}: whole, {done.messages} messages")
+    say(f"{done.directory}: whole, {done.messages} messages")
     for file in done.kept:
-        print(f"{file}: kept, it is damaged")
+        say(f"{file}: kept, it is damaged")
     return 0

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from auv_msgs_py.errors import ConfigurationError
 from auv_sim.command_line import console as terminal
-from auv_sim.command_line import not_negative, positive
+from auv_sim.command_line import not_negative, positive, say
 from auv_sim.recording.bag import read_bag
 from auv_sim.recording.playback import Player, Selected, select
 
@@ -48,7 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Play; 0 at the end, 130 when interrupted."""
     bag = read_bag(arguments.bag)
     for note in bag.notes:
-        print(f"damaged: {note}")
+        say(f"damaged: {note}")
     remaps = {}
     for text in arguments.remap:
         old, separator, new = text.partition(":=")
@@ -59,6 +59,6 @@ def run(arguments: argparse.Namespace) -> int:
         bag, arguments.topics, arguments.exclude, remaps, arguments.start, arguments.duration, arguments.clock
     )
     length = f"{chosen.length:.1f} s at {arguments.rate:g}x"
-    print(f"{len(chosen.topics)} topics, {len(chosen.messages)} messages, {length}")
+    say(f"{len(chosen.topics)} topics, {len(chosen.messages)} messages, {length}")
     with Player(chosen, arguments.rate, arguments.clock, terminal()) as player:
         return player.play(arguments.delay, arguments.loop, arguments.start_paused)

@@ -18,7 +18,7 @@ from auv_sim.bags.flight import Flight, flight_of
 from auv_sim.bags.report_data import page_data
 from auv_sim.bags.report_pictures import pictures
 from auv_sim.command_line import console as terminal
-from auv_sim.command_line import go_on, to_type, wrote
+from auv_sim.command_line import go_on, say, to_type, wrote
 from auv_sim.recording.bag import Bag, read_bag
 
 PAGE = "report.html"
@@ -47,7 +47,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Write the page and the pictures."""
     bag = read_bag(arguments.bag, odometry=arguments.odometry)
     for note in bag.notes:
-        print(f"damaged: {note}")
+        say(f"damaged: {note}")
     flight = flight_of(bag, arguments.mission, arguments.namespace)
     directory = arguments.out or _beside(bag)
     try:

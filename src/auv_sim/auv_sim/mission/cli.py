@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import shutil
-import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
@@ -27,6 +26,7 @@ from auv_sim.command_line import (
     positive,
     ros_domain,
     ros_namespace,
+    say,
     whole,
 )
 from auv_sim.command_line import console as terminal
@@ -194,12 +194,12 @@ def _fly(options: Options) -> int:
         shutil.rmtree(directory)  # nothing was flown, and the same command is to work again
         raise
     if outcome.state != "complete":
-        print(f"mission {outcome.state}: {outcome.reason}", file=sys.stderr)
+        say(f"mission {outcome.state}: {outcome.reason}", error=True)
     outcome, summary = results.conclude(resolved, directory, outcome)
     if summary is not None:
         results.show(resolved, directory, outcome, summary, console)
     if outcome.state == "incomplete":
-        print(f"mission incomplete: {outcome.reason}", file=sys.stderr)
+        say(f"mission incomplete: {outcome.reason}", error=True)
     return _EXIT[outcome.state]
 
 

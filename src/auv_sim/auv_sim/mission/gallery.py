@@ -18,7 +18,7 @@ from auv_path_following.paths.mission_file import Mission
 from auv_sim import pages
 from auv_sim.analysis.metrics import under_way
 from auv_sim.analysis.run import Run
-from auv_sim.command_line import EXIT_DONE, Parser, command, make_directory
+from auv_sim.command_line import EXIT_DONE, Parser, command, make_directory, say
 from auv_sim.mission import plan
 from auv_sim.mission.plan import Options
 from auv_sim.planning.gallery_picture import draw
@@ -112,7 +112,7 @@ def _flown(kind: str, name: str, options: argparse.Namespace) -> Flight:
     )
     wanted = _configuration(asked, scratch)
     if not _is_the_same(directory, wanted):
-        print(f"flying {asked.mission}, {name}", flush=True)
+        say(f"flying {asked.mission}, {name}")
         arguments = ["--mission", asked.mission, "--params", asked.params, "--out", str(scratch), "--quiet"]
         if asked.current is not None:
             arguments += ["--current", *map(str, asked.current)]
