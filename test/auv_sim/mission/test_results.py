@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import io
 import json
+import math
 import shlex
 from pathlib import Path
 
@@ -13,7 +14,7 @@ import pytest
 from rich.console import Console
 
 from auv_sim import closed_loop
-from auv_sim.analysis.metrics import summarise
+from auv_sim.analysis.metrics import CornerSummary, summarise
 from auv_sim.analysis.run import Run
 from auv_sim.mission import cli, launcher, plan, results
 from auv_sim.mission.launcher import Outcome
@@ -30,6 +31,21 @@ def test_figures_have_units_and_the_next_command_is_quoted(short_mission: Path, 
         assert head in told.getvalue()
     last = told.getvalue().splitlines()[-1].removeprefix("Look further:")
     assert shlex.split(last) == ["python3", "scripts/bag.py", "report", str(directory)]
+
+
+def test_what_was_not_reached_has_no_figure(short_mission: Path, tmp_path: Path) -> None:
+    resolved = plan.make(Options(mission=str(short_mission)), tmp_path)
+    summary = summarise(closed_loop.fly(resolved.scenario()), resolved.mission.path)
+    corner = CornerSummary(joint=2, x=0.0, y=0.0, largest_distance=math.nan)
+    early = dataclasses.replace(
+        summary, corners=(corner,), largest_distance_off_corners=math.nan, navigation_error=0.25
+    )
+    told = io.StringIO()
+    results.show(
+        resolved, tmp_path, Outcome("interrupted", "", 1.0, 1.0), early, Console(file=told, width=140)
+    )
+    assert "at most -" not in told.getvalue()
+    assert "true distances; odometry off by at most 0.25 m" in told.getvalue()
 
 
 @pytest.fixture
