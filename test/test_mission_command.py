@@ -60,6 +60,7 @@ def test_a_mission_is_flown_recorded_and_drawn(
     summary = json.loads((run / "summary.json").read_text())
     assert summary["outcome"] == "complete"
     assert summary["completed"] is True
+    assert (summary["flown_share"], summary["missed"], summary["skipped"]) == (1.0, [], [])
     assert [part["number"] for part in summary["subpaths"]] == [1, 2, 3]
     assert summary["largest_distance"] < 0.5
 
