@@ -94,11 +94,11 @@ def not_negative(text: str) -> float:
     return value
 
 
-def percentage(text: str) -> float:
-    """A number from 0 to 100."""
+def share(text: str) -> float:
+    """A number from 0 to 1."""
     value = finite(text)
-    if not 0.0 <= value <= 100.0:
-        raise argparse.ArgumentTypeError(f"found {text}, expected a percentage from 0 to 100")
+    if not 0.0 <= value <= 1.0:
+        raise argparse.ArgumentTypeError(f"found {text}, expected a share from 0 to 1")
     return value
 
 
@@ -131,7 +131,7 @@ def target(text: str) -> Path:
 
 
 # argparse names the type in its message when float() itself fails.
-finite.__name__ = positive.__name__ = not_negative.__name__ = percentage.__name__ = "number"
+finite.__name__ = positive.__name__ = not_negative.__name__ = share.__name__ = "number"
 
 
 def ros_namespace(text: str) -> str:
@@ -209,13 +209,13 @@ def go_on(console: Console, words: str, line: str) -> None:
     console.print(f"\n{words}:  {line}", soft_wrap=True, highlight=False, markup=False)
 
 
-def add_flown_option(parser: argparse.ArgumentParser, default: float = 100.0 * LEAST_SHARE) -> None:
+def add_flown_option(parser: argparse.ArgumentParser, default: float = LEAST_SHARE) -> None:
     """The option of every command that judges missions: how much of the path has to be flown."""
     parser.add_argument(
         "--flown",
-        type=percentage,
+        type=share,
         default=default,
-        metavar="PERCENT",
+        metavar="SHARE",
         help="a mission of which a smaller share of the path was flown is incomplete (default: %(default)g)",
     )
 

@@ -32,8 +32,8 @@ def test_a_flight_that_skipped_some_of_the_path_is_no_success() -> None:
     flown = flights(flown_share=[1.0, 0.99, 0.989, np.nan])
     assert successes(study(), flown).tolist() == [True, True, False, False]
     assert flown_enough(study(), flown.flown_share).tolist() == [True, True, False, False]
-    assert successes(study(flown=95), flown).tolist() == [True, True, True, False]
-    assert successes(study(flown=100), flown).tolist() == [True, False, False, False]
+    assert successes(study(flown=0.95), flown).tolist() == [True, True, True, False]
+    assert successes(study(flown=1), flown).tolist() == [True, False, False, False]
 
 
 def test_the_end_of_the_path_and_the_limits_count_as_well() -> None:
@@ -43,5 +43,5 @@ def test_the_end_of_the_path_and_the_limits_count_as_well() -> None:
 
 
 def test_a_share_beyond_the_whole_path_is_refused() -> None:
-    with pytest.raises(ConfigurationError, match="flown"):
-        study(flown=101)
+    with pytest.raises(ConfigurationError, match="flown: found 99"):
+        study(flown=99)

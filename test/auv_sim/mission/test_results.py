@@ -59,7 +59,7 @@ def skips_a_fifth(short_mission: Path, tmp_path: Path, monkeypatch: pytest.Monke
     return cut
 
 
-@pytest.mark.parametrize(("least", "code"), [((), 1), (("--flown", "40"), 0), (("--flown", "99"), 1)])
+@pytest.mark.parametrize(("least", "code"), [((), 1), (("--flown", "0.4"), 0), (("--flown", "0.99"), 1)])
 def test_complete_means_flown(
     least: tuple[str, ...], code: int, skips_a_fifth: Run, short_mission: Path, tmp_path: Path,
     capsys: pytest.CaptureFixture[str],
@@ -107,6 +107,6 @@ def test_an_aborted_mission_stays_aborted(
 
 def test_a_share_that_is_none_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
-        cli.main(["--flown", "101"])
+        cli.main(["--flown", "99"])
     assert ended.value.code == 2
-    assert "found 101, expected a percentage from 0 to 100" in capsys.readouterr().err
+    assert "found 99, expected a share from 0 to 1" in capsys.readouterr().err

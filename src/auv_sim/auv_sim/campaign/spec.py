@@ -45,11 +45,7 @@ class Study:
         factory=dict, doc="figure -> the most that it may be in a successful flight"
     )
     flown: float = setting(
-        100.0 * LEAST_SHARE,
-        "least share of the path that a successful flight flies",
-        unit="%",
-        ge=0.0,
-        le=100.0,
+        LEAST_SHARE, "least share of the path that a successful flight flies", ge=0.0, le=1.0
     )
     judge: str = setting("rms_distance", "the figure that sensitivities and pictures are about")
     axes: tuple[str, ...] = setting((), "one or two varied parameters: success is drawn over these")

@@ -57,7 +57,7 @@ def table_of(plan: StudyPlan, runs: range, flights: Flights, subpaths: list[int]
 
 def flown_enough(study: Study, shares: Any) -> Any:
     """Which flown shares (0 to 1) reach the study's least one."""
-    return shares >= study.flown / 100.0
+    return shares >= study.flown
 
 
 def successes(study: Study, flights: Flights) -> Any:

@@ -26,6 +26,7 @@ from auv_msgs_py import user_files
 from auv_msgs_py.errors import ConfigurationError, SuiteError
 from auv_msgs_py.result_files import write_text
 from auv_path_following import config_files
+from auv_sim.analysis.flown_share import percent
 from auv_sim.batch import engine
 from auv_sim.batch.compiled import COMPILED
 from auv_sim.campaign import pictures, runner
@@ -165,7 +166,7 @@ def _fly_chunks(store: Store, chunks: list[range], options: argparse.Namespace, 
 def _show(store: Store, summary: Summary, drawn: list[Path], console: Console) -> None:
     console.print(f"\nsuccess    {_percent(summary.success)}\ncompleted  {_percent(summary.completed)}")
     console.print(
-        f"flown      {_percent(summary.flown)}: at least {store.plan.study.flown:g} % of the path\n"
+        f"flown      {_percent(summary.flown)}: at least {percent(store.plan.study.flown)} of the path\n"
     )
     if summary.points:
         console.print(_points(store.plan, summary))

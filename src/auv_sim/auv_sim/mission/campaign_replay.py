@@ -116,7 +116,7 @@ def _written(settings: Any) -> Any:
 def _tell(store: Store, number: int, flown: Run, scenario: Scenario, console: Console) -> int:
     """Print the figures; returns the exit code."""
     summary = summarise(flown, scenario.path)
-    outcome = summary.outcome(store.plan.study.flown / 100.0)
+    outcome = summary.outcome(store.plan.study.flown)
     console.print(
         f"\n{outcome} after {summary.duration:.1f} s,"
         f" rms distance {summary.rms_distance:.4g} m, largest {summary.largest_distance:.4g} m"

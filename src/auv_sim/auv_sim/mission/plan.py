@@ -57,7 +57,7 @@ class Options:
     domain: int | None = None
     quiet: bool = False
     force: bool = False
-    flown: float = 100.0 * LEAST_SHARE
+    flown: float = LEAST_SHARE
 
     @property
     def command(self) -> str:

@@ -42,8 +42,8 @@ from auv_sim.pool import tracked
 
 #: Of the page.
 PART = "trials"
-#: Least share of the path, %. A cell's reach is 1 m, and at sea the odometry itself is off by up to two.
-_LEAST_FLOWN = 80.0
+#: Least share of the path. A cell's reach is 1 m, and at sea the odometry itself is off by up to two.
+_LEAST_FLOWN = 0.8
 
 
 class Job(NamedTuple):
@@ -154,14 +154,14 @@ def _trials(options: argparse.Namespace, console: Console) -> int:
         _plan(job)
     with progress_bar(console) as bar:
         trials = tracked(bar, options.workers, "flying", fly, jobs)
-    rows = together(trials, options.limit, options.flown / 100.0)
+    rows = together(trials, options.limit, options.flown)
     record = {
         "mission": options.mission,
         "vehicle": options.vehicle,
         "sea": options.sea,
         "seeds": [seeds.start, seeds.stop - 1],
         "limit_m": options.limit,
-        "least_flown_percent": options.flown,
+        "least_flown_share": options.flown,
         "together": [dataclasses.asdict(row) for row in rows],
         "trials": [dataclasses.asdict(trial) for trial in trials],
     }
@@ -193,7 +193,7 @@ _COLUMNS: tuple[tuple[str, Callable[[Together], str]], ...] = (
 
 def _table(rows: Sequence[Together], options: argparse.Namespace) -> Table:
     mission, water = Path(options.mission).stem, Path(options.sea).stem
-    title = f"{mission} in {water}: true distances, limit {options.limit:g} m, flown {options.flown:g} %"
+    title = f"{mission} in {water}: true distances, limit {options.limit:g} m, flown {percent(options.flown)}"
     table = Table(title=title, title_justify="left")
     table.add_column("gains")
     for heading, _ in _COLUMNS:
