@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from auv_msgs_py.types import Current
@@ -207,6 +207,7 @@ def _brute(points) -> set[tuple[int, int]]:
 
 
 @settings(deadline=None, max_examples=60)
+@example([(0, 0), (0, 3), (0, 1)])  # straight back on itself
 @given(st.lists(st.tuples(st.integers(0, 40), st.integers(0, 40)), min_size=3, max_size=14, unique=True))
 def test_crossings_are_those_of_a_search_of_all_pairs(points):
     found = crossings(smooth(points, Smoothing(kind="linear")))

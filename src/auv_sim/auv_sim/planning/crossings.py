@@ -18,6 +18,8 @@ Array = npt.NDArray[np.float64]
 _ERROR = 0.02
 #: Crossings this near to the end of a piece are its neighbour's, as a share of the piece.
 _END = 1e-9
+#: Pieces that meet at a smaller angle run along each other, rad: the rest is rounding.
+_PARALLEL = 1e-9
 _ROWS = 256
 #: Comparisons of pieces after which the search ends: a circle flown a thousand times has far more pairs.
 _MOST_COMPARISONS = 20_000_000
@@ -88,6 +90,7 @@ def _between(one: Array, other: Array, same: bool) -> Iterator[tuple[float, floa
         r = np.diff(one, axis=0)[start : start + _ROWS, None, :]
         gap = q[None, :, :] - p
         across = r[..., 0] * s[:, 1] - r[..., 1] * s[:, 0]
+        across[np.abs(across) <= _PARALLEL * np.hypot(r[..., 0], r[..., 1]) * np.hypot(*s.T)] = np.nan
         with np.errstate(divide="ignore", invalid="ignore"):
             u = (gap[..., 0] * s[:, 1] - gap[..., 1] * s[:, 0]) / across
             v = (gap[..., 0] * r[..., 1] - gap[..., 1] * r[..., 0]) / across
