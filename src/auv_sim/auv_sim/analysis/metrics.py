@@ -5,8 +5,9 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,6 +60,9 @@ class CornerSummary:
     x: float
     y: float
     largest_distance: float
+
+
+Part = TypeVar("Part", SubpathSummary, CornerSummary)
 
 
 @dataclass(frozen=True)
@@ -190,6 +194,17 @@ def summarise(run: Run, path: CompositePath, begin: float = 0.0) -> MissionSumma
         navigation_error=_largest(np.hypot(flown.x_true - flown.x, flown.y_true - flown.y)),
         **whole,
     )
+
+
+def farthest(parts: Sequence[Part], most: int) -> list[Part]:
+    """Return the subpaths or corners on which the vehicle was farthest from the path, in the path's order.
+
+    Args:
+        parts: all of them, in the path's order.
+        most: at most so many; those that were not reached come last.
+    """
+    ranked = sorted(range(len(parts)), key=lambda k: -np.nan_to_num(parts[k].largest_distance, nan=-1.0))
+    return [parts[k] for k in sorted(ranked[:most])]
 
 
 def _near(joint: Joint, x: Column, y: Column, i: NDArray[np.int64]) -> NDArray[np.bool_]:

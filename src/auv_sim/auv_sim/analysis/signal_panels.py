@@ -12,6 +12,9 @@ from auv_sim.analysis.labels import Labels
 from auv_sim.analysis.plot_style import BLUE, MUTED, ORANGE, PATH, RED, style
 from auv_sim.analysis.run import Column, Run
 
+#: More switches than this are not drawn one by one: they would grey the panels.
+_MOST_SWITCHES = 200
+
 
 def cross_track(axes: Axes, time: Column, flown: Run, path: CompositePath) -> None:
     """How far from the path: the geometric distance, and the error that guidance works on, Eq. (20)."""
@@ -71,13 +74,16 @@ def switches(rows: list[Axes], time: Column, flown: Run, path: CompositePath) ->
     starts = [0.0, *time[1:][np.diff(subpath) > 0]]
     numbers = [int(subpath[0]), *subpath[1:][np.diff(subpath) > 0]]
     for axes in rows:
-        for start in starts[1:]:
-            axes.axvline(float(start), color=MUTED, linewidth=0.7, alpha=0.5, zorder=0)
+        if len(starts) <= _MOST_SWITCHES:
+            axes.vlines(
+                starts[1:], 0.0, 1.0, transform=axes.get_xaxis_transform(), colors=MUTED, linewidth=0.7,
+                alpha=0.5, zorder=0,
+            )  # fmt: skip
         axes.set_xlim(0.0, float(time[-1]) or 1.0)
     labels = Labels(rows[0])
     top = rows[0].get_ylim()[1]
     spans = zip(starts, [*starts[1:], float(time[-1])], numbers, strict=True)
-    for start, end, number in sorted(spans, key=lambda span: span[0] - span[1]):
+    for start, end, number in sorted(spans, key=lambda span: span[0] - span[1])[:_MOST_SWITCHES]:
         at = (0.5 * (start + end), top)
         labels.write(str(number + 1), at, (0.0, -8.0), 10, color=MUTED, fontweight="bold")
 

@@ -13,7 +13,7 @@ from auv_msgs_py.angles import wrap
 from auv_path_following.paths.composite import CompositePath
 from auv_sim.analysis.flown_share import Stretch, cells_of, middles_of
 from auv_sim.analysis.labels import Labels, arrow
-from auv_sim.analysis.metrics import MissionSummary
+from auv_sim.analysis.metrics import MissionSummary, farthest
 from auv_sim.analysis.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, PATH, RED, fact, style
 from auv_sim.analysis.run import Run
 
@@ -114,10 +114,7 @@ def table(axes: Axes, summary: MissionSummary) -> None:
     axes.set_axis_off()
     subpaths, head = summary.subpaths, "subpath"
     if len(subpaths) > _TABLE_ROWS:
-        farthest = sorted(
-            subpaths, key=lambda k: -math.inf if math.isnan(k.largest_distance) else k.largest_distance
-        )
-        subpaths = tuple(sorted(farthest[-_TABLE_ROWS:], key=lambda k: k.number))
+        subpaths = tuple(farthest(subpaths, _TABLE_ROWS))
         head = f"farthest {_TABLE_ROWS} of {len(summary.subpaths)}"
     heads = (head, "time (s)", "rms dist. (m)", "largest (m)", "rms heading (°)", "rudder (°/m)")
     rows = [

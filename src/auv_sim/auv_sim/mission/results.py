@@ -14,7 +14,7 @@ from rich.table import Table
 
 from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.result_files import write_text
-from auv_sim.analysis.metrics import MissionSummary, summarise
+from auv_sim.analysis.metrics import MissionSummary, farthest, summarise
 from auv_sim.analysis.overview import draw
 from auv_sim.command_line import go_on, to_type, wrote
 from auv_sim.mission.launcher import Outcome
@@ -23,6 +23,9 @@ from auv_sim.recording.load import load
 
 #: What was said on `mission_state` is no proof; what was recorded is.
 _UNFINISHED = "found a recording without the path's end, expected it where mission_state is complete"
+
+#: Of more subpaths and corners than this the farthest are printed; summary.json has all.
+_MOST_ROWS, _MOST_CORNERS = 40, 10
 
 
 def conclude(plan: Plan, directory: Path, outcome: Outcome) -> tuple[Outcome, MissionSummary | None]:
@@ -83,7 +86,7 @@ def show(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary,
         "rudder (°/m)",
     ):
         table.add_column(heading, justify="right")
-    for part in summary.subpaths:
+    for part in farthest(summary.subpaths, _MOST_ROWS):
         table.add_row(
             f"{part.number} {part.kind}",
             _number(part.duration, 1),
@@ -93,6 +96,8 @@ def show(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary,
             _number(part.rudder_travel_per_metre, 2),
         )
     table.add_section()
+    if (others := len(summary.subpaths) - _MOST_ROWS) > 0:
+        table.add_row(f"{others} others, nearer to the path")
     table.add_row(
         "all",
         _number(summary.duration, 1),
@@ -103,12 +108,14 @@ def show(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary,
     )
     console.print(table)
     console.print(summary.flown_line(), soft_wrap=True)
-    for corner in summary.corners:
+    for corner in farthest(summary.corners, _MOST_CORNERS):
         if math.isnan(corner.largest_distance):  # not reached
             continue
         console.print(
             f"corner at joint {corner.joint}: at most {_number(corner.largest_distance, 2)} m off the path"
         )
+    if (others := len(summary.corners) - _MOST_CORNERS) > 0:
+        console.print(f"{others} more corners, nearer to the path: summary.json")
     if not math.isnan(summary.navigation_error):
         away = summary.largest_distance_off_corners
         there = "" if math.isnan(away) else f" at most {away:.2f} m away from corners,"
