@@ -10,7 +10,7 @@ import pytest
 from auv_sim import closed_loop
 from auv_sim.mission import plan
 from auv_sim.mission.cli import main
-from auv_sim.mission.plan import Options
+from auv_sim.mission.options import Options
 from auv_sim.recording.load import load
 
 _PARAMS = """

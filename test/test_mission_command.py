@@ -16,7 +16,7 @@ from auv_path_following.paths import mission_file
 from auv_sim.mission import plan
 from auv_sim.mission.cli import main
 from auv_sim.mission.launcher import domain_of
-from auv_sim.mission.plan import Options
+from auv_sim.mission.options import Options
 from bag_watch import recorded
 
 CommandLine = Callable[..., list[str]]

@@ -13,7 +13,7 @@ from auv_sim import closed_loop
 from auv_sim.analysis.run import Run
 from auv_sim.mission import plan
 from auv_sim.mission.cli import main
-from auv_sim.mission.plan import Options
+from auv_sim.mission.options import Options
 from auv_sim.recording.load import load, load_messages
 
 SEA = str(Path(__file__).parent / "data" / "sea.yaml")

@@ -20,7 +20,7 @@ from rich.segment import Segment
 
 from auv_msgs_py.errors import ConfigurationError, MessageRefused, SuiteError, printable, printable_lines
 from auv_msgs_py.ros_arguments import ensure_log_directory
-from auv_sim.analysis.flown_share import LEAST_SHARE
+from auv_sim.analysis.flown_share import LEAST_SHARE, LEAST_SHARE_AT_SEA
 
 P = ParamSpec("P")
 
@@ -209,14 +209,20 @@ def go_on(console: Console, words: str, line: str) -> None:
     console.print(f"\n{words}:  {line}", soft_wrap=True, highlight=False, markup=False)
 
 
-def add_flown_option(parser: argparse.ArgumentParser, default: float = LEAST_SHARE) -> None:
-    """The option of every command that judges missions: how much of the path has to be flown."""
+def add_flown_option(parser: argparse.ArgumentParser, default: float | None) -> None:
+    """Add the option of every command that judges missions: how much of the path has to be flown.
+
+    Args:
+        parser: the command's.
+        default: None where it depends on whether there is a sea.
+    """
+    usual = f"{LEAST_SHARE:g}, at sea {LEAST_SHARE_AT_SEA:g}" if default is None else f"{default:g}"
     parser.add_argument(
         "--flown",
         type=share,
         default=default,
         metavar="SHARE",
-        help="a mission of which a smaller share of the path was flown is incomplete (default: %(default)g)",
+        help=f"a mission of which a smaller share of the path was flown is incomplete (default: {usual})",
     )
 
 

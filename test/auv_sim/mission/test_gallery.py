@@ -16,7 +16,7 @@ from auv_path_following.paths import mission_file
 from auv_sim import pages
 from auv_sim.analysis.run import Run
 from auv_sim.mission import cli, gallery, plan
-from auv_sim.mission.plan import Options
+from auv_sim.mission.options import Options
 from conftest import children_of
 
 

@@ -14,7 +14,7 @@ from auv_path_following import config_files, vehicle
 from auv_path_following.paths import mission_file
 from auv_sim.closed_loop import Scenario, fly
 from auv_sim.mission import cli, plan
-from auv_sim.mission.plan import Options
+from auv_sim.mission.options import Options
 from auv_sim.parameters import SUITE
 from auv_sim.plant.remus import PlantState
 

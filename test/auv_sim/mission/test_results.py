@@ -18,7 +18,7 @@ from auv_sim.analysis.metrics import CornerSummary, summarise
 from auv_sim.analysis.run import Run
 from auv_sim.mission import cli, launcher, plan, results
 from auv_sim.mission.launcher import Outcome
-from auv_sim.mission.plan import Options
+from auv_sim.mission.options import Options
 
 
 def test_figures_have_units_and_the_next_command_is_quoted(short_mission: Path, tmp_path: Path) -> None:
@@ -110,3 +110,12 @@ def test_a_share_that_is_none_is_refused(capsys: pytest.CaptureFixture[str]) -> 
         cli.main(["--flown", "99"])
     assert ended.value.code == 2
     assert "found 99, expected a share from 0 to 1" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("options", "least"),
+    [(Options(), 0.99), (Options(sea="rough"), 0.8), (Options(sea="rough", flown=0.95), 0.95)],
+)
+def test_at_sea_less_of_the_path_is_enough_unless_asked_otherwise(options: Options, least: float) -> None:
+    """There the vehicle's own navigation may be off by more than a cell's reach."""
+    assert options.least_flown == least

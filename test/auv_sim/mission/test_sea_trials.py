@@ -15,7 +15,7 @@ from auv_msgs_py.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_sim import pages
 from auv_sim.mission import cli, noise_study, plan, sea_trials
-from auv_sim.mission.plan import Options
+from auv_sim.mission.options import Options
 from auv_sim.mission.sea_trials import Job
 from auv_sim.plant import sea
 

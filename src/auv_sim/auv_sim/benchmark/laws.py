@@ -20,7 +20,7 @@ from auv_sim.batch.compiled import COMPILED
 from auv_sim.benchmark.scale import Scale
 from auv_sim.closed_loop import Scenario
 from auv_sim.mission import plan
-from auv_sim.mission.plan import Options
+from auv_sim.mission.options import Options
 
 Tick = Callable[[str], None]
 #: More vehicles than this are not flown uncompiled: they would take half an hour and show nothing new.

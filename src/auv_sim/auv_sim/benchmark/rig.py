@@ -18,8 +18,9 @@ from auv_sim.benchmark.stopwatch import BLOCK, MARK
 from auv_sim.benchmark.usage import Memory, Usage, memory
 from auv_sim.mission import plan
 from auv_sim.mission.composed import NODES
+from auv_sim.mission.options import Options
 from auv_sim.mission.placement import Processor
-from auv_sim.mission.plan import Options, Plan
+from auv_sim.mission.plan import Plan
 
 NAMESPACE = "/auv"
 COMPOSED = "composed"

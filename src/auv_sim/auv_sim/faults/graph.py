@@ -30,7 +30,7 @@ from auv_msgs_py.transport import decoder
 from auv_path_following import config_files
 from auv_sim.faults.relay import RELAYED, FaultRelay, raw
 from auv_sim.mission.composed import NODES
-from auv_sim.mission.plan import DEFAULT_PARAMS
+from auv_sim.mission.options import DEFAULT_PARAMS
 from auv_sim.nodes.pacing import Pacer
 from auv_sim.nodes.plant_node import RemusPlantNode
 

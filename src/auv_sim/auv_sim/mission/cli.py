@@ -32,7 +32,7 @@ from auv_sim.command_line import (
 from auv_sim.command_line import console as terminal
 from auv_sim.drivers.mavlink_link import parse_address
 from auv_sim.mission import launcher, plan, results
-from auv_sim.mission.plan import Options
+from auv_sim.mission.options import DEFAULT_MISSION, DEFAULT_PARAMS, DEFAULT_VEHICLE, Options
 from auv_sim.mission.progress import Progress
 from auv_sim.mission.vehicle_driver import DRIVERS
 
@@ -54,13 +54,13 @@ def parser() -> argparse.ArgumentParser:
     }
     p.add_argument(
         "--mission",
-        default=plan.DEFAULT_MISSION,
+        default=DEFAULT_MISSION,
         metavar="FILE",
         help=f"file or one of: {shipped['missions']}",
     )
     p.add_argument(
         "--vehicle",
-        default=plan.DEFAULT_VEHICLE,
+        default=DEFAULT_VEHICLE,
         metavar="FILE",
         help=f"file or one of: {shipped['vehicles']}",
     )
@@ -70,7 +70,7 @@ def parser() -> argparse.ArgumentParser:
         help="the hull as the nodes know it, where the simulator has another (default: --vehicle's)",
     )
     p.add_argument(
-        "--params", default=plan.DEFAULT_PARAMS, metavar="FILE", help=f"file or one of: {shipped['params']}"
+        "--params", default=DEFAULT_PARAMS, metavar="FILE", help=f"file or one of: {shipped['params']}"
     )
     p.add_argument(
         "--current", nargs=2, type=finite, metavar=("VX", "VY"), help="current towards north and east, m/s"
@@ -121,7 +121,7 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument(
         "--domain", type=ros_domain, help="ROS domain (default: one of its own; with --no-sim ROS_DOMAIN_ID)"
     )
-    add_flown_option(p)
+    add_flown_option(p, None)
     p.add_argument("--force", action="store_true", help="fly what the check of the plan refuses")
     p.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
     return p

@@ -20,7 +20,7 @@ from auv_sim.analysis.metrics import under_way
 from auv_sim.analysis.run import Run
 from auv_sim.command_line import EXIT_DONE, Parser, command, make_directory, say
 from auv_sim.mission import plan
-from auv_sim.mission.plan import Options
+from auv_sim.mission.options import Options
 from auv_sim.planning.gallery_picture import draw
 from auv_sim.recording.bag_writer import texts_below
 from auv_sim.recording.load import load

@@ -15,7 +15,7 @@ from auv_sim import closed_loop
 from auv_sim.analysis.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, save, style
 from auv_sim.analysis.trials import Trial, judge
 from auv_sim.mission import plan
-from auv_sim.mission.plan import Options
+from auv_sim.mission.options import Options
 from auv_sim.plant.actuator import RudderFlaws
 from auv_sim.plant.sea import Sea
 from auv_sim.reproduction.flights import changed

@@ -19,65 +19,12 @@ from auv_path_following.parameters import AutopilotParameters
 from auv_path_following.paths import mission_file
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
-from auv_sim.analysis.flown_share import LEAST_SHARE
 from auv_sim.closed_loop import Scenario
-from auv_sim.command_line import to_type
+from auv_sim.mission.options import Options
 from auv_sim.mission.vehicle_driver import DRIVERS, tell_driver
 from auv_sim.parameters import SUITE
 from auv_sim.planning.check import Verdicts, check, refusal
 from auv_sim.plant import sea
-
-DEFAULT_MISSION = "paper_composite"
-DEFAULT_VEHICLE = "remus100"
-DEFAULT_PARAMS = "robust"
-
-
-@dataclass(frozen=True, kw_only=True)
-class Options:
-    """What the command line can say; names and units as there."""
-
-    mission: str = DEFAULT_MISSION
-    vehicle: str = DEFAULT_VEHICLE
-    believed: str | None = None
-    params: str = DEFAULT_PARAMS
-    current: tuple[float, float] | None = None
-    initial: tuple[float, float, float] | None = None
-    sea: str | None = None
-    seed: int | None = None
-    switching: str | None = None
-    speed: float | None = None
-    no_sim: bool = False
-    vehicle_driver: str | None = None
-    vehicle_address: str | None = None
-    use_sim_time: bool = False
-    out: Path | None = None
-    composed: bool = False
-    any_processor: bool = False
-    namespace: str = "/auv"
-    domain: int | None = None
-    quiet: bool = False
-    force: bool = False
-    flown: float = LEAST_SHARE
-
-    @property
-    def command(self) -> str:
-        """What flies the same mission again: the options that differ from their defaults, for the shell."""
-        changed = {
-            field.name: getattr(self, field.name)
-            for field in dataclasses.fields(self)
-            if field.name not in ("out", "quiet") and getattr(self, field.name) != field.default
-        }
-        return to_type("mission.py", **changed)
-
-    @property
-    def simulator(self) -> bool:
-        """Whether our simulator is the vehicle."""
-        return not self.no_sim and self.vehicle_driver is None
-
-    @property
-    def emulator(self) -> bool:
-        """Whether an emulated vehicle is started for the driver."""
-        return self.vehicle_driver is not None and self.vehicle_address is None
 
 
 @dataclass(frozen=True)

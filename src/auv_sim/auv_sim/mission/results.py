@@ -46,7 +46,7 @@ def conclude(plan: Plan, directory: Path, outcome: Outcome) -> tuple[Outcome, Mi
         return outcome, None
     summary = summarise(run, plan.mission.path)
     if outcome.state == "complete":
-        reason = summary.shortfall(plan.options.flown) or ("" if summary.completed else _UNFINISHED)
+        reason = summary.shortfall(plan.options.least_flown) or ("" if summary.completed else _UNFINISHED)
         if reason:
             outcome = dataclasses.replace(outcome, state="incomplete", reason=reason)
     record: dict[str, Any] = {

@@ -17,7 +17,7 @@ from rich.table import Table
 from auv_msgs_py.result_files import write_text
 from auv_path_following import config_files
 from auv_sim import closed_loop, pages
-from auv_sim.analysis.flown_share import percent
+from auv_sim.analysis.flown_share import LEAST_SHARE_AT_SEA, percent
 from auv_sim.analysis.metrics import without_nan
 from auv_sim.analysis.trials import Together, Trial, judge, together
 from auv_sim.command_line import (
@@ -37,13 +37,12 @@ from auv_sim.command_line import (
 )
 from auv_sim.command_line import console as terminal
 from auv_sim.mission import noise_study, plan
-from auv_sim.mission.plan import Options, Plan
+from auv_sim.mission.options import DEFAULT_MISSION, DEFAULT_PARAMS, DEFAULT_VEHICLE, Options
+from auv_sim.mission.plan import Plan
 from auv_sim.pool import tracked
 
 #: Of the page.
 PART = "trials"
-#: Least share of the path. A cell's reach is 1 m, and at sea the odometry itself is off by up to two.
-_LEAST_FLOWN = 0.8
 
 
 class Job(NamedTuple):
@@ -63,12 +62,12 @@ def parser() -> argparse.ArgumentParser:
         allow_abbrev=False,
         description="Fly a mission in a sea with many seeds, and judge it by where the vehicle really was.",
     )
-    p.add_argument("--mission", default=plan.DEFAULT_MISSION, metavar="FILE", help="default: %(default)s")
-    p.add_argument("--vehicle", default=plan.DEFAULT_VEHICLE, metavar="FILE", help="default: %(default)s")
+    p.add_argument("--mission", default=DEFAULT_MISSION, metavar="FILE", help="default: %(default)s")
+    p.add_argument("--vehicle", default=DEFAULT_VEHICLE, metavar="FILE", help="default: %(default)s")
     p.add_argument(
         "--params",
         nargs="+",
-        default=[plan.DEFAULT_PARAMS, "rough"],
+        default=[DEFAULT_PARAMS, "rough"],
         metavar="FILE",
         help="gains to compare (default: robust rough)",
     )
@@ -79,7 +78,7 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument(
         "--limit", type=positive, default=2.5, metavar="M", help="largest true distance to the path (2.5 m)"
     )
-    add_flown_option(p, _LEAST_FLOWN)
+    add_flown_option(p, LEAST_SHARE_AT_SEA)
     p.add_argument(
         "--study",
         choices=("noise",),

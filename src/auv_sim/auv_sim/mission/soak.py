@@ -23,7 +23,8 @@ from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, Parser, command, make_d
 from auv_sim.command_line import console as terminal
 from auv_sim.mission import launcher, memory, plan
 from auv_sim.mission.domains import free_domain
-from auv_sim.mission.plan import Options, Plan
+from auv_sim.mission.options import Options
+from auv_sim.mission.plan import Plan
 from auv_sim.mission.progress import Progress
 from auv_sim.recording.bag import read_bag
 from auv_sim.recording.load import load, load_messages
