@@ -124,7 +124,7 @@ def test_free_running_follows_the_mission_too_and_one_forged_state_ends_nothing(
     spawn([sys.executable, "-c", FORGER])
     asked = ["--mission", str(short_mission), "--quiet", "--domain", str(domain)]
     before = signal.getsignal(signal.SIGINT)
-    assert main([*asked, "--out", str(tmp_path / "free"), "--speed", "2"]) == 0
+    assert main([*asked, "--out", str(tmp_path / "free"), "--speed", "2", "--flown", "0.9"]) == 0
     assert signal.getsignal(signal.SIGINT) is before  # Ctrl-C is the caller's again
     summary = json.loads((tmp_path / "free" / "summary.json").read_text())
     assert (summary["completed"], summary["timing"]) == (True, "free running")

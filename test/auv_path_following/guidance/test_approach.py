@@ -10,6 +10,7 @@ import pytest
 
 from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
 from auv_path_following import vehicle
+from auv_path_following.guidance.acceptance import Cornering
 from auv_path_following.guidance.approach import (
     Agility,
     ApproachConfig,
@@ -26,7 +27,7 @@ from auv_path_following.paths.line import Line
 
 SPEED, DT = 1.9, 0.1
 AHEAD = WaterVelocity(SPEED, 0.0)
-AGILITY = Agility(speed=SPEED, turn_rate=0.35)
+AGILITY = Agility(speed=SPEED, turn_rate=0.35, cornering=Cornering(rate=0.35, lead=0.5))
 CONFIG = PathFollowerConfig(switching=SwitchingConfig(mode="all", radius=6.0))
 #: North, east, north; with circles of acceptance at both joints.
 PATH = CompositePath(

@@ -99,7 +99,7 @@ def test_the_comparison_draws_the_distance_of_its_table(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     drawn: list[Figure] = []
-    monkeypatch.setattr(Figure, "savefig", lambda figure, *_, **__: drawn.append(figure))
+    monkeypatch.setattr(compare_picture, "save", lambda figure, *_: drawn.append(figure))
     flown = flight()
     compare_picture.draw([flown, flight(truth=False)], ["sea", "calm"], tmp_path / "a.png")
     lines = {str(line.get_label()): line.get_ydata() for line in drawn[0].axes[1].lines}
