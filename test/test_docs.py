@@ -61,7 +61,6 @@ FOREIGN = (
     "rosdep",
     "sudo",
     "python3 -m",
-    "SHARE=",
     "ros2 service",
     "ros2 param",
 )
@@ -72,6 +71,8 @@ FILES: dict[str, config_files.Kind] = {
     "params": "params",
     "sea": "seas",
 }
+#: Where colcon puts what config/ ships.
+SHARE = "install/auv_path_following/share/auv_path_following/"
 NODES = SUITE | {"fault_relay": FaultRelayParameters}
 
 
@@ -89,7 +90,7 @@ def lines() -> Iterator[Line]:
     """Indented lines that begin as a command does."""
     for page in PAGES:
         for text in (ROOT / page).read_text(encoding="utf-8").splitlines():
-            found = re.match(r"    ((?:python3|ros2|pip|cd|mkdir|source|rosdep|sudo|SHARE=)\b.*)", text)
+            found = re.match(r"    ((?:python3|ros2|pip|cd|mkdir|source|rosdep|sudo)\b.*)", text)
             if found:
                 yield Line(
                     page, shlex.join(shlex.split(found[1], comments=True)) if "#" in found[1] else found[1]
@@ -160,8 +161,8 @@ def test_a_node_that_ros2_runs_has_these_parameters(line: Line) -> None:
     typed = {name: type(known[name])(value) for name, value in given.items()}
     validated(NODES[node], nested(typed), str(line))
     for word in rest:
-        if word.startswith("$SHARE/"):
-            assert (ROOT / word.removeprefix("$SHARE/")).is_file()
+        if word.startswith(SHARE):
+            assert (ROOT / word.removeprefix(SHARE)).is_file()
 
 
 def test_the_nodes_that_are_started_by_hand_follow_the_simulator() -> None:
