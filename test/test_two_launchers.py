@@ -60,7 +60,7 @@ def alone(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[Path],
             from auv_sim.mission.cli import main
 
             out = tmp_path_factory.mktemp("alone") / "run"
-            asked = ["--quiet", "--mission", str(mission), "--out", str(out)]
+            asked = ["--quiet", "--flown", "0", "--mission", str(mission), "--out", str(out)]
             assert main([*asked, "--domain", str(free_domain())]) == 0
             found[mission] = messages(out / "bag")
         return found[mission]
@@ -86,10 +86,8 @@ def test_the_first_mission_ends_as_if_alone(
         wanted = ("speed:=3.0", "initial.surge:=0.0")
         parameters = [word for value in wanted for word in ("-p", value)]
         spawn(command_line("auv_sim.nodes.plant_node", "--ros-args", "-r", "__ns:=/auv", *parameters))
-    mission = short_mission
-    if first == "lockstep":  # long enough for a second launcher to come up beside it
-        mission = tmp_path / "long.yaml"
-        mission.write_text(short_mission.read_text().replace("length: 15", "length: 4000"))
+    # In lockstep long enough for a second launcher to come up beside it.
+    mission = Path("paper_composite") if first == "lockstep" else short_mission
     flying = spawn(launch(command_line, mission, domain, tmp_path / "one", first, "/auv"))
     until(lambda: (tmp_path / "one" / "bag").exists() or flying.poll() is not None)
     other = spawn(launch(command_line, short_mission, domain, tmp_path / "two", second, namespace))
@@ -99,7 +97,7 @@ def test_the_first_mission_ends_as_if_alone(
         other.send_signal(signal.SIGINT)
         assert other.wait(60) == 130
     else:
-        _, err = other.communicate(timeout=60)
+        _, err = other.communicate(timeout=180)
         assert (other.returncode, len(err.splitlines())) == (2, 1), err
         assert "mission_launcher: found" in err and "nothing that runs was touched" in err
         assert not (tmp_path / "two").exists()
