@@ -65,15 +65,18 @@ class GraphLook:
             if other is not None and len(self._others) < _MOST:
                 self._others[other.token] = other
 
-    def ended(self) -> bool:
+    def ended(self, ready: bool = True) -> bool:
         """Whether the look is over and nothing was found; from then on the claim is held.
+
+        Args:
+            ready: whether what is going to publish has loaded; until then looking on costs nothing.
 
         Raises:
             GraphTaken: something was found.
         """
         if self.claim.held:
             return True
-        over = time.monotonic() - self._begin >= LOOK
+        over = ready and time.monotonic() - self._begin >= LOOK
         self.check()
         self._check_graph(over)
         if over:

@@ -31,7 +31,8 @@ if TYPE_CHECKING:
 
 #: Exit code for input that cannot be used; 1 is for everything else that went wrong.
 EXIT_BAD_INPUT = 2
-#: Set in the environment of nodes that a launcher starts: they wait for `OPEN` on their standard input.
+#: Set in the environment of nodes that a launcher starts: the number of a pipe on which they report that they
+#: have loaded. They then wait for `OPEN` on their standard input.
 GATE, OPEN = "AUV_START_GATE", "open\n"
 #: How long nodes may go on after a stop was requested, s of wall time.
 _GRACE = 5.0
@@ -98,6 +99,9 @@ def _let_in(stop: StopRequest) -> bool:
     """
     if GATE not in os.environ:
         return True
+    pipe = int(os.environ[GATE])
+    os.write(pipe, b".")
+    os.close(pipe)
     while not stop.requested:
         if select.select([sys.stdin], [], [], 0.1)[0]:
             return sys.stdin.readline() == OPEN

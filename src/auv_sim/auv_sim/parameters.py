@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Any, Literal
 
 from auv_msgs_py import topics
+from auv_msgs_py.errors import ConfigurationError, MessageRefused
+from auv_msgs_py.frames import FrameIds, FrameTable
 from auv_msgs_py.settings import setting, settings
 from auv_msgs_py.types import Current
 from auv_path_following.parameters import (
@@ -60,6 +62,9 @@ class PlantParameters(NodeParameters):
     step: float = setting(0.05, "time between two odometries", unit="s", ge=0.001, le=1.0)
     speed: float = setting(1.0, "free running: how many times faster than the wall clock", ge=0.01, le=1000.0)
     hold_until_running: bool = setting(True, "stay at the initial state until the mission runs")
+    publish_at_rest: bool = setting(
+        True, "free running: publish the state while it is held, so that it can be checked"
+    )
     command_timeout: float = setting(
         1.0, "without a command for this long: rudder and thrust 0", unit="s", ge=0.1, le=60.0
     )
@@ -74,6 +79,18 @@ class PlantParameters(NodeParameters):
         "map", "frame id of the odometry; map and odom are ENU, map_ned and odom_ned NED"
     )
     body_frame: str = setting("base_link", "frame id of the vehicle; base_link is FLU, base_link_frd FRD")
+
+    def check_frames(self, node: str) -> None:
+        """Check that the two frames go together.
+
+        Raises:
+            ConfigurationError: with the node's name, if they do not.
+        """
+        try:
+            FrameTable(FrameIds()).of_pose(topics.ODOM.name, self.world_frame, self.body_frame)
+        except MessageRefused as error:
+            where = f"{node}: world_frame, body_frame"
+            raise ConfigurationError(where, error.found, error.expected) from None
 
 
 @settings

@@ -164,13 +164,15 @@ class _Flight:
         return Outcome(state, reason, wall, self._monitor.mission_time)
 
     def _graph_free(self) -> bool:
-        """Look at the graph while the nodes start, which enter it only then; False when interrupted.
+        """Look at the graph while the nodes load, which enter it only then; False when interrupted.
+
+        A busy machine discovers late and loads late: looking until all have loaded takes account of both.
 
         Raises:
             GraphTaken: another has what this mission needs.
         """
         self._look = self._monitor.look_around(self._plan.claim())
-        while not self._look.ended():
+        while not self._look.ended(self._children.at_gate()):
             if self._interrupt.requested:
                 return False
             self._check_children()
@@ -184,6 +186,7 @@ class _Flight:
         deadline = time.monotonic() + _DISCOVERY_BOUND
         while not self._interrupt.requested:
             self._check_children()
+            self._look.check()
             missing = self._monitor.missing_nodes(names, topics.RECORDER in names)
             if not missing:
                 return True

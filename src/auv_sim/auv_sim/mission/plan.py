@@ -166,6 +166,7 @@ def make(options: Options, directory: Path) -> Plan:
         topics.PLANT,
         vehicle=str(sources["vehicle"]),
         initial=_initial(options, mission, parameters),
+        publish_at_rest=False,
     )
     _tell(parameters, topics.RECORDER, directory=str(directory / "bag"))
     if options.speed is not None:

@@ -55,6 +55,9 @@ class Children:
         self._directory = log_directory
         self._environment = {**os.environ, **environment, "PYTHONUNBUFFERED": "1"}
         self._children: dict[str, Child] = {}
+        self._loaded, self._report = os.pipe()
+        os.set_blocking(self._loaded, False)
+        self._gated = self._at_gate = 0
         log_directory.mkdir(parents=True, exist_ok=True)
 
     def start(self, name: str, module: str, arguments: Sequence[str], gated: bool = False) -> None:
@@ -69,11 +72,19 @@ class Children:
                 stdin=subprocess.PIPE if gated else subprocess.DEVNULL,
                 stdout=stream,
                 stderr=subprocess.STDOUT,
-                env={**self._environment, GATE: "1"} if gated else self._environment,
+                env={**self._environment, GATE: str(self._report)} if gated else self._environment,
+                pass_fds=(self._report,) if gated else (),
                 start_new_session=True,
                 preexec_fn=_die_with_parent,
             )
+        self._gated += gated
         self._children[name] = Child(name, process, log)
+
+    def at_gate(self) -> bool:
+        """Whether every gated process has loaded and waits."""
+        with contextlib.suppress(BlockingIOError):
+            self._at_gate += len(os.read(self._loaded, self._gated or 1))
+        return self._at_gate >= self._gated
 
     def open_gate(self) -> None:
         """Let the gated processes make their nodes."""

@@ -14,8 +14,6 @@ from std_srvs.srv import Trigger
 from auv_msgs_py import topics
 from auv_msgs_py.claim import Claim, of_simulator
 from auv_msgs_py.conversions import fill_current, fill_odometry, fill_water_velocity, finite, set_stamp
-from auv_msgs_py.errors import ConfigurationError, MessageRefused
-from auv_msgs_py.frames import FrameIds, FrameTable
 from auv_msgs_py.mission_word import MissionWord
 from auv_msgs_py.runtime import SuiteNode, run_nodes
 from auv_msgs_py.types import STOP, Command
@@ -54,7 +52,7 @@ class RemusPlantNode(SuiteNode):
         self._odometry = Odometry(p.world_frame, p.body_frame)
         self._truth = Odometry(p.world_frame, p.body_frame) if at_sea else None
         self._water, self._true_current = TwistWithCovarianceStamped(p.body_frame), Vector3Stamped()
-        self._check_frames(p)
+        p.check_frames(self.get_name())
         self._clock_message, self._rudder_message = Clock(), Float64()
         self._outputs = [
             (self.advertise(topic), message)
@@ -75,14 +73,6 @@ class RemusPlantNode(SuiteNode):
         if self.pacer is not None:
             steady = RosClock(clock_type=ClockType.STEADY_TIME)
             self.create_timer(self.pacer.ask_every, self._tick, clock=steady)
-
-    def _check_frames(self, p: PlantParameters) -> None:
-        try:
-            FrameTable(FrameIds()).of_pose(topics.ODOM.name, p.world_frame, p.body_frame)
-        except MessageRefused as error:
-            raise ConfigurationError(
-                f"{self.get_name()}: world_frame, body_frame", error.found, error.expected
-            ) from None
 
     def claim(self) -> Claim:
         return of_simulator(self.get_namespace(), self.get_name())
@@ -109,9 +99,8 @@ class RemusPlantNode(SuiteNode):
         vehicle, stamp = self.simulated, self.stamp
         set_stamp(self._clock_message.clock, stamp)
         rest = self._at_rest
-        fill_odometry(
-            self._odometry, vehicle.navigation, *((0.0, 0.0) if rest else vehicle.ground_velocity), stamp
-        )
+        u, v = (0.0, 0.0) if rest else vehicle.ground_velocity
+        fill_odometry(self._odometry, vehicle.navigation, u, v, stamp)
         fill_water_velocity(self._water, vehicle.passing_water if rest else vehicle.water_velocity, stamp)
         self._rudder_message.data = vehicle.rudder
         fill_current(self._true_current, vehicle.current, stamp)
@@ -159,15 +148,19 @@ class RemusPlantNode(SuiteNode):
             raise refused
 
     def _on_reset(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        # In lockstep a step may be under way; its answer must not meet the new first step.
-        self._reset_wanted = True
+        self._reset_wanted = (
+            True  # in lockstep the answer of a step under way must not meet the new first step
+        )
         response.success, response.message = True, "back at the initial state with the next step"
         return response
 
     def _tick(self) -> None:
         """Free running: the next step, when the wall clock asks for it."""
         assert self.pacer is not None
-        if not self.pacer.due(time.monotonic()):
+        silent = self._at_rest and not self.parameters.publish_at_rest
+        if silent:
+            self.pacer.restart(time.monotonic())
+        if silent or not self.pacer.due(time.monotonic()):
             return
         self.command = self._held_command()
         if self._begun and self._at_rest and not self._reset_wanted:
