@@ -148,9 +148,8 @@ class RemusPlantNode(SuiteNode):
             raise refused
 
     def _on_reset(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        self._reset_wanted = (
-            True  # in lockstep the answer of a step under way must not meet the new first step
-        )
+        # In lockstep the answer of a step under way must not meet the new first step.
+        self._reset_wanted = True
         response.success, response.message = True, "back at the initial state with the next step"
         return response
 
