@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import os
 import tempfile
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from types import ModuleType
 from typing import Any, TypeVar
@@ -13,13 +13,14 @@ from typing import Any, TypeVar
 import auv_msgs_py
 import auv_path_following
 import auv_sim
+from auv_msgs_py.pure import DISPATCHED, PURE, Step
 
 F = TypeVar("F", bound=Callable[..., Any])
 
 numba: Any
 try:
     import numba
-    from numba.extending import register_jitable
+    from numba.extending import overload, register_jitable
 except ImportError:
     numba = None
 
@@ -51,6 +52,32 @@ def part(function: F) -> F:
     if numba is not None:
         register_jitable(error_model="numpy")(function)
     return function
+
+
+_taken_over: set[int] = set()
+
+
+def take_over_pure() -> None:
+    """Let compiled code call every pure function defined so far, and choose steps by configuration."""
+    if numba is None:
+        return
+    for function in PURE:
+        if id(function) not in _taken_over:
+            _taken_over.add(id(function))
+            register_jitable(error_model="numpy")(function)
+    for step, steps in DISPATCHED:
+        if id(step) not in _taken_over:
+            _taken_over.add(id(step))
+            overload(step, jit_options={"error_model": "numpy"})(_chooser(steps))
+
+
+def _chooser(steps: Mapping[type[Any], Step]) -> Callable[..., Any]:
+    """Return what picks a step while a caller is compiled: its type has the configuration's class."""
+
+    def choose(config: Any, state: Any, inputs: Any, dt: Any) -> Any:
+        return steps.get(getattr(config, "instance_class", type(None)))
+
+    return choose
 
 
 def files_of(sources: Iterable[tuple[ModuleType, str]]) -> list[Path]:

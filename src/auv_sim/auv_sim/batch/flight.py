@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from auv_msgs_py.angles import wrap
 from auv_msgs_py.types import Current, Navigation, WaterVelocity
 from auv_sim.analysis.flown_share import Cells
 from auv_sim.batch import tally
@@ -17,7 +18,6 @@ from auv_sim.batch.flown_cells import pass_cells
 from auv_sim.batch.follow import first_state, follow
 from auv_sim.batch.numbers import Flight
 from auv_sim.batch.path_point import distance_to
-from auv_sim.batch.shared import wrap
 from auv_sim.batch.steps import AutopilotState, ObserverState, advance, observe, steer
 from auv_sim.plant.remus import PlantState
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from auv_msgs_py.angles import wrap
 from auv_msgs_py.types import Current, Navigation, WaterVelocity
 from auv_path_following.guidance.acceptance import Corner
 from auv_path_following.guidance.approach import NEAR
@@ -32,7 +33,6 @@ from auv_sim.batch.shared import (
     path_errors,
     saturated,
     tangential_speed,
-    wrap,
 )
 
 

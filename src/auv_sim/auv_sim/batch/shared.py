@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from auv_msgs_py import angles
 from auv_path_following.control import nism
 from auv_path_following.control.hull_model import HullModel
 from auv_path_following.control.reference_model import ReferenceModel
@@ -12,11 +11,10 @@ from auv_path_following.guidance import acceptance, adaptive_lookahead, ailos, v
 from auv_path_following.guidance import approach as guidance_approach
 from auv_path_following.guidance.ailos import Ailos
 from auv_path_following.guidance.los import Los
-from auv_sim.batch.compiled import part
+from auv_sim.batch.compiled import part, take_over_pure
 from auv_sim.plant import remus
 from auv_sim.plant.remus import RemusDynamics
 
-wrap = part(angles.wrap)
 is_at = part(guidance_approach.is_at)
 path_errors = part(virtual_point.path_errors)
 saturated = part(virtual_point.saturated)
@@ -35,3 +33,5 @@ approach: Any = part(ReferenceModel.approach)
 derivative: Any = part(RemusDynamics.derivative)
 accelerations: Any = part(HullModel.accelerations)
 rudder_gain: Any = part(HullModel.rudder_gain)
+
+take_over_pure()

@@ -8,11 +8,12 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from auv_msgs_py.angles import wrap
 from auv_msgs_py.types import Current, Navigation, WaterVelocity
 from auv_path_following.control.controller import HeadingInputs
 from auv_sim.batch.compiled import compiled
 from auv_sim.batch.numbers import Autopilot, Observer, Plant
-from auv_sim.batch.shared import accelerations, approach, derivative, moved, rudder_gain, rudder_rate, wrap
+from auv_sim.batch.shared import accelerations, approach, derivative, moved, rudder_gain, rudder_rate
 from auv_sim.plant.remus import PlantState
 
 _LONGEST_SWAY_STEP = 0.05

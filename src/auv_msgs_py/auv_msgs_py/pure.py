@@ -1,0 +1,89 @@
+"""Laws as pure functions, and their settings as numbers: Python that a compiler takes over unchanged.
+
+A law is `step(config, state, inputs, dt) -> (state, output)` over named tuples of numbers. Nodes, the closed
+loop and a replay call it as it stands. A compiler that is installed compiles the same source; it finds
+all functions of a law, helpers included, in `PURE`.
+
+A step may write into a ring, a table or a counter that it was given, and changes nothing else.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import typing
+from collections import namedtuple
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple, TypeVar
+
+F = TypeVar("F", bound=Callable[..., Any])
+T = TypeVar("T")
+Step = Callable[[Any, Any, Any, float], tuple[Any, Any]]
+
+
+class Dispatched(NamedTuple):
+    """A step that is chosen by the type of its configuration."""
+
+    step: Step
+    steps: Mapping[type[Any], Step]
+
+
+#: All pure functions, in the order of their definition.
+PURE: list[Callable[..., Any]] = []
+#: All chosen steps.
+DISPATCHED: list[Dispatched] = []
+
+
+def pure(function: F) -> F:
+    """Mark a pure function; return it unchanged."""
+    PURE.append(function)
+    return function
+
+
+def dispatched(steps: Mapping[type[Any], Step]) -> Step:
+    """Return a step that calls the one of `steps` for the type of the configuration.
+
+    Args:
+        steps: configuration class -> step. The signatures are equal.
+    """
+
+    def step(config: Any, state: Any, inputs: Any, dt: float) -> tuple[Any, Any]:
+        return steps[type(config)](config, state, inputs, dt)
+
+    DISPATCHED.append(Dispatched(step, steps))
+    return step
+
+
+def numbers(cls: type[T]) -> type[T]:
+    """Give a settings class its `Numbers`: a named tuple class with the same field names.
+
+    Code that only reads `config.k1` accepts either. The tuple compiles; the settings object does not.
+    """
+    names = [field.name for field in dataclasses.fields(cls)]  # type: ignore[arg-type]
+    made: Any = namedtuple("Numbers", names)  # type: ignore[misc]
+    made.__module__, made.__qualname__ = cls.__module__, f"{cls.__qualname__}.Numbers"
+    cls.Numbers = made  # type: ignore[attr-defined]
+    return cls
+
+
+def numbers_of(settings: Any) -> Any:
+    """Return a settings object as plain numbers, nested ones included.
+
+    Booleans stay booleans; a word becomes its index among the allowed ones.
+
+    Args:
+        settings: an object of a class decorated with `numbers`.
+    """
+    cls = type(settings)
+    hints: dict[str, Any] = {}
+    values = []
+    for name in cls.Numbers._fields:
+        value = getattr(settings, name)
+        if dataclasses.is_dataclass(value):
+            value = numbers_of(value)
+        elif isinstance(value, str):
+            hints = hints or typing.get_type_hints(cls)
+            value = typing.get_args(hints[name]).index(value)
+        elif not isinstance(value, bool):
+            value = float(value)
+        values.append(value)
+    return cls.Numbers(*values)
