@@ -30,11 +30,11 @@ def test_gains_may_change_in_flight_and_wiring_may_not(bench: Bench) -> None:
         return node.set_parameters_atomically(parameters)
 
     assert change(autopilot__nism__k1=0.5).successful
-    assert node.autopilot.controller.config.k1 == 0.5
+    assert node.autopilot.config.controller.gains.k1 == 0.5
     for wrong in (-1.0, math.nan, 1e9):
         refused = change(autopilot__nism__k1=wrong)
         assert not refused.successful
-        assert node.autopilot.controller.config.k1 == 0.5
+        assert node.autopilot.config.controller.gains.k1 == 0.5
     assert not change(lockstep=True).successful
     described = node.describe_parameter("autopilot.nism.k1")
     assert "[rad/s]" in described.description
@@ -53,7 +53,7 @@ def test_what_the_vehicle_cannot_bear_is_refused_in_flight_and_changes_nothing(
     own = {"enabled": True, "max_rate": 0.3, "max_acceleration": 0.2, "max_jerk": 0.5}
     told = {f"autopilot__reference__{name}": value for name, value in own.items()}
     node = bench.start(HeadingAutopilotNode, vehicle=str(measured), **told)
-    before, limits = node.parameters, node.autopilot.reference.limits
+    before, limits = node.parameters, node.autopilot.config.reference.limits
 
     name = "autopilot.reference.max_jerk"
     (result,) = node.set_parameters([Parameter(name, value=0.0)])
@@ -62,10 +62,10 @@ def test_what_the_vehicle_cannot_bear_is_refused_in_flight_and_changes_nothing(
         "nothing to derive reference.max_jerk from, which is 0" in result.reason and "\n" not in result.reason
     )
     assert node.get_parameter(name).value == 0.5
-    assert node.parameters is before and node.autopilot.reference.limits is limits
+    assert node.parameters is before and node.autopilot.config.reference.limits is limits
 
     (result,) = node.set_parameters([Parameter(name, value=0.6)])
-    assert result.successful and node.autopilot.reference.limits.jerk == 0.6
+    assert result.successful and node.autopilot.config.reference.limits.jerk == 0.6
 
 
 def test_the_parameter_service_refuses_with_a_reason(bench: Bench) -> None:
@@ -151,7 +151,7 @@ def _with_file(text: str, folder: Path) -> dict[str, Any]:
 def test_a_shared_block_may_hold_what_other_nodes_have(bench: Bench, tmp_path: Path) -> None:
     shared = "/**: {ros__parameters: {robot: torpedo, autopilot.nism.k1: 0.5}}\n"
     node = HeadingAutopilotNode(**_with_file(shared, tmp_path))
-    assert node.autopilot.controller.config.k1 == 0.5
+    assert node.autopilot.config.controller.gains.k1 == 0.5
     node.destroy_node()
     own = "/**/heading_autopilot: {ros__parameters: {robot: torpedo}}\n"
     with pytest.raises(ConfigurationError, match="parameter robot: found an unknown name"):

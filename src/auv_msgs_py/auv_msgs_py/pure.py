@@ -65,6 +65,11 @@ def numbers(cls: type[T]) -> type[T]:
     return cls
 
 
+def numbers_class(cls: type[Any]) -> type[Any]:
+    """Return the named tuple class of a settings class decorated with `numbers`."""
+    return cls.Numbers  # type: ignore[no-any-return]
+
+
 def numbers_of(settings: Any) -> Any:
     """Return a settings object as plain numbers, nested ones included.
 

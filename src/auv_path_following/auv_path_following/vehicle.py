@@ -10,10 +10,12 @@ from pydantic_core import PydanticCustomError
 
 from auv_msgs_py import yaml_file
 from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.pure import numbers
 from auv_msgs_py.settings import setting, settings
 from auv_path_following import config_files
 
 
+@numbers
 @settings
 class Hull:
     """Coefficients of Eq. (18) and Eq. (19), by the names of Table 2."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import math
+from typing import NamedTuple
 
 import pytest
 from hypothesis import given, settings
@@ -12,9 +13,10 @@ from hypothesis import strategies as st
 
 from auv_msgs_py import params_file, topics
 from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.pure import DISPATCHED
 from auv_msgs_py.types import STOP, Navigation, Reference
 from auv_path_following import config_files, vehicle
-from auv_path_following.control.autopilot import HeadingAutopilot
+from auv_path_following.control.autopilot import HeadingAutopilot, controller_step, first_state
 from auv_path_following.control.controller import ControllerOutput
 from auv_path_following.control.derivative import DerivativeConfig
 from auv_path_following.control.hull_model import HullModel
@@ -36,24 +38,37 @@ DT = 0.05
 _any = st.floats(allow_nan=True, allow_infinity=True)
 
 
-class Spy:
-    """A controller that remembers what it was shown and answers as it is told."""
+class Scripted(NamedTuple):
+    """Configuration of a controller that always answers the same rudder."""
 
-    def __init__(self, rudder=0.1):
-        self.rudder, self.seen, self.resets = rudder, [], 0
-
-    def update(self, inputs, dt):
-        self.seen.append((inputs, dt))
-        return ControllerOutput(self.rudder)
-
-    def reset(self):
-        self.resets += 1
+    rudder: float
 
 
-def spied(rudder=0.1):
-    autopilot, spy = HeadingAutopilot(REMUS, CONFIG), Spy(rudder)
-    autopilot.controller = spy
-    return autopilot, spy
+class Seen(NamedTuple):
+    """State of that controller: all inputs, and the time since the last ones."""
+
+    inputs: tuple = ()
+
+
+def scripted(config, state, inputs, dt):
+    return Seen((*state.inputs, (inputs, dt))), ControllerOutput(config.rudder)
+
+
+@pytest.fixture(autouse=True)
+def _scripted_is_registered(monkeypatch):
+    (steps,) = (steps for step, steps in DISPATCHED if step is controller_step)
+    monkeypatch.setitem(steps, Scripted, scripted)
+
+
+def spied(rudder=0.1, config=CONFIG):
+    autopilot = HeadingAutopilot(REMUS, config)
+    autopilot.config = autopilot.config._replace(controller=Scripted(rudder), controller_begins=Seen())
+    autopilot.reset()
+    return autopilot
+
+
+def seen_by(autopilot):
+    return autopilot.state.controller.inputs
 
 
 def heading(psi, r=0.0):
@@ -65,11 +80,11 @@ def reference(psi_d=0.0, r_d=0.0, thrust=6.48):
 
 
 def test_accelerations_are_differences_of_what_came_in():
-    autopilot, spy = spied()
+    autopilot = spied()
     autopilot.update(heading(0.5, r=0.10), reference(0.2, r_d=0.02), 99.0)
     autopilot.update(heading(0.6, r=0.13), reference(0.2, r_d=0.01), DT)
     # The first one has nothing to compare with, and no time has passed.
-    (first, first_dt), (second, second_dt) = spy.seen
+    (first, first_dt), (second, second_dt) = seen_by(autopilot)
     assert first[:5] == pytest.approx((0.3, 0.10, 0.0, 0.02, 0.0))
     assert second[:5] == pytest.approx((0.4, 0.13, 0.03 / DT, 0.01, -0.01 / DT))
     assert (first_dt, second_dt) == (0.0, DT)
@@ -85,14 +100,14 @@ def test_the_heading_error_takes_the_short_way(psi, psi_d, psi_e):
 
 
 def test_thrust_is_passed_on_up_to_what_the_vehicle_can():
-    autopilot, _ = spied()
+    autopilot = spied()
     assert autopilot.update(heading(0.0), reference(thrust=3.0), DT).command.thrust == 3.0
     assert autopilot.update(heading(0.0), reference(thrust=60.0), DT).command.thrust == REMUS.thrust_max
 
 
 @pytest.mark.parametrize(("asked", "given_"), [(2.0, LIMIT), (-2.0, -LIMIT), (0.3, 0.3)])
 def test_the_rudder_stays_within_its_stops(asked, given_):
-    autopilot, _ = spied(asked)
+    autopilot = spied(asked)
     assert autopilot.update(heading(0.0), reference(), DT).command.rudder == given_
 
 
@@ -146,10 +161,9 @@ def test_a_bad_number_is_a_stop_or_harmless_and_is_forgotten(position, bad):
 
 
 def test_a_controller_that_loses_its_mind_is_reset_and_the_vehicle_stopped():
-    autopilot, spy = spied(math.nan)
-    before = spy.resets
+    autopilot = spied(math.nan)
     assert autopilot.update(heading(0.5), reference(), DT).command == STOP
-    assert spy.resets == before + 1
+    assert autopilot.state == first_state(autopilot.config)
 
 
 def test_it_turns_a_simple_ship_onto_its_course():
@@ -168,12 +182,11 @@ def test_the_filter_behind_dr_dt_quiets_a_noisy_gyro_and_is_off_by_default():
 
     def largest(bandwidth):
         config = dataclasses.replace(CONFIG, derivative=DerivativeConfig(bandwidth=bandwidth))
-        autopilot = HeadingAutopilot(REMUS, config)
-        autopilot.controller = spy = Spy()
+        autopilot = spied(config=config)
         for k in range(200):
             r = 0.01 * math.sin(0.02 * k) + (0.002 if k % 2 else -0.002)
             autopilot.update(Navigation(0.0, 0.0, 0.0, r), Reference(0.0, 0.0, 6.0), DT if k else 0.0)
-        return max(abs(inputs.r_dot) for inputs, _ in spy.seen[20:])
+        return max(abs(inputs.r_dot) for inputs, _ in seen_by(autopilot)[20:])
 
     assert CONFIG.derivative.bandwidth == 0.0
     assert largest(0.0) > 0.08  # 0.004 rad/s in 0.05 s
@@ -181,15 +194,13 @@ def test_the_filter_behind_dr_dt_quiets_a_noisy_gyro_and_is_off_by_default():
 
 
 def test_the_filter_forgets_with_the_mission_and_takes_a_new_bandwidth():
-    autopilot = HeadingAutopilot(REMUS, CONFIG)
-    autopilot.configure(dataclasses.replace(CONFIG, derivative=DerivativeConfig(bandwidth=5.0)))
-    autopilot.controller = spy = Spy()
+    autopilot = spied(config=dataclasses.replace(CONFIG, derivative=DerivativeConfig(bandwidth=5.0)))
     for k in range(10):
         autopilot.update(Navigation(0.0, 0.0, 0.0, 0.1 * k), Reference(0.0, 0.0, 6.0), DT if k else 0.0)
-    assert 0.0 < spy.seen[-1][0].r_dot < 2.0
+    assert 0.0 < seen_by(autopilot)[-1][0].r_dot < 2.0
     autopilot.update(Navigation(0.0, 0.0, 0.0, 1.0), Reference(0.0, 0.0, 0.0), DT)
     autopilot.update(Navigation(0.0, 0.0, 0.0, 5.0), Reference(0.0, 0.0, 6.0), DT)
-    assert spy.seen[-1][0].r_dot == 0.0
+    assert seen_by(autopilot)[-1][0].r_dot == 0.0
 
 
 def test_gains_that_the_vehicle_cannot_bear_change_nothing():
@@ -203,7 +214,7 @@ def test_gains_that_the_vehicle_cannot_bear_change_nothing():
     own = ReferenceConfig(enabled=True, max_rate=0.3, max_acceleration=0.2, max_jerk=0.5)
     config = dataclasses.replace(CONFIG, reference=own)
     autopilot = HeadingAutopilot(measured, config)
-    limits, gains = autopilot.reference.limits, autopilot.controller.config
+    prepared = autopilot.config
     wrong = dataclasses.replace(
         config,
         reference=dataclasses.replace(own, max_jerk=0.0),
@@ -214,10 +225,7 @@ def test_gains_that_the_vehicle_cannot_bear_change_nothing():
         autopilot.configure(wrong)
     with pytest.raises(ConfigurationError, match="hull"):
         autopilot.configure(dataclasses.replace(config, controller="smc"))
-    assert autopilot.config is config
-    assert autopilot.reference.config is own and autopilot.reference.limits is limits
-    assert autopilot.controller.config is gains
-    assert autopilot.derivative.config is config.derivative
+    assert autopilot.config is prepared
 
 
 @pytest.mark.parametrize("rate", [10.0, 573.0, 574.0, 1e6])
@@ -225,13 +233,13 @@ def test_a_rudder_however_fast_gives_a_kp(rate):
     """1e6 deg/s is how some write that their rudder has no rate limit worth a number."""
     fast = dataclasses.replace(REMUS, rudder=dataclasses.replace(REMUS.rudder, max_rate_deg_s=rate))
     config = dataclasses.replace(CONFIG, nism=dataclasses.replace(CONFIG.nism, kp_from_rudder=True))
-    nism = HeadingAutopilot(fast, config).controller.config
+    nism = HeadingAutopilot(fast, config).config.controller.gains
     assert 0.0 < nism.kp <= min(fast.rudder.max_rate, 10.0)
     assert HullModel(fast).b * nism.kp * nism.k5 <= 12.0 * (1.0 + 1e-9)
     measured = dataclasses.replace(
         fast, hull=None, cruise=Cruise(thrust=6.48, speed=2.0), turning=Turning(radius=9.0)
     )
-    kp = HeadingAutopilot(measured, config).controller.config.kp  # by b = 1.8 u^2/L^2, no hull being there
+    kp = HeadingAutopilot(measured, config).config.controller.gains.kp  # b = 1.8 u^2/L^2: no hull
     assert kp == pytest.approx(min(fast.rudder.max_rate, 12.0 / (1.8 * (2.0 / 1.6) ** 2 * nism.k5)))
 
 
@@ -240,4 +248,4 @@ def test_a_rudder_however_fast_gives_a_kp(rate):
 def test_a_shipped_hull_takes_its_rudders_whole_rate_whatever_k5(name, k5):
     hull = vehicle.load(name)
     config = dataclasses.replace(CONFIG, nism=dataclasses.replace(CONFIG.nism, kp_from_rudder=True, k5=k5))
-    assert HeadingAutopilot(hull, config).controller.config.kp == hull.rudder.max_rate
+    assert HeadingAutopilot(hull, config).config.controller.gains.kp == hull.rudder.max_rate

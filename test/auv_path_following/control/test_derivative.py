@@ -10,12 +10,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from auv_path_following.control.derivative import Derivative, DerivativeConfig
+from auv_path_following.control.derivative import DerivativeConfig, DerivativeState, derivative
+from laws import Stepped
 
 
 def behind(bandwidth: float, values: list[float], dt: float) -> list[float]:
-    derivative = Derivative(DerivativeConfig(bandwidth=bandwidth))
-    return [derivative.update(value, dt if k else 0.0) for k, value in enumerate(values)]
+    law = Stepped(derivative, DerivativeConfig(bandwidth=bandwidth), DerivativeState())
+    return [law.update(value, dt if k else 0.0) for k, value in enumerate(values)]
 
 
 def test_without_a_filter_it_is_the_difference() -> None:
@@ -56,10 +57,10 @@ def test_it_multiplies_white_noise_as_the_page_says(bandwidth: float) -> None:
     st.lists(st.tuples(st.floats(-10.0, 10.0), st.floats(1e-4, 10.0)), min_size=1, max_size=50),
 )
 def test_no_step_makes_it_unstable(bandwidth: float, samples: list[tuple[float, float]]) -> None:
-    derivative = Derivative(DerivativeConfig(bandwidth=bandwidth))
+    law = Stepped(derivative, DerivativeConfig(bandwidth=bandwidth), DerivativeState())
     steepest, last = 0.0, None
     for value, dt in samples:
-        rate = derivative.update(value, dt)
+        rate = law.update(value, dt)
         if last is not None:
             steepest = max(steepest, abs(value - last) / dt)
         last = value
@@ -67,16 +68,16 @@ def test_no_step_makes_it_unstable(bandwidth: float, samples: list[tuple[float, 
 
 
 def test_a_reset_forgets() -> None:
-    derivative = Derivative(DerivativeConfig(bandwidth=5.0))
+    law = Stepped(derivative, DerivativeConfig(bandwidth=5.0), DerivativeState())
     for k in range(10):
-        derivative.update(float(k), 0.1)
-    derivative.reset()
-    assert derivative.update(3.0, 0.1) == 0.0
-    assert derivative.update(3.0, 0.1) == 0.0
+        law.update(float(k), 0.1)
+    law.reset()
+    assert law.update(3.0, 0.1) == 0.0
+    assert law.update(3.0, 0.1) == 0.0
 
 
 def test_the_bandwidth_can_be_changed_in_flight_without_a_jump_of_the_rate() -> None:
-    derivative = Derivative(DerivativeConfig(bandwidth=5.0))
-    rates = [derivative.update(0.1 * k, 0.05) for k in range(100)]
-    derivative.config = DerivativeConfig(bandwidth=10.0)
-    assert derivative.update(0.1 * 100, 0.05) == pytest.approx(rates[-1], rel=1e-6)
+    law = Stepped(derivative, DerivativeConfig(bandwidth=5.0), DerivativeState())
+    rates = [law.update(0.1 * k, 0.05) for k in range(100)]
+    law.config = DerivativeConfig(bandwidth=10.0)
+    assert law.update(0.1 * 100, 0.05) == pytest.approx(rates[-1], rel=1e-6)

@@ -9,10 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from auv_path_following import vehicle
+from auv_path_following.control import pid as pid_law
 from auv_path_following.control.controller import HeadingInputs
-from auv_path_following.control.pid import Pid, PidConfig
+from laws import flown
 
-RUDDER = vehicle.load("remus100").rudder
+REMUS = vehicle.load("remus100")
+RUDDER = REMUS.rudder
+GAINS = pid_law.PidConfig()
 DT = 0.05
 
 
@@ -28,14 +31,14 @@ def settle(pid, seen, seconds):
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
 def test_too_far_to_starboard_turns_to_port(sign):
-    assert sign * settle(Pid(PidConfig(), RUDDER), inputs(sign * 0.1), 2.0) > 0.0
-    assert sign * settle(Pid(PidConfig(), RUDDER), inputs(0.0, r=sign * 0.1), 2.0) > 0.0
+    assert sign * settle(flown(pid_law.LAW, vehicle=REMUS), inputs(sign * 0.1), 2.0) > 0.0
+    assert sign * settle(flown(pid_law.LAW, vehicle=REMUS), inputs(0.0, r=sign * 0.1), 2.0) > 0.0
 
 
 @settings(deadline=None, max_examples=50)
 @given(st.lists(st.tuples(st.floats(-math.pi, math.pi), st.floats(-1.0, 1.0)), min_size=2, max_size=80))
 def test_angle_and_rate_never_exceed_the_rudders(seen):
-    pid, last = Pid(PidConfig(), RUDDER), 0.0
+    pid, last = flown(pid_law.LAW, vehicle=REMUS), 0.0
     for psi_e, r in seen:
         rudder = pid.update(inputs(psi_e, r), DT).rudder
         assert abs(rudder) <= RUDDER.max_angle
@@ -44,14 +47,14 @@ def test_angle_and_rate_never_exceed_the_rudders(seen):
 
 
 def test_the_integral_does_not_wind_up():
-    pid = Pid(PidConfig(), RUDDER)
+    pid = flown(pid_law.LAW, vehicle=REMUS)
     settle(pid, inputs(3.0), 60.0)
     # Held at the stop for a minute, the rudder is back on the other side within a few seconds.
     assert settle(pid, inputs(-0.3), 6.0) < 0.0
 
 
 def test_the_integral_holds_a_rudder_without_error():
-    pid = Pid(PidConfig(), RUDDER)
+    pid = flown(pid_law.LAW, vehicle=REMUS)
     settle(pid, inputs(0.05), 20.0)
     held = settle(pid, inputs(0.0), 5.0)
     assert 0.0 < held < RUDDER.max_angle
@@ -59,16 +62,16 @@ def test_the_integral_holds_a_rudder_without_error():
 
 
 def test_a_step_of_the_heading_is_no_kick():
-    calm, kicked = Pid(PidConfig(), RUDDER), Pid(PidConfig(), RUDDER)
+    calm, kicked = flown(pid_law.LAW, vehicle=REMUS), flown(pid_law.LAW, vehicle=REMUS)
     settle(calm, inputs(0.0), 1.0)
     settle(kicked, inputs(0.0), 1.0)
     # kp alone acts, not the derivative of the step.
     step = kicked.update(inputs(0.01), DT).rudder
-    assert step <= 0.01 * (PidConfig().kp + PidConfig().ki * DT) + 1e-12
+    assert step <= 0.01 * (GAINS.kp + GAINS.ki * DT) + 1e-12
 
 
 def test_reset_forgets():
-    pid = Pid(PidConfig(), RUDDER)
+    pid = flown(pid_law.LAW, vehicle=REMUS)
     settle(pid, inputs(1.0), 10.0)
     pid.reset()
     assert pid.update(inputs(0.0), DT).rudder == 0.0

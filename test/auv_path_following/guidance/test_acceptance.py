@@ -105,7 +105,7 @@ def test_it_takes_half_of_the_shorter_leg_at_most_and_nothing_at_rest():
 
 @pytest.mark.parametrize("hull", [*map(vehicle.load, config_files.shipped("vehicles")), STABLE], ids=str)
 def test_the_limits_are_those_of_the_autopilot(hull: Vehicle):
-    limits = HeadingAutopilot(hull, ROBUST[topics.AUTOPILOT].autopilot).reference.limits
+    limits = HeadingAutopilot(hull, ROBUST[topics.AUTOPILOT].autopilot).config.reference.limits
     found = cornering_of(hull)
     assert found.rate == limits.rate
     lead = 0.5 * limits.rate / limits.acceleration + 0.5 * limits.acceleration / limits.jerk

@@ -9,10 +9,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
-from auv_path_following.guidance.ailos import Ailos, AilosConfig, adaptive_offset
+from auv_path_following.guidance import ailos
+from auv_path_following.guidance.ailos import AilosConfig, adaptive_offset
 from auv_path_following.guidance.law import LawInputs
 from auv_path_following.guidance.virtual_point import path_errors, tangential_speed
 from auv_path_following.paths.arc import Arc
+from laws import flown
 
 DELTA, K = 6.0, 1.0
 _angle = st.floats(-3.0, 3.0)
@@ -55,7 +57,9 @@ def test_with_the_heading_reached_the_errors_obey_eq_32(radius, turn, t, ex, ey,
     x = P.x + ex * math.cos(chi_p) - ey * math.sin(chi_p)
     y = P.y + ex * math.sin(chi_p) + ey * math.cos(chi_p)
 
-    law = Ailos(AilosConfig(lookahead=DELTA)).update(LawInputs(ey, chi_p, Ur, beta_r, current), 0.05)
+    law = flown(ailos.LAW, AilosConfig(lookahead=DELTA)).update(
+        LawInputs(ey, chi_p, Ur, beta_r, current), 0.05
+    )
     psi = law.psi_d
     U_P = tangential_speed(K, ex, psi, water, chi_p, current)
     x_dot = ur * math.cos(psi) - vr * math.sin(psi) + Vx
@@ -76,7 +80,7 @@ def test_with_the_heading_reached_the_errors_obey_eq_32(radius, turn, t, ex, ey,
 @settings(deadline=None)
 @given(st.floats(0.01, 200.0), _angle, st.floats(-0.3, 0.3))
 def test_starboard_of_the_path_it_steers_to_port_and_the_other_way_round(ye, chi_p, beta_r):
-    law = Ailos()
+    law = flown(ailos.LAW)
     to_starboard = law.update(LawInputs(ye, chi_p, 1.9, beta_r, NO_CURRENT), 0.05)
     to_port = law.update(LawInputs(-ye, chi_p, 1.9, beta_r, NO_CURRENT), 0.05)
     assert -math.pi / 2 < to_starboard.chi_r < 0.0 < to_port.chi_r < math.pi / 2
@@ -87,26 +91,28 @@ def test_starboard_of_the_path_it_steers_to_port_and_the_other_way_round(ye, chi
 @pytest.mark.parametrize(("Vy", "side"), [(0.3, -1.0), (-0.3, 1.0)])
 def test_on_the_path_it_steers_against_the_current(Vy, side):
     """Northwards with the water going east the bow has to point west of north, by asin(Vy / Ur)."""
-    law = Ailos().update(LawInputs(0.0, 0.0, 1.5, 0.0, Current(0.2, Vy)), 0.05)
+    law = flown(ailos.LAW).update(LawInputs(0.0, 0.0, 1.5, 0.0, Current(0.2, Vy)), 0.05)
     assert law.psi_d * side > 0.0
     assert math.sin(law.psi_d) == pytest.approx(-Vy / 1.5)
     assert law.theta_n == pytest.approx(Vy / 1.5)
 
 
 def test_at_the_look_ahead_distance_it_aims_45_degrees_in():
-    law = Ailos(AilosConfig(lookahead=4.0)).update(LawInputs(4.0, 0.0, 1.9, 0.0, NO_CURRENT), 0.05)
+    law = flown(ailos.LAW, AilosConfig(lookahead=4.0)).update(LawInputs(4.0, 0.0, 1.9, 0.0, NO_CURRENT), 0.05)
     assert law.psi_d == pytest.approx(-math.pi / 4)
 
 
 @pytest.mark.parametrize(("Vy", "theta_n"), [(5.0, 0.95), (-5.0, -0.95)])
 def test_a_current_stronger_than_the_vehicle_is_clipped(Vy, theta_n):
-    law = Ailos(AilosConfig(theta_limit=0.95)).update(LawInputs(1.0, 0.0, 1.0, 0.0, Current(0.0, Vy)), 0.05)
+    law = flown(ailos.LAW, AilosConfig(theta_limit=0.95)).update(
+        LawInputs(1.0, 0.0, 1.0, 0.0, Current(0.0, Vy)), 0.05
+    )
     assert law.theta_n == theta_n
     assert math.isfinite(law.psi_d)
     assert abs(law.chi_r) < math.pi / 2
 
 
 def test_at_rest_there_is_nothing_to_compensate():
-    law = Ailos().update(LawInputs(2.0, 0.5, 0.0, 0.0, Current(0.3, 0.3)), 0.05)
+    law = flown(ailos.LAW).update(LawInputs(2.0, 0.5, 0.0, 0.0, Current(0.3, 0.3)), 0.05)
     assert (law.alpha, law.theta_n) == (0.0, 0.0)
     assert law.psi_d == pytest.approx(0.5 - math.atan(2.0 / 6.0))

@@ -9,11 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from auv_msgs_py.types import NO_CURRENT, Current
+from auv_path_following.guidance import ailos, ilos, los
 from auv_path_following.guidance.adaptive_lookahead import AdaptiveLookaheadConfig, adaptive_lookahead
-from auv_path_following.guidance.ailos import Ailos, AilosConfig
-from auv_path_following.guidance.ilos import Ilos, IlosConfig
+from auv_path_following.guidance.ailos import AilosConfig
+from auv_path_following.guidance.ilos import IlosConfig
 from auv_path_following.guidance.law import LawInputs
-from auv_path_following.guidance.los import Los, LosConfig
+from auv_path_following.guidance.los import LosConfig
+from laws import flown
 
 DT = 0.05
 
@@ -25,12 +27,12 @@ def inputs(ye, beta_r=0.0, current=NO_CURRENT, Ur=2.0):
 @settings(deadline=None)
 @given(st.floats(-100.0, 100.0), st.floats(-0.3, 0.3))
 def test_los_is_ailos_without_a_current(ye, beta_r):
-    los = Los(LosConfig(lookahead=5.0)).update(inputs(ye, beta_r, Current(0.3, -0.2)), DT)
-    ailos = Ailos(AilosConfig(lookahead=5.0)).update(inputs(ye, beta_r), DT)
-    assert los.psi_d == pytest.approx(ailos.psi_d, abs=1e-12)
+    sailed = flown(los.LAW, LosConfig(lookahead=5.0)).update(inputs(ye, beta_r, Current(0.3, -0.2)), DT)
+    other = flown(ailos.LAW, AilosConfig(lookahead=5.0)).update(inputs(ye, beta_r), DT)
+    assert sailed.psi_d == pytest.approx(other.psi_d, abs=1e-12)
 
 
-@pytest.mark.parametrize("law", [Los(), Ilos()])
+@pytest.mark.parametrize("law", [flown(los.LAW), flown(ilos.LAW)])
 @pytest.mark.parametrize("ye", [-3.0, 3.0])
 def test_it_turns_towards_the_path(law, ye):
     law.reset()
@@ -40,7 +42,7 @@ def test_it_turns_towards_the_path(law, ye):
 @settings(deadline=None, max_examples=40)
 @given(st.lists(st.floats(-50.0, 50.0), min_size=1, max_size=200))
 def test_the_course_never_leaves_the_half_plane_ahead(errors):
-    law = Ilos()
+    law = flown(ilos.LAW)
     for ye in errors:
         assert abs(law.update(inputs(ye), DT).chi_r) < math.pi / 2
 
@@ -56,14 +58,14 @@ def drift(law, across, seconds=400.0):
 
 def test_the_integral_takes_away_what_a_current_leaves():
     across = 0.3
-    assert drift(Los(LosConfig(lookahead=6.0)), across) == pytest.approx(
+    assert drift(flown(los.LAW, LosConfig(lookahead=6.0)), across) == pytest.approx(
         6.0 * math.tan(math.asin(across / 2.0)), rel=1e-3
     )
-    assert abs(drift(Ilos(IlosConfig(lookahead=6.0)), across)) < 1e-3
+    assert abs(drift(flown(ilos.LAW, IlosConfig(lookahead=6.0)), across)) < 1e-3
 
 
 def test_far_away_the_integral_grows_slowly():
-    near, far = Ilos(), Ilos()
+    near, far = flown(ilos.LAW), flown(ilos.LAW)
     for _ in range(100):
         alpha_near, alpha_far = near.update(inputs(5.0), DT).alpha, far.update(inputs(500.0), DT).alpha
     assert 0.0 < alpha_far < alpha_near
@@ -83,6 +85,6 @@ def test_the_adaptive_look_ahead_keeps_to_its_bounds(ye, Ur):
 
 def test_the_adaptive_look_ahead_is_used_only_when_asked_for():
     adaptive = AilosConfig(lookahead=20.0, adaptive=AdaptiveLookaheadConfig(enabled=True))
-    assert abs(Ailos(adaptive).update(inputs(2.0), DT).chi_r) > abs(
-        Ailos(AilosConfig(lookahead=20.0)).update(inputs(2.0), DT).chi_r
+    assert abs(flown(ailos.LAW, adaptive).update(inputs(2.0), DT).chi_r) > abs(
+        flown(ailos.LAW, AilosConfig(lookahead=20.0)).update(inputs(2.0), DT).chi_r
     )

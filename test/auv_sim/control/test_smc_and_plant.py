@@ -11,10 +11,12 @@ from hypothesis import strategies as st
 
 from auv_msgs_py.types import NO_CURRENT
 from auv_path_following import vehicle
+from auv_path_following.control import smc as smc_law
 from auv_path_following.control.controller import HeadingInputs
-from auv_path_following.control.hull_model import HullModel, SwayEstimate
-from auv_path_following.control.smc import Smc, SmcConfig
+from auv_path_following.control.hull_model import HullModel, accelerations, rudder_gain, sway_after
+from auv_path_following.control.smc import SmcConfig
 from auv_sim.plant.remus import PlantState, RemusDynamics
+from laws import flown
 
 HULLS = [vehicle.load(name) for name in ("remus100", "remus100_table2", "remus100_mismatch")]
 DT = 0.05
@@ -31,8 +33,9 @@ def plant_yaw(hull, ur, vr, r, delta):
 @settings(deadline=None)
 @given(hulls, speeds, sways, rates, st.floats(-0.6, 0.6))
 def test_the_controllers_hull_is_the_plants(hull, ur, vr, r, delta):
-    model = HullModel(hull)
-    own = [a + b * delta for a, b in zip(model.accelerations(ur, vr, r), model.rudder_gain(ur), strict=True)]
+    model = HullModel(hull).sway_yaw
+    gains = rudder_gain(model, ur)
+    own = [a + b * delta for a, b in zip(accelerations(model, ur, vr, r), gains, strict=True)]
     assert own == pytest.approx(plant_yaw(hull, ur, vr, r, delta), rel=1e-9, abs=1e-9)
 
 
@@ -40,8 +43,8 @@ def test_the_controllers_hull_is_the_plants(hull, ur, vr, r, delta):
 @given(hulls, sways, rates, st.floats(-0.3, 0.3), st.floats(-0.1, 0.1), st.floats(-0.1, 0.1))
 def test_the_equivalent_rudder_keeps_sigma(hull, vr, r, psi_e, r_d, r_d_dot):
     config = dataclasses.replace(SmcConfig(), largest_rate=5.0)
-    smc = Smc(config, hull)
-    delta = smc.equivalent(HeadingInputs(psi_e, r, 0.0, r_d, r_d_dot, 6.48), 2.0, vr)
+    prepared = smc_law.prepare(config, hull)
+    delta = smc_law.equivalent(prepared, HeadingInputs(psi_e, r, 0.0, r_d, r_d_dot, 6.48), 2.0, vr)
     # sigma' = r' - r_d' + slope (r - r_d) = 0
     sigma_dot = plant_yaw(hull, 2.0, vr, r, delta)[1] - r_d_dot + config.slope * (r - r_d)
     assert sigma_dot == pytest.approx(0.0, abs=1e-9)
@@ -50,7 +53,7 @@ def test_the_equivalent_rudder_keeps_sigma(hull, vr, r, psi_e, r_d, r_d_dot):
 @settings(deadline=None, max_examples=40)
 @given(st.lists(st.tuples(st.floats(-math.pi, math.pi), st.floats(-1.0, 1.0)), min_size=2, max_size=60))
 def test_angle_and_rate_never_exceed_the_rudders(seen):
-    smc, last, rudder = Smc(SmcConfig(), HULLS[0]), 0.0, HULLS[0].rudder
+    smc, last, rudder = flown(smc_law.LAW, vehicle=HULLS[0]), 0.0, HULLS[0].rudder
     for psi_e, r in seen:
         angle = smc.update(HeadingInputs(psi_e, r, 0.0, 0.0, 0.0, 6.48), DT).rudder
         assert abs(angle) <= rudder.max_angle
@@ -60,22 +63,23 @@ def test_angle_and_rate_never_exceed_the_rudders(seen):
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
 def test_too_far_to_starboard_turns_to_port(sign):
-    smc = Smc(SmcConfig(), HULLS[0])
+    smc = flown(smc_law.LAW, vehicle=HULLS[0])
     for _ in range(20):
         rudder = smc.update(HeadingInputs(sign * 0.2, 0.0, 0.0, 0.0, 0.0, 6.48), DT).rudder
     assert sign * rudder > 0.0
 
 
 def test_without_thrust_there_is_nothing_to_steer_with():
-    assert Smc(SmcConfig(), HULLS[0]).update(HeadingInputs(0.5, 0.1, 0.0, 0.0, 0.0, 0.0), DT).rudder == 0.0
+    assert (
+        flown(smc_law.LAW, vehicle=HULLS[0]).update(HeadingInputs(0.5, 0.1, 0.0, 0.0, 0.0, 0.0), DT).rudder
+        == 0.0
+    )
 
 
 def test_the_estimated_sway_is_that_of_a_steady_turn():
     hull = HULLS[0]
-    sway = SwayEstimate(HullModel(hull))
+    model, vr = HullModel(hull).sway_yaw, 0.0
     for _ in range(400):
-        vr = sway.update(2.0, 0.1, -0.1, DT)
+        vr = sway_after(model, 2.0, vr, 0.1, -0.1, DT)
     assert vr < 0.0  # a turn to starboard slides to port
     assert plant_yaw(hull, 2.0, vr, 0.1, -0.1)[0] == pytest.approx(0.0, abs=1e-6)
-    sway.reset()
-    assert sway.vr == 0.0

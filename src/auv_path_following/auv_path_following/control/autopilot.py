@@ -2,34 +2,104 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
-from typing import Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from auv_msgs_py.angles import wrap
-from auv_msgs_py.settings import setting, settings
+from auv_msgs_py.pure import numbers_of, pure
+from auv_msgs_py.settings import setting
 from auv_msgs_py.types import STOP, Command, Navigation, Reference
-from auv_path_following.control.controller import HeadingController, HeadingInputs
-from auv_path_following.control.derivative import Derivative, DerivativeConfig
-from auv_path_following.control.nism import Nism, NismConfig, kp_of
-from auv_path_following.control.pid import Pid, PidConfig
-from auv_path_following.control.reference_model import ReferenceConfig, ReferenceModel
-from auv_path_following.control.smc import Smc, SmcConfig
+from auv_path_following.control import nism, pid, reference_model, smc
+from auv_path_following.control.controller import HeadingInputs
+from auv_path_following.control.derivative import DerivativeConfig, DerivativeState, derivative
+from auv_path_following.control.reference_model import (
+    ReferenceConfig,
+    ReferenceInputs,
+    ReferenceState,
+    Shaping,
+    shape,
+)
+from auv_path_following.registry import chosen_step, law_of, law_settings
 from auv_path_following.vehicle import Vehicle
 
+#: The heading controllers; the first is the default.
+CONTROLLERS = (nism.LAW, pid.LAW, smc.LAW)
 
-@settings
+
+@law_settings("controller", "heading controller", CONTROLLERS)
 class AutopilotConfig:
     """Which controller, its gains, and whether its reference is shaped."""
 
-    controller: Literal["nism", "pid", "smc"] = setting("nism", "heading controller: nism, pid or smc")
-    nism: NismConfig = setting(factory=NismConfig, doc="NISM")
-    pid: PidConfig = setting(factory=PidConfig, doc="PID")
-    smc: SmcConfig = setting(factory=SmcConfig, doc="conventional sliding mode")
     derivative: DerivativeConfig = setting(factory=DerivativeConfig, doc="dr/dt from the measured yaw rate")
-    reference: ReferenceConfig = setting(
-        factory=ReferenceConfig, doc="what the controller is asked to follow"
+    reference: ReferenceConfig = setting(factory=ReferenceConfig, doc="shape of the controller's reference")
+
+    if TYPE_CHECKING:  # the choice and the laws' own settings
+
+        def __init__(self, **fields: Any) -> None: ...
+        def __getattr__(self, name: str) -> Any: ...
+
+
+controller_step = chosen_step(CONTROLLERS)
+
+
+class Autopilot(NamedTuple):
+    """Configuration: the chosen controller with its first state, filter, reference, and the vehicle's limits.
+
+    Attributes:
+        controller, controller_begins: configuration and first state of the chosen law.
+        derivative, reference: of the filter behind dr/dt and of the reference model.
+        max_angle: rad.
+        thrust_max: N.
+    """
+
+    controller: Any
+    controller_begins: Any
+    derivative: Any
+    reference: Shaping
+    max_angle: float
+    thrust_max: float
+
+
+def prepare(config: AutopilotConfig, vehicle: Vehicle) -> Autopilot:
+    """Return the autopilot's configuration.
+
+    Args:
+        config: controller, gains and reference.
+        vehicle: hull, rudder and thruster that the autopilot assumes.
+
+    Raises:
+        ConfigurationError: gains that need what the vehicle's file does not have.
+    """
+    law = law_of(CONTROLLERS, config.controller)
+    controller = law.prepare(getattr(config, law.name), vehicle)
+    rudder_rate = vehicle.rudder.max_rate
+    if isinstance(controller, nism.Nism):
+        rudder_rate = min(controller.gains.kp + controller.gains.ks, rudder_rate)
+    return Autopilot(
+        controller,
+        law.initial,
+        numbers_of(config.derivative),
+        reference_model.prepare(config.reference, vehicle, rudder_rate),
+        vehicle.rudder.max_angle,
+        float(vehicle.thrust_max),
     )
+
+
+class AutopilotInputs(NamedTuple):
+    """Measured heading and yaw rate (NED), and what guidance requests; thrust 0: no mission is running."""
+
+    navigation: Navigation
+    reference: Reference
+
+
+class AutopilotState(NamedTuple):
+    """Whether it has begun, the last r_d (rad/s), and the states of filter, reference and controller."""
+
+    begun: bool
+    r_d: float
+    derivative: DerivativeState
+    reference: ReferenceState
+    controller: Any
 
 
 class AutopilotOutput(NamedTuple):
@@ -41,16 +111,64 @@ class AutopilotOutput(NamedTuple):
     sigma_2: float
 
 
-class HeadingAutopilot:
-    """Turns a reference into rudder and thrust.
+@pure
+def first_state(config: Autopilot) -> AutopilotState:
+    """Return the state in which nothing was measured yet and the rudder is neutral."""
+    return AutopilotState(
+        False,
+        0.0,
+        DerivativeState(False, 0.0, 0.0, 0.0),
+        ReferenceState(False, 0.0, 0.0, 0.0),
+        config.controller_begins,
+    )
 
-    dr/dt comes from `Derivative`, d r_d/dt is the difference of what came in; a shaped reference knows its
+
+@pure
+def steer(
+    config: Autopilot, state: AutopilotState, inputs: AutopilotInputs, dt: float
+) -> tuple[AutopilotState, AutopilotOutput]:
+    """Turn a reference into rudder and thrust.
+
+    dr/dt is from `derivative`, d r_d/dt is the difference of the inputs; a shaped reference has its
     own. Outside a running mission (thrust 0) the rudder is neutral and the controller forgets, so that a new
-    start begins clean.
+    start begins clean. A rudder that is not finite is a stop.
+    """
+    navigation, reference = inputs
+    begun, last_r_d, slope, shaped, controller = state
+    psi_e = wrap(navigation.psi - reference.psi_d)
+    if not reference.thrust > 0.0:  # NaN is no mission either
+        return first_state(config), AutopilotOutput(STOP, psi_e, 0.0, 0.0)
+    r, r_d = navigation.r, reference.r_d
+    r_d_dot = 0.0
+    if not begun:
+        dt = 0.0
+    elif dt > 0.0:
+        r_d_dot = (r_d - last_r_d) / dt
+    last_r_d = r_d
+    slope, r_dot = derivative(config.derivative, slope, r, dt)
+    error = psi_e
+    if config.reference.enabled:
+        request = ReferenceInputs(navigation.psi, r, reference.psi_d, r_d)
+        shaped, (psi_d, r_d, r_d_dot) = shape(config.reference, shaped, request, dt)
+        error = wrap(navigation.psi - psi_d)
+    thrust = min(reference.thrust, config.thrust_max)
+    seen = HeadingInputs(error, r, r_dot, r_d, r_d_dot, thrust)
+    controller, out = controller_step(config.controller, controller, seen, dt)
+    if not math.isfinite(out.rudder):
+        return first_state(config), AutopilotOutput(STOP, psi_e, out.sigma_1, out.sigma_2)
+    rudder = min(max(out.rudder, -config.max_angle), config.max_angle)
+    return (
+        AutopilotState(True, last_r_d, slope, shaped, controller),
+        AutopilotOutput(Command(rudder, thrust), psi_e, out.sigma_1, out.sigma_2),
+    )
+
+
+class HeadingAutopilot:
+    """The autopilot of one vehicle: configuration and state.
 
     Args:
-        vehicle: for the limits of rudder and thrust.
-        config: controller and gains.
+        vehicle: for the limits of rudder and thrust, and for models.
+        config: controller, gains and reference.
 
     Raises:
         ConfigurationError: gains that need what the vehicle's file does not have.
@@ -58,86 +176,31 @@ class HeadingAutopilot:
 
     def __init__(self, vehicle: Vehicle, config: AutopilotConfig | None = None) -> None:
         self.vehicle = vehicle
-        self.config = config or AutopilotConfig()
-        self.controller: HeadingController = self._controller(self.config)
-        self.derivative = Derivative(self.config.derivative)
-        self.reference = ReferenceModel(self.config.reference, vehicle, self._rudder_rate(self.config))
-        self.reset()
+        self.config = prepare(config or AutopilotConfig(), vehicle)
+        self.state = first_state(self.config)
 
     def configure(self, config: AutopilotConfig) -> None:
-        """Take new gains; the rudder stays where it is.
+        """Take new gains; the rudder stays where it is unless the controller is another one.
 
         Raises:
             ConfigurationError: as at the beginning; nothing has changed then.
         """
-        controller = self.controller
-        if config.controller != self.config.controller:
-            controller = self._controller(config)
-        self.reference.configure(config.reference, self._rudder_rate(config))
-        # From here on nothing can fail.
-        self.derivative.config = config.derivative
-        match controller:
-            case Nism():
-                controller.config = self._nism(config)
-            case Pid():
-                controller.config = config.pid
-            case Smc():
-                controller.config = config.smc
-        self.controller, self.config = controller, config
-
-    def _controller(self, config: AutopilotConfig) -> HeadingController:
-        match config.controller:
-            case "pid":
-                return Pid(config.pid, self.vehicle.rudder)
-            case "smc":
-                return Smc(config.smc, self.vehicle)
-            case _:
-                return Nism(self._nism(config), self.vehicle.rudder.max_angle)
-
-    def _nism(self, config: AutopilotConfig) -> NismConfig:
-        """NISM's gains, with kp from rudder and hull where that is asked for."""
-        return dataclasses.replace(config.nism, kp=kp_of(config.nism, self.vehicle))
-
-    def _rudder_rate(self, config: AutopilotConfig) -> float:
-        """The fastest that the controller moves the rudder, rad/s."""
-        limit, nism = self.vehicle.rudder.max_rate, self._nism(config)
-        return min(nism.kp + nism.ks, limit) if config.controller == "nism" else limit
+        prepared = prepare(config, self.vehicle)
+        if type(prepared.controller) is not type(self.config.controller):
+            self.state = self.state._replace(controller=prepared.controller_begins)
+        self.config = prepared
 
     def reset(self) -> None:
         """Forget all state."""
-        self.controller.reset()
-        self.derivative.reset()
-        self.reference.reset()
-        self._last: float | None = None
+        self.state = first_state(self.config)
 
     def update(self, navigation: Navigation, reference: Reference, dt: float) -> AutopilotOutput:
-        """One step.
+        """Take one step: `steer`.
 
         Args:
             navigation: measured heading and yaw rate, NED.
-            reference: what guidance asks for; thrust 0 means that no mission is running.
+            reference: what guidance requests; thrust 0 means that no mission is running.
             dt: seconds since the last update (0 on the first one).
         """
-        psi_e = wrap(navigation.psi - reference.psi_d)
-        if not reference.thrust > 0.0:  # NaN is no mission either
-            self.reset()
-            return AutopilotOutput(STOP, psi_e, 0.0, 0.0)
-        r, r_d = navigation.r, reference.r_d
-        r_d_dot = 0.0
-        if self._last is None:
-            dt = 0.0
-        elif dt > 0.0:
-            r_d_dot = (r_d - self._last) / dt
-        self._last = r_d
-        r_dot = self.derivative.update(r, dt)
-        error = psi_e
-        if self.config.reference.enabled:
-            shaped = self.reference.update(navigation.psi, r, reference.psi_d, r_d, dt)
-            error, r_d, r_d_dot = wrap(navigation.psi - shaped.psi_d), shaped.r_d, shaped.r_d_dot
-        thrust = min(reference.thrust, self.vehicle.thrust_max)
-        out = self.controller.update(HeadingInputs(error, r, r_dot, r_d, r_d_dot, thrust), dt)
-        if not math.isfinite(out.rudder):
-            self.reset()
-            return AutopilotOutput(STOP, psi_e, out.sigma_1, out.sigma_2)
-        rudder = min(max(out.rudder, -self.vehicle.rudder.max_angle), self.vehicle.rudder.max_angle)
-        return AutopilotOutput(Command(rudder, thrust), psi_e, out.sigma_1, out.sigma_2)
+        self.state, output = steer(self.config, self.state, AutopilotInputs(navigation, reference), dt)
+        return output

@@ -1,15 +1,17 @@
-"""The protocol every heading controller follows: from the heading error to the rudder."""
+"""What every heading controller sees and answers: from the heading error to the rudder."""
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
+
+from auv_msgs_py.pure import pure
 
 
 class HeadingInputs(NamedTuple):
-    """What a controller may look at (NED, clockwise positive, rad and s).
+    """Inputs of a controller (NED, clockwise positive, rad and s).
 
     psi_e = wrap(psi - psi_d); r and r_dot are the vehicle's, r_d and r_d_dot the reference's;
-    thrust (N) tells a model how fast the vehicle will be.
+    thrust (N) gives a model its speed.
     """
 
     psi_e: float
@@ -21,20 +23,23 @@ class HeadingInputs(NamedTuple):
 
 
 class ControllerOutput(NamedTuple):
-    """The rudder angle delta (rad, positive turns to port) and the two surfaces a plot wants."""
+    """The rudder angle delta (rad, positive turns to port) and the two surfaces for plots."""
 
     rudder: float
     sigma_1: float = 0.0
     sigma_2: float = 0.0
 
 
-class HeadingController(Protocol):
-    """One small stateful object per law."""
+class RudderLimits(NamedTuple):
+    """Largest rudder angle (rad) and rate (rad/s)."""
 
-    def update(self, inputs: HeadingInputs, dt: float) -> ControllerOutput:
-        """The rudder for this instant; `dt` seconds have passed since the last update."""
-        ...
+    max_angle: float
+    max_rate: float
 
-    def reset(self) -> None:
-        """Forget all state; the rudder starts from neutral."""
-        ...
+
+@pure
+def limited(limits: RudderLimits, angle: float, desired: float, dt: float) -> float:
+    """Return the rudder command after `dt` seconds on the way from `angle` to `desired`, rad."""
+    reach = limits.max_rate * dt
+    desired = min(max(desired, -limits.max_angle), limits.max_angle)
+    return angle + min(max(desired - angle, -reach), reach)

@@ -11,13 +11,16 @@ multiplies it by sqrt(w^3 dt)/2 (0.8 1/s at w = 4 rad/s and 20 Hz), for a delay 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
+from auv_msgs_py.pure import numbers, pure
 from auv_msgs_py.settings import setting, settings
 
 
+@numbers
 @settings
 class DerivativeConfig:
-    """How dr/dt is found."""
+    """Filter behind dr/dt."""
 
     bandwidth: float = setting(
         0.0,
@@ -29,41 +32,43 @@ class DerivativeConfig:
     )
 
 
-class Derivative:
-    """The rate of change of a sampled signal.
+class DerivativeState(NamedTuple):
+    """The last sample, the derivative, and e + 2 e'/w of what the filter still lags behind by."""
+
+    seen: bool = False
+    last: float = 0.0
+    rate: float = 0.0
+    bend: float = 0.0
+
+
+@pure
+def derivative(
+    config: DerivativeConfig, state: DerivativeState, inputs: float, dt: float
+) -> tuple[DerivativeState, float]:
+    """Return the rate of change of a sampled signal, 1/s of its unit.
 
     With a bandwidth it is that of the signal behind two equal first-order lags, solved exactly between two
     samples (the signal taken as straight), so there is no step at which it becomes unstable.
 
     Args:
         config: bandwidth.
+        state: of the filter; the first sample has a derivative of 0.
+        inputs: the sample.
+        dt: s since the last one.
     """
-
-    def __init__(self, config: DerivativeConfig | None = None) -> None:
-        self.config = config or DerivativeConfig()
-        self.reset()
-
-    def reset(self) -> None:
-        """Forget all; the next sample is the first, with a derivative of 0."""
-        self._last: float | None = None
-        self._rate = self._bend = 0.0
-
-    def update(self, value: float, dt: float) -> float:
-        """Take in a sample `dt` seconds after the last one; its derivative, 1/s of its unit."""
-        last, self._last = self._last, value
-        if last is None or not dt > 0.0:
-            return self._rate
-        slope = (value - last) / dt
-        w = self.config.bandwidth
-        if not w > 0.0:
-            self._rate, self._bend = slope, 0.0
-            return slope
-        # Behind a straight line of this slope the filter comes to rest, 2 slope/w late; e is what is left
-        # until then: e'' + 2 w e' + w^2 e = 0. Kept is e + 2 e'/w: a new w makes no jump on a straight line.
-        e_rate = slope - self._rate
-        e = self._bend - 2.0 * e_rate / w
-        decay = math.exp(-w * dt)
-        rise = (e_rate + w * e) * dt
-        e, e_rate = (e + rise) * decay, (e_rate - w * rise) * decay
-        self._rate, self._bend = slope - e_rate, e + 2.0 * e_rate / w
-        return self._rate
+    seen, last, rate, bend = state
+    if not seen or not dt > 0.0:
+        return DerivativeState(True, inputs, rate, bend), rate
+    slope = (inputs - last) / dt
+    w = config.bandwidth
+    if not w > 0.0:
+        return DerivativeState(True, inputs, slope, 0.0), slope
+    # Behind a straight line of this slope the filter settles 2 slope/w late; e is what is left
+    # until then: e'' + 2 w e' + w^2 e = 0. Kept is e + 2 e'/w: a new w makes no jump on a straight line.
+    e_rate = slope - rate
+    e = bend - 2.0 * e_rate / w
+    decay = math.exp(-w * dt)
+    rise = (e_rate + w * e) * dt
+    e, e_rate = (e + rise) * decay, (e_rate - w * rise) * decay
+    rate = slope - e_rate
+    return DerivativeState(True, inputs, rate, e + 2.0 * e_rate / w), rate

@@ -7,7 +7,8 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from auv_msgs_py.errors import ConfigurationError
-from auv_path_following.vehicle import Vehicle
+from auv_msgs_py.pure import numbers_of, pure
+from auv_path_following.vehicle import Hull, Vehicle
 
 
 class SteadyTurn(NamedTuple):
@@ -65,47 +66,77 @@ def rudder_effect(vehicle: Vehicle, without_hull: float = TYPICAL_EFFECT) -> flo
     return without_hull * (vehicle.top_speed / vehicle.length) ** 2
 
 
+class SwayYaw(NamedTuple):
+    """Sway and yaw rows of Eqs. (18), (19): coefficients, and the inverse of the mass matrix."""
+
+    hull: Hull
+    inv_vv: float
+    inv_vr: float
+    inv_rv: float
+    inv_rr: float
+
+
+@pure
+def accelerations(model: SwayYaw, ur: float, vr: float, r: float) -> tuple[float, float]:
+    """Return (dvr/dt, dr/dt) with a neutral rudder, m/s^2 and rad/s^2."""
+    h = model.hull
+    SY = h.Yvv * vr * abs(vr) + h.Yrr * r * abs(r) + (h.Yur - h.m) * ur * r + h.Yuv * ur * vr
+    SN = h.Nvv * vr * abs(vr) + h.Nrr * r * abs(r) + h.Nur * ur * r + h.Nuv * ur * vr
+    return model.inv_vv * SY + model.inv_vr * SN, model.inv_rv * SY + model.inv_rr * SN
+
+
+@pure
+def rudder_gain(model: SwayYaw, ur: float) -> tuple[float, float]:
+    """Return (dvr/dt, dr/dt) for each radian of rudder, m/s^2 and 1/s^2."""
+    h = model.hull
+    square = ur * ur
+    return (
+        (model.inv_vv * h.Yuud + model.inv_vr * h.Nuud) * square,
+        (model.inv_rv * h.Yuud + model.inv_rr * h.Nuud) * square,
+    )
+
+
+#: Longest integration step, s: the sway of a hull settles in a few tenths of a second.
+_LONGEST_SWAY_STEP = 0.05
+
+
+@pure
+def sway_after(model: SwayYaw, ur: float, vr: float, r: float, rudder: float, dt: float) -> float:
+    """Return vr (m/s) after `dt` seconds with yaw rate and rudder held: the model in place of a sensor."""
+    steps = max(1, math.ceil(dt / _LONGEST_SWAY_STEP - 1e-9))
+    push = rudder_gain(model, ur)[0] * rudder
+    for _ in range(steps):
+        vr += (accelerations(model, ur, vr, r)[0] + push) * dt / steps
+    return vr
+
+
 class HullModel:
     """Eqs. (18), (19) as a controller's own model; the plant may be another hull.
 
     Args:
-        vehicle: the hull as the controller knows it.
+        vehicle: the hull that the controller assumes.
+
+    Raises:
+        ConfigurationError: the vehicle file has no hull.
     """
 
     def __init__(self, vehicle: Vehicle) -> None:
         self.vehicle = vehicle
         self.hull = h = vehicle.coefficients
         determinant = (h.m - h.Yvd) * (h.Izz - h.Nrd) - h.Yrd * h.Nvd
-        self.inv_vv = (h.Izz - h.Nrd) / determinant
-        self.inv_vr = h.Yrd / determinant
-        self.inv_rv = h.Nvd / determinant
-        self.inv_rr = (h.m - h.Yvd) / determinant
-        self.Xvr = h.Xvr + (h.m if h.surge_coupling else 0.0)
-
-    def cruise(self, thrust: float) -> float:
-        """Speed at which drag balances `thrust` (N), sqrt(XT / |Xuu|), m/s."""
-        return self.vehicle.speed_at(thrust)
-
-    def accelerations(self, ur: float, vr: float, r: float) -> tuple[float, float]:
-        """(dvr/dt, dr/dt) with a neutral rudder, m/s^2 and rad/s^2."""
-        h = self.hull
-        SY = h.Yvv * vr * abs(vr) + h.Yrr * r * abs(r) + (h.Yur - h.m) * ur * r + h.Yuv * ur * vr
-        SN = h.Nvv * vr * abs(vr) + h.Nrr * r * abs(r) + h.Nur * ur * r + h.Nuv * ur * vr
-        return self.inv_vv * SY + self.inv_vr * SN, self.inv_rv * SY + self.inv_rr * SN
-
-    def rudder_gain(self, ur: float) -> tuple[float, float]:
-        """(dvr/dt, dr/dt) for each radian of rudder, 1/s^2 m and 1/s^2."""
-        h = self.hull
-        square = ur * ur
-        return (
-            (self.inv_vv * h.Yuud + self.inv_vr * h.Nuud) * square,
-            (self.inv_rv * h.Yuud + self.inv_rr * h.Nuud) * square,
+        self.sway_yaw = SwayYaw(
+            numbers_of(h),
+            (h.Izz - h.Nrd) / determinant,
+            h.Yrd / determinant,
+            h.Nvd / determinant,
+            (h.m - h.Yvd) / determinant,
         )
+        self.Xvr = h.Xvr + (h.m if h.surge_coupling else 0.0)
 
     @property
     def b(self) -> float:
         """|dr/dt| for each radian of rudder at the speed of full thrust, 1/s^2."""
-        return abs(self.rudder_gain(self.vehicle.top_speed)[1])
+        return abs(rudder_gain(self.sway_yaw, self.vehicle.top_speed)[1])
 
     def steady_turn(self, thrust: float) -> SteadyTurn:
         """Return the turn under full rudder in which all forces of Eq. (19) balance, sway and drag included.
@@ -156,30 +187,3 @@ def _first_root(f: Callable[[float], float], step: float = 0.01, largest: float 
         middle = 0.5 * (low + high)
         low, high = (middle, high) if f(middle) > 0.0 else (low, middle)
     return low
-
-
-class SwayEstimate:
-    """vr by the model: integrated from the measured yaw rate and the rudder, since nobody measures it.
-
-    Args:
-        model: the controller's hull.
-    """
-
-    #: No step is longer than this, s: the sway of a hull settles in a few tenths of a second.
-    _LONGEST = 0.05
-
-    def __init__(self, model: HullModel) -> None:
-        self.model = model
-        self.reset()
-
-    def reset(self) -> None:
-        """Start again without sway."""
-        self.vr = 0.0
-
-    def update(self, ur: float, r: float, rudder: float, dt: float) -> float:
-        """vr (m/s) after `dt` seconds with `rudder` held."""
-        steps = max(1, math.ceil(dt / self._LONGEST - 1e-9))
-        push = self.model.rudder_gain(ur)[0] * rudder
-        for _ in range(steps):
-            self.vr += (self.model.accelerations(ur, self.vr, r)[0] + push) * dt / steps
-        return self.vr

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
+from typing import NamedTuple
 
+from auv_msgs_py.pure import numbers, numbers_of, pure
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.control.controller import ControllerOutput, HeadingInputs
 from auv_path_following.control.hull_model import rudder_effect
+from auv_path_following.registry import Law
 from auv_path_following.vehicle import Vehicle
 
 #: Of the rudder rate's two parts, rad/s: beyond anything that moves a fin.
@@ -16,6 +20,7 @@ LARGEST_RATE = 10.0
 LARGEST_CROSSOVER = 12.0
 
 
+@numbers
 @settings
 class NismConfig:
     """Table 4's gains. The rudder rate never exceeds kp + ks."""
@@ -73,30 +78,34 @@ def kp_of(config: NismConfig, vehicle: Vehicle) -> float:
     return min(kp, LARGEST_CROSSOVER / (rudder_effect(vehicle) * min(config.k5, NismConfig().k5)))
 
 
-class Nism:
-    """An incremental law: it moves the rudder, and needs no model of the hull.
+class Nism(NamedTuple):
+    """Configuration: gains, and the angle (rad) at which the integral of Eq. (46) is clamped."""
 
-    Args:
-        config: gains.
-        max_rudder: where the integral of Eq. (46) is clamped, rad, so that it cannot wind up.
+    gains: NismConfig
+    max_angle: float
+
+
+class NismState(NamedTuple):
+    """The rudder, rad."""
+
+    rudder: float = 0.0
+
+
+@pure
+def nism(
+    config: Nism, state: NismState, inputs: HeadingInputs, dt: float
+) -> tuple[NismState, ControllerOutput]:
+    """Move the rudder by Eqs. (45), (46): an incremental law that needs no model of the hull.
+
+    The clamp is inside the integral, so that it cannot wind up. With a `dt` of 0 the surfaces are reported
+    and the rudder rests.
     """
-
-    def __init__(self, config: NismConfig | None = None, max_rudder: float = math.radians(35.0)) -> None:
-        self.config = config or NismConfig()
-        self.max_rudder = max_rudder
-        self.reset()
-
-    def reset(self) -> None:
-        """Start again from a neutral rudder."""
-        self._rudder = 0.0
-
-    def update(self, inputs: HeadingInputs, dt: float) -> ControllerOutput:
-        """Eqs. (45), (46); `dt` is 0 on the first update, which then only reports the surfaces."""
-        rate, sigma_1, sigma_2 = rudder_rate(self.config, inputs)
-        self._rudder = min(max(self._rudder + rate * dt, -self.max_rudder), self.max_rudder)
-        return ControllerOutput(self._rudder, sigma_1, sigma_2)
+    rate, sigma_1, sigma_2 = rudder_rate(config.gains, inputs)
+    rudder = min(max(state.rudder + rate * dt, -config.max_angle), config.max_angle)
+    return NismState(rudder), ControllerOutput(rudder, sigma_1, sigma_2)
 
 
+@pure
 def rudder_rate(g: NismConfig, inputs: HeadingInputs) -> tuple[float, float, float]:
     """d delta/dt of Eq. (46), rad/s, and the surfaces sigma_1 and sigma_2 of Eq. (45) behind it."""
     psi_e = inputs.psi_e
@@ -112,3 +121,11 @@ def rudder_rate(g: NismConfig, inputs: HeadingInputs) -> tuple[float, float, flo
     sign = int(sigma_2 > 0.0) - int(sigma_2 < 0.0)  # NumPy has no difference of truths
     rate = g.kp * math.tanh(g.k5 * sigma_2) + g.ks * sign
     return rate, sigma_1, sigma_2
+
+
+def prepare(gains: NismConfig, vehicle: Vehicle) -> Nism:
+    """Return the law's configuration, with kp from rudder and hull where the settings ask for it."""
+    return Nism(numbers_of(dataclasses.replace(gains, kp=kp_of(gains, vehicle))), vehicle.rudder.max_angle)
+
+
+LAW = Law("nism", "NISM", NismConfig, Nism, NismState(), nism, prepare)

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
+from auv_msgs_py.pure import numbers, numbers_of, pure
 from auv_msgs_py.settings import setting, settings
-from auv_path_following.control.controller import ControllerOutput, HeadingInputs
-from auv_path_following.control.rudder_limiter import RudderLimiter
-from auv_path_following.vehicle import Rudder
+from auv_path_following.control.controller import ControllerOutput, HeadingInputs, RudderLimits, limited
+from auv_path_following.registry import Law
+from auv_path_following.vehicle import Vehicle
 
 
+@numbers
 @settings
 class PidConfig:
-    """Gains from the heading error to the rudder; docs/tuning.md tells how the defaults were found."""
+    """Gains from the heading error to the rudder; docs/tuning.md derives the defaults."""
 
     kp: float = setting(1.0, "rudder for heading error", gt=0.0, le=100.0, live=True)
     ki: float = setting(
@@ -25,36 +28,44 @@ class PidConfig:
     )  # fmt: skip
 
 
-class Pid:
-    """delta = kp psi_e + ki integral(psi_e) + kd (r - r_d), within the rudder's angle and rate.
+class Pid(NamedTuple):
+    """Configuration: gains, and the limits of the rudder."""
+
+    gains: PidConfig
+    rudder: RudderLimits
+
+
+class PidState(NamedTuple):
+    """Rudder and integral part, rad."""
+
+    rudder: float = 0.0
+    integral: float = 0.0
+
+
+@pure
+def pid(config: Pid, state: PidState, inputs: HeadingInputs, dt: float) -> tuple[PidState, ControllerOutput]:
+    """Return delta = kp psi_e + ki integral(psi_e) + kd (r - r_d), within the rudder's angle and rate.
 
     The derivative is the measured yaw rate against the path's own, so a step of psi_d gives no kick. What
     the rudder could not follow is taken back from the integral (anti-windup by back-calculation).
-
-    Args:
-        config: gains.
-        rudder: limits of angle and rate.
     """
+    rudder, integral = state
+    g = config.gains
+    error = min(max(inputs.psi_e, -g.largest_error), g.largest_error)
+    integral += g.ki * error * dt
+    desired = g.kp * error + integral + g.kd * (inputs.r - inputs.r_d)
+    rudder = limited(config.rudder, rudder, desired, dt)
+    # The integral follows the actual rudder within kd/kp seconds, the law's own lead.
+    if g.ki > 0.0 and dt > 0.0:
+        tracking = max(g.kd / g.kp, dt)
+        integral += (rudder - desired) * min(dt / tracking, 1.0)
+    return PidState(rudder, integral), ControllerOutput(rudder, 0.0, 0.0)
 
-    def __init__(self, config: PidConfig, rudder: Rudder) -> None:
-        self.config = config
-        self._limiter = RudderLimiter(rudder)
-        self.reset()
 
-    def reset(self) -> None:
-        """Forget the integral; the rudder starts from neutral."""
-        self._integral = 0.0
-        self._limiter.reset()
+def prepare(gains: PidConfig, vehicle: Vehicle) -> Pid:
+    """Return the law's configuration."""
+    rudder = vehicle.rudder
+    return Pid(numbers_of(gains), RudderLimits(rudder.max_angle, rudder.max_rate))
 
-    def update(self, inputs: HeadingInputs, dt: float) -> ControllerOutput:
-        """The rudder for this instant."""
-        g = self.config
-        error = min(max(inputs.psi_e, -g.largest_error), g.largest_error)
-        self._integral += g.ki * error * dt
-        wanted = g.kp * error + self._integral + g.kd * (inputs.r - inputs.r_d)
-        rudder = self._limiter.limit(wanted, dt)
-        # The integral follows the rudder that there is within kd/kp seconds, the law's own lead.
-        if g.ki > 0.0 and dt > 0.0:
-            tracking = max(g.kd / g.kp, dt)
-            self._integral += (rudder - wanted) * min(dt / tracking, 1.0)
-        return ControllerOutput(rudder)
+
+LAW = Law("pid", "PID", PidConfig, Pid, PidState(), pid, prepare)

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from auv_msgs_py.angles import wrap
 from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.pure import pure
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.control.hull_model import LEAST_EFFECT, rudder_effect, tightest_turn
 from auv_path_following.vehicle import Vehicle
@@ -114,66 +115,84 @@ def _derived(config: ReferenceConfig, vehicle: Vehicle, b: float, rudder_rate: f
     return Limits(rate, acceleration, jerk)
 
 
-class ReferenceModel:
-    """Follows psi_d with limited rate, acceleration and jerk; starts from the vehicle's own heading and rate.
+class Shaping(NamedTuple):
+    """Configuration of the reference model: whether it shapes at all, bandwidth, damping, and limits."""
+
+    enabled: bool
+    bandwidth: float
+    damping: float
+    limits: Limits
+
+
+def prepare(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> Shaping:
+    """Return the configuration of the reference model.
 
     Args:
-        config: bandwidth and limits.
-        vehicle: hull and rudder, for the limits that are not given.
+        config: bandwidth, damping, and limits where they are given.
+        vehicle: hull and rudder, for the other limits.
         rudder_rate: the fastest that the controller moves the rudder, rad/s.
+
+    Raises:
+        ConfigurationError: as `limits_of`.
     """
+    limits = limits_of(config, vehicle, rudder_rate) if config.enabled else Limits(0.0, 0.0, 0.0)
+    return Shaping(config.enabled, float(config.bandwidth), float(config.damping), limits)
 
-    def __init__(self, config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> None:
-        self._vehicle = vehicle
-        self.configure(config, rudder_rate)
-        self.reset()
 
-    def configure(self, config: ReferenceConfig, rudder_rate: float) -> None:
-        """Take new limits; the reference stays where it is.
+class ReferenceInputs(NamedTuple):
+    """The vehicle's heading and yaw rate, where the reference starts, and what guidance requests."""
 
-        Raises:
-            ConfigurationError: as `limits_of`; nothing has changed then.
-        """
-        self.limits = (
-            limits_of(config, self._vehicle, rudder_rate) if config.enabled else Limits(0.0, 0.0, 0.0)
-        )
-        self.config = config
+    psi: float
+    r: float
+    psi_d: float
+    r_d: float
 
-    def reset(self) -> None:
-        """The next update starts from the vehicle."""
-        self._next: tuple[float, float] | None = None
-        self._acceleration = 0.0
 
-    def update(self, psi: float, r: float, psi_d: float, r_d: float, dt: float) -> Shaped:
-        """The reference for this instant.
+class ReferenceState(NamedTuple):
+    """Angle (rad), rate (rad/s) and acceleration (rad/s^2) of the reference, once it has begun."""
 
-        The acceleration chosen here is held until the next update, so that r_d and r_d_dot are the exact
-        derivatives of psi_d: a controller may feed them forward without differencing anything.
+    begun: bool = False
+    angle: float = 0.0
+    rate: float = 0.0
+    acceleration: float = 0.0
 
-        Args:
-            psi, r: the vehicle's, where the reference starts.
-            psi_d, r_d: what guidance asks for, and how fast that turns with the path.
-            dt: seconds since the last update.
-        """
-        rate, acceleration, jerk = self.limits
-        if self._next is None:
-            angle, turning = psi, r
-        else:
-            angle, turning = self._next
-            held = self._acceleration
-            angle, turning = angle + turning * dt + 0.5 * held * dt * dt, turning + held * dt
-        wanted = min(max(r_d + self.approach(wrap(psi_d - angle), acceleration), -rate), rate)
-        pull = 4.0 * self.config.damping**2 * self.config.bandwidth * (wanted - turning)
-        pull = min(max(pull, -acceleration), acceleration)
-        change = jerk * dt
-        self._acceleration += min(max(pull - self._acceleration, -change), change)
-        self._next = wrap(angle), turning
-        return Shaped(self._next[0], turning, self._acceleration)
 
-    def approach(self, gap: float, acceleration: float) -> float:
-        """How fast to close the gap: in proportion near it, farther away such that there is room to brake."""
-        w = self.config.bandwidth
-        linear = acceleration / (w * w)
-        if abs(gap) <= linear:
-            return w * gap
-        return math.copysign(math.sqrt(2.0 * acceleration * (abs(gap) - 0.5 * linear)), gap)
+@pure
+def shape(
+    config: Shaping, state: ReferenceState, inputs: ReferenceInputs, dt: float
+) -> tuple[ReferenceState, Shaped]:
+    """Follow psi_d with limited rate, acceleration and jerk, from the vehicle's own heading and rate.
+
+    The acceleration chosen here is held until the next step, so that r_d and r_d_dot are the exact
+    derivatives of psi_d: a controller may feed them forward without differencing anything.
+    """
+    begun, angle, turning, held = state
+    largest_rate, largest, jerk = config.limits
+    if begun:
+        angle, turning = angle + turning * dt + 0.5 * held * dt * dt, turning + held * dt
+    else:
+        angle, turning = inputs.psi, inputs.r
+    closing = closing_rate(config, wrap(inputs.psi_d - angle), largest)
+    desired = min(max(inputs.r_d + closing, -largest_rate), largest_rate)
+    pull = 4.0 * config.damping**2 * config.bandwidth * (desired - turning)
+    pull = min(max(pull, -largest), largest)
+    change = jerk * dt
+    held += min(max(pull - held, -change), change)
+    angle = wrap(angle)
+    return ReferenceState(True, angle, turning, held), Shaped(angle, turning, held)
+
+
+@pure
+def closing_rate(config: Shaping, gap: float, acceleration: float) -> float:
+    """Return how fast to close the gap: in proportion near it, farther away such that braking is possible.
+
+    Args:
+        config: bandwidth.
+        gap: rad.
+        acceleration: largest, rad/s^2.
+    """
+    w = config.bandwidth
+    linear = acceleration / (w * w)
+    if abs(gap) <= linear:
+        return w * gap
+    return math.copysign(math.sqrt(2.0 * acceleration * (abs(gap) - 0.5 * linear)), gap)

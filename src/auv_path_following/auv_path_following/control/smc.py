@@ -2,16 +2,27 @@
 
 from __future__ import annotations
 
+import math
+from typing import NamedTuple
+
+from auv_msgs_py.pure import numbers, numbers_of, pure
 from auv_msgs_py.settings import setting, settings
-from auv_path_following.control.controller import ControllerOutput, HeadingInputs
-from auv_path_following.control.hull_model import HullModel, SwayEstimate
-from auv_path_following.control.rudder_limiter import RudderLimiter
+from auv_path_following.control.controller import ControllerOutput, HeadingInputs, RudderLimits, limited
+from auv_path_following.control.hull_model import (
+    HullModel,
+    SwayYaw,
+    accelerations,
+    rudder_gain,
+    sway_after,
+)
+from auv_path_following.registry import Law
 from auv_path_following.vehicle import Vehicle
 
 
+@numbers
 @settings
 class SmcConfig:
-    """Surface and switching gain; docs/tuning.md tells how the defaults were found."""
+    """Surface and switching gain; docs/tuning.md derives the defaults."""
 
     slope: float = setting(
         1.0, "slope of the surface: psi_e decays at this rate on it", unit="1/s", gt=0.0, le=10.0, live=True
@@ -23,52 +34,68 @@ class SmcConfig:
         0.43, "half width of the boundary layer", unit="rad/s", gt=0.0, le=10.0, live=True
     )
     largest_rate: float = setting(
-        0.5, "the surface asks for at most this yaw rate, so that a far turn does not outrun the rudder",
+        0.5, "largest yaw rate of the surface, so that a far turn does not outrun the rudder",
         unit="rad/s", gt=0.0, le=10.0, live=True,
     )  # fmt: skip
 
 
-class Smc:
-    """sigma = psi_e' + slope psi_e; the rudder that holds it by the model, and -gain sat(sigma/boundary).
+class Smc(NamedTuple):
+    """Configuration: gains, the limits of the rudder, the controller's own hull and its drag (kg/m)."""
 
-    The equivalent control comes from the yaw row of Eqs. (18), (19) of the controller's own hull. Speed and
+    gains: SmcConfig
+    rudder: RudderLimits
+    hull: SwayYaw
+    drag: float
+
+
+class SmcState(NamedTuple):
+    """Rudder (rad) and the model's sway velocity (m/s)."""
+
+    rudder: float = 0.0
+    vr: float = 0.0
+
+
+@pure
+def smc(config: Smc, state: SmcState, inputs: HeadingInputs, dt: float) -> tuple[SmcState, ControllerOutput]:
+    """Hold sigma = psi_e' + slope psi_e by the model's rudder, and by -gain sat(sigma/boundary).
+
+    The equivalent control is from the yaw row of Eqs. (18), (19) of the controller's own hull. Speed and
     sway are the model's too: the first from the balance of thrust and drag, the second integrated.
-
-    Args:
-        config: gains.
-        vehicle: the hull as the controller knows it, and the limits of the rudder.
     """
+    rudder, vr = state
+    g = config.gains
+    ur = math.sqrt(max(inputs.thrust, 0.0) / config.drag)
+    if ur <= 0.0:
+        rudder = limited(config.rudder, rudder, 0.0, dt)
+        return SmcState(rudder, vr), ControllerOutput(rudder, 0.0, 0.0)
+    vr = sway_after(config.hull, ur, vr, inputs.r, rudder, dt)
+    lean = g.slope * inputs.psi_e
+    sigma = inputs.r - inputs.r_d + min(max(lean, -g.largest_rate), g.largest_rate)
+    push = -g.gain * min(max(sigma / g.boundary, -1.0), 1.0)
+    turn = rudder_gain(config.hull, ur)[1]
+    desired = equivalent(config, inputs, ur, vr) + push / turn
+    rudder = limited(config.rudder, rudder, desired, dt)
+    return SmcState(rudder, vr), ControllerOutput(rudder, sigma, 0.0)
 
-    def __init__(self, config: SmcConfig, vehicle: Vehicle) -> None:
-        self.config = config
-        self.model = HullModel(vehicle)
-        self._sway = SwayEstimate(self.model)
-        self._limiter = RudderLimiter(vehicle.rudder)
-        self.reset()
 
-    def reset(self) -> None:
-        """Forget the sway; the rudder starts from neutral."""
-        self._sway.reset()
-        self._limiter.reset()
+@pure
+def equivalent(config: Smc, inputs: HeadingInputs, ur: float, vr: float) -> float:
+    """Return the rudder (rad) with which the model's sigma stays as it is."""
+    g = config.gains
+    # d sigma/d psi_e is 0 where the surface's rate is capped.
+    slope = g.slope if abs(g.slope * inputs.psi_e) < g.largest_rate else 0.0
+    r_dot = inputs.r_d_dot - slope * (inputs.r - inputs.r_d)
+    return (r_dot - accelerations(config.hull, ur, vr, inputs.r)[1]) / rudder_gain(config.hull, ur)[1]
 
-    def equivalent(self, inputs: HeadingInputs, ur: float, vr: float) -> float:
-        """The rudder (rad) with which the model's sigma stays as it is."""
-        wanted = inputs.r_d_dot - self._slope(inputs.psi_e) * (inputs.r - inputs.r_d)
-        return (wanted - self.model.accelerations(ur, vr, inputs.r)[1]) / self.model.rudder_gain(ur)[1]
 
-    def update(self, inputs: HeadingInputs, dt: float) -> ControllerOutput:
-        """The rudder for this instant."""
-        g = self.config
-        ur = self.model.cruise(inputs.thrust)
-        if ur <= 0.0:
-            return ControllerOutput(self._limiter.limit(0.0, dt))
-        vr = self._sway.update(ur, inputs.r, self._limiter.angle, dt)
-        reach = min(max(g.slope * inputs.psi_e, -g.largest_rate), g.largest_rate)
-        sigma = inputs.r - inputs.r_d + reach
-        push = -g.gain * min(max(sigma / g.boundary, -1.0), 1.0)
-        wanted = self.equivalent(inputs, ur, vr) + push / self.model.rudder_gain(ur)[1]
-        return ControllerOutput(self._limiter.limit(wanted, dt), sigma)
+def prepare(gains: SmcConfig, vehicle: Vehicle) -> Smc:
+    """Return the law's configuration.
 
-    def _slope(self, psi_e: float) -> float:
-        """d/d psi_e of the surface: 0 where its rate is capped."""
-        return self.config.slope if abs(self.config.slope * psi_e) < self.config.largest_rate else 0.0
+    Raises:
+        ConfigurationError: the vehicle file has no hull.
+    """
+    rudder = RudderLimits(vehicle.rudder.max_angle, vehicle.rudder.max_rate)
+    return Smc(numbers_of(gains), rudder, HullModel(vehicle).sway_yaw, vehicle.thrust_at(1.0))
+
+
+LAW = Law("smc", "conventional sliding mode", SmcConfig, Smc, SmcState(), smc, prepare)

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 
+from auv_msgs_py.pure import numbers, pure
 from auv_msgs_py.settings import setting, settings
 
 
+@numbers
 @settings
 class AdaptiveLookaheadConfig:
     """Delta between 1.5 and 4 hull lengths."""
@@ -31,8 +33,9 @@ class AdaptiveLookaheadConfig:
     )
 
 
+@pure
 def adaptive_lookahead(config: AdaptiveLookaheadConfig, ye: float, Ur: float) -> float:
-    """Delta, m: time Ur far away, `near` of it on the path, never beyond the bounds.
+    """Return Delta, m: time Ur far away, `near` of it on the path, never beyond the bounds.
 
     A short look-ahead presses harder towards the path, where the angles are small and the rudder can follow;
     from far away it would only ask for a steeper turn at the end of the approach.

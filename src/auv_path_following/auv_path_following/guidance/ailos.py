@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 
+from auv_msgs_py.pure import numbers, numbers_class, pure
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.guidance.adaptive_lookahead import AdaptiveLookaheadConfig, adaptive_lookahead
-from auv_path_following.guidance.law import LawInputs, LawOutput
+from auv_path_following.guidance.law import LawInputs, LawOutput, NoState
+from auv_path_following.registry import Law
 
 
+@numbers
 @settings
 class AilosConfig:
     """Table 4's Delta, and how near to 1 theta_n may come before it is clipped."""
@@ -19,33 +22,37 @@ class AilosConfig:
     theta_limit: float = setting(
         0.95, "bound of |theta_n|; Eq. (30) needs it below 1", gt=0.0, le=0.99, live=True
     )
-    adaptive: AdaptiveLookaheadConfig = setting(factory=AdaptiveLookaheadConfig, doc="Delta by itself")
+    adaptive: AdaptiveLookaheadConfig = setting(
+        factory=AdaptiveLookaheadConfig, doc="Delta from speed and cross-track error"
+    )
+
+    @property
+    def largest_lookahead(self) -> float:
+        """Delta, m; where it adapts, the largest."""
+        adaptive = self.adaptive
+        return adaptive.largest * adaptive.hull_length if adaptive.enabled else self.lookahead
 
 
-class Ailos:
-    """Aims at a point Delta ahead on the tangent, shifted by alpha so that the current is compensated."""
+@pure
+def ailos(config: AilosConfig, state: NoState, inputs: LawInputs, dt: float) -> tuple[NoState, LawOutput]:
+    """Aim at a point Delta ahead on the tangent, shifted by alpha: Eqs. (24), (25), (30), (31).
 
-    def __init__(self, config: AilosConfig | None = None) -> None:
-        self.config = config or AilosConfig()
-
-    def reset(self) -> None:
-        """AILOS has no state: alpha follows from the estimated current at once."""
-
-    def update(self, inputs: LawInputs, dt: float) -> LawOutput:
-        """Eqs. (24), (25), (30), (31) for one instant."""
-        ye, chi_p, Ur, beta_r, current = inputs
-        Delta, limit = self.config.lookahead, self.config.theta_limit
-        if self.config.adaptive.enabled:
-            Delta = adaptive_lookahead(self.config.adaptive, ye, Ur)
-        theta_n = 0.0
-        if Ur > 0.0:
-            across = -math.sin(chi_p) * current.Vx + math.cos(chi_p) * current.Vy
-            theta_n = min(max(across / Ur, -limit), limit)
-        alpha = adaptive_offset(ye, theta_n, Delta)
-        chi_r = math.atan(-(ye + alpha) / Delta)
-        return LawOutput(chi_p + chi_r - beta_r, chi_r, alpha, theta_n)
+    The shift compensates the current. AILOS has no memory: alpha follows from the estimated current at once.
+    """
+    ye, chi_p, Ur, beta_r, current = inputs
+    Delta, limit = config.lookahead, config.theta_limit
+    if config.adaptive.enabled:
+        Delta = adaptive_lookahead(config.adaptive, ye, Ur)
+    theta_n = 0.0
+    if Ur > 0.0:
+        across = -math.sin(chi_p) * current.Vx + math.cos(chi_p) * current.Vy
+        theta_n = min(max(across / Ur, -limit), limit)
+    alpha = adaptive_offset(ye, theta_n, Delta)
+    chi_r = math.atan(-(ye + alpha) / Delta)
+    return state, LawOutput(chi_p + chi_r - beta_r, chi_r, alpha, theta_n)
 
 
+@pure
 def adaptive_offset(ye: float, theta_n: float, Delta: float) -> float:
     """alpha of Eq. (30), m: the solution of alpha = theta_n sqrt(Delta^2 + (ye + alpha)^2).
 
@@ -54,3 +61,6 @@ def adaptive_offset(ye: float, theta_n: float, Delta: float) -> float:
     """
     rest = 1.0 - theta_n * theta_n
     return (ye * theta_n * theta_n + theta_n * math.sqrt(Delta * Delta * rest + ye * ye)) / rest
+
+
+LAW = Law("ailos", "AILOS", AilosConfig, numbers_class(AilosConfig), NoState(), ailos)

@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from auv_msgs_py.pure import numbers, pure
 from auv_msgs_py.settings import setting, settings
 from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
 
 
+@numbers
 @settings
 class CurrentObserverConfig:
     """Gains of Eq. (35). The poles of the error are the roots of z^2 + k_ob2 z + k_ob1 = 0."""
@@ -21,8 +23,7 @@ class CurrentObserverConfig:
     )
     longest_gap: float = setting(
         3.0,
-        "what happened in a gap without measurements that is longer than this is not guessed: the estimate"
-        " goes on from the new position",
+        "after a longer gap without measurements the estimate continues from the new position",
         unit="s",
         gt=0.0,
         le=60.0,
@@ -30,16 +31,55 @@ class CurrentObserverConfig:
     )
 
 
+class ObserverInputs(NamedTuple):
+    """Measured pose (NED) and velocity through the water (FRD), and whether the latter is known now."""
+
+    navigation: Navigation
+    water: WaterVelocity
+    has_water: bool
+
+
+class ObserverState(NamedTuple):
+    """What the observer keeps from step to step.
+
+    Attributes:
+        seen: whether there is a last measurement.
+        x, y, wx, wy: its position (m) and velocity through the water (m/s), NED.
+        ex, ey: position error, m.
+        blind: time since the velocity through the water was known, s.
+        current: the estimate, m/s, NED.
+    """
+
+    seen: bool = False
+    x: float = 0.0
+    y: float = 0.0
+    wx: float = 0.0
+    wy: float = 0.0
+    ex: float = 0.0
+    ey: float = 0.0
+    blind: float = 0.0
+    current: Current = NO_CURRENT
+
+
 class ObserverOutput(NamedTuple):
-    """The estimated current (m/s, NED) and the position error it came from (m)."""
+    """The estimated current (m/s, NED) and the position error behind it (m)."""
 
     current: Current
     ex: float
     ey: float
 
 
-class CurrentObserver:
-    """Eq. (35), discretised exactly for any step.
+@pure
+def relocated(state: ObserverState) -> ObserverState:
+    """Return the state in which the next position does not continue the last one; the current is kept."""
+    return ObserverState(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, state.current)
+
+
+@pure
+def observe(
+    config: CurrentObserverConfig, state: ObserverState, inputs: ObserverInputs, dt: float
+) -> tuple[ObserverState, ObserverOutput]:
+    """Estimate the current by Eq. (35), discretised exactly for any step.
 
     Between two measurements the position is taken to move on a straight line and the velocity through
     water, turned into the world frame, to be the mean of its ends. Then the drift seen over the step,
@@ -49,6 +89,41 @@ class CurrentObserver:
 
     has the closed-form solution used here: there is no step at which it becomes unstable, and 10 Hz
     and 50 Hz give the same estimate.
+
+    Args:
+        config: gains.
+        state: of the observer.
+        inputs: the measurement; without a velocity through the water the estimate rests.
+        dt: seconds since the last step, greater than 0; ignored on the first one.
+    """
+    dt += state.blind
+    if dt > config.longest_gap:
+        state = relocated(state)
+    seen, last_x, last_y, last_wx, last_wy, ex, ey, _, current = state
+    if not inputs.has_water:
+        waiting = ObserverState(seen, last_x, last_y, last_wx, last_wy, ex, ey, dt, current)
+        return waiting, ObserverOutput(current, ex, ey)
+    x, y, psi, _ = inputs.navigation
+    ur, vr = inputs.water
+    cos_psi, sin_psi = math.cos(psi), math.sin(psi)
+    wx = cos_psi * ur - sin_psi * vr
+    wy = sin_psi * ur + cos_psi * vr
+    if seen and dt > 0.0:
+        f11, f12, f21, f22 = transition(config.k_ob1, config.k_ob2, dt)
+        dx = (x - last_x) / dt - 0.5 * (wx + last_wx)
+        dy = (y - last_y) / dt - 0.5 * (wy + last_wy)
+        # e = 0, Vhat = d is the equilibrium, so the distance from it is what decays.
+        gap_x, gap_y = current.Vx - dx, current.Vy - dy
+        current = Current(dx + f21 * ex + f22 * gap_x, dy + f21 * ey + f22 * gap_y)
+        ex, ey = f11 * ex + f12 * gap_x, f11 * ey + f12 * gap_y
+    return ObserverState(True, x, y, wx, wy, ex, ey, 0.0, current), ObserverOutput(current, ex, ey)
+
+
+class CurrentObserver:
+    """The observer of one vehicle: settings and state.
+
+    Args:
+        config: gains.
     """
 
     def __init__(self, config: CurrentObserverConfig | None = None) -> None:
@@ -57,57 +132,30 @@ class CurrentObserver:
 
     def reset(self) -> None:
         """Forget everything; the next update starts with an estimate of zero."""
-        self.relocate()
-        self._current = NO_CURRENT
+        self.state = ObserverState()
 
     def relocate(self) -> None:
-        """The next position is not the end of a way from the last one; the current is still the same."""
-        self._last: tuple[float, float, float, float] | None = None
-        self._ex = self._ey = 0.0
-        self._blind = 0.0
+        """The next position does not continue the last one; the current is kept."""
+        self.state = relocated(self.state)
 
     @property
     def current(self) -> Current:
         """The latest estimate, m/s, NED."""
-        return self._current
+        return self.state.current
 
     def update(self, navigation: Navigation, water: WaterVelocity | None, dt: float) -> ObserverOutput:
-        """Take in one measurement.
-
-        Args:
-            navigation: measured pose, NED.
-            water: measured velocity through the water, FRD; None: not known now, the estimate rests.
-            dt: seconds since the last update, > 0; ignored on the first one.
-        """
-        dt += self._blind
-        if dt > self.config.longest_gap:
-            self.relocate()
-        if water is None:
-            self._blind = dt
-            return ObserverOutput(self._current, self._ex, self._ey)
-        self._blind = 0.0
-        x, y, psi, _ = navigation
-        cos_psi, sin_psi = math.cos(psi), math.sin(psi)
-        wx = cos_psi * water.ur - sin_psi * water.vr
-        wy = sin_psi * water.ur + cos_psi * water.vr
-        if self._last is not None and dt > 0.0:
-            last_x, last_y, last_wx, last_wy = self._last
-            f11, f12, f21, f22 = transition(self.config.k_ob1, self.config.k_ob2, dt)
-            dx = (x - last_x) / dt - 0.5 * (wx + last_wx)
-            dy = (y - last_y) / dt - 0.5 * (wy + last_wy)
-            # e = 0, Vhat = d is the equilibrium, so the distance from it is what decays.
-            gap_x, gap_y = self._current.Vx - dx, self._current.Vy - dy
-            self._current = Current(
-                dx + f21 * self._ex + f22 * gap_x,
-                dy + f21 * self._ey + f22 * gap_y,
-            )
-            self._ex, self._ey = f11 * self._ex + f12 * gap_x, f11 * self._ey + f12 * gap_y
-        self._last = (x, y, wx, wy)
-        return ObserverOutput(self._current, self._ex, self._ey)
+        """Take in one measurement: `observe`; a `water` of None is not known now."""
+        inputs = ObserverInputs(navigation, water or _UNKNOWN, water is not None)
+        self.state, output = observe(self.config, self.state, inputs, dt)
+        return output
 
 
+_UNKNOWN = WaterVelocity(0.0, 0.0)
+
+
+@pure
 def transition(k_ob1: float, k_ob2: float, dt: float) -> tuple[float, float, float, float]:
-    """The matrix exponential of [[-k_ob2, -1], [k_ob1, 0]] dt, row by row; Eq. (36) in e and Vhat.
+    """Return the matrix exponential of [[-k_ob2, -1], [k_ob1, 0]] dt, row by row; Eq. (36) in e and Vhat.
 
     With m = -k_ob2/2 and q = sqrt(k_ob2^2/4 - k_ob1) (real or imaginary) it is
     e^(m dt) (cosh(q dt) I + sinh(q dt)/q (A - m I)). It is put together from powers of e that only fall,

@@ -1,14 +1,14 @@
-"""The protocol every guidance law follows: from the cross-track error to the desired heading."""
+"""What every guidance law sees and answers: from the cross-track error to the desired heading."""
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 from auv_msgs_py.types import Current
 
 
 class LawInputs(NamedTuple):
-    """What a law may look at.
+    """Inputs of a law.
 
     ye (m, starboard positive) and chi_p (rad) as in Eq. (20); Ur (m/s) and beta_r (rad) as in Eq. (17);
     the current (m/s, NED) as the observer estimates it, zero if it is not to be compensated.
@@ -30,13 +30,5 @@ class LawOutput(NamedTuple):
     theta_n: float
 
 
-class GuidanceLaw(Protocol):
-    """One small stateful object per law."""
-
-    def update(self, inputs: LawInputs, dt: float) -> LawOutput:
-        """The desired heading for this instant; `dt` seconds have passed since the last update."""
-        ...
-
-    def reset(self) -> None:
-        """Forget all state."""
-        ...
+class NoState(NamedTuple):
+    """State of a law without memory."""

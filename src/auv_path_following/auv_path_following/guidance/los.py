@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import math
 
+from auv_msgs_py.pure import numbers, numbers_class, pure
 from auv_msgs_py.settings import setting, settings
-from auv_path_following.guidance.law import LawInputs, LawOutput
+from auv_path_following.guidance.law import LawInputs, LawOutput, NoState
+from auv_path_following.registry import Law
 
 
+@numbers
 @settings
 class LosConfig:
     """Look-ahead, and whether the vehicle's own drift angle is taken off."""
@@ -17,21 +20,21 @@ class LosConfig:
     )
     sideslip: bool = setting(True, "subtract beta_r, as Eq. (24) does", live=True)
 
+    @property
+    def largest_lookahead(self) -> float:
+        """Delta, m."""
+        return self.lookahead
 
-class Los:
+
+@pure
+def los(config: LosConfig, state: NoState, inputs: LawInputs, dt: float) -> tuple[NoState, LawOutput]:
     """psi_d = chi_p + atan(-ye/Delta) - beta_r: Eqs. (24), (25) with alpha = 0.
 
-    A current across the path leaves ye = Delta tan(asin(Vc/Ur)), which is what the other two laws are for.
+    A current across the path leaves ye = Delta tan(asin(Vc/Ur)), the error that the other laws remove.
     """
+    chi_r = math.atan(-inputs.ye / config.lookahead)
+    beta_r = inputs.beta_r if config.sideslip else 0.0
+    return state, LawOutput(inputs.chi_p + chi_r - beta_r, chi_r, 0.0, 0.0)
 
-    def __init__(self, config: LosConfig | None = None) -> None:
-        self.config = config or LosConfig()
 
-    def reset(self) -> None:
-        """LOS has no state."""
-
-    def update(self, inputs: LawInputs, dt: float) -> LawOutput:
-        """Eq. (25) with alpha = 0."""
-        chi_r = math.atan(-inputs.ye / self.config.lookahead)
-        beta_r = inputs.beta_r if self.config.sideslip else 0.0
-        return LawOutput(inputs.chi_p + chi_r - beta_r, chi_r, 0.0, 0.0)
+LAW = Law("los", "proportional line of sight", LosConfig, numbers_class(LosConfig), NoState(), los)

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from auv_msgs_py.angles import wrap
-from auv_msgs_py.settings import setting, settings
+from auv_msgs_py.settings import setting
 from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
-from auv_path_following.guidance.ailos import Ailos, AilosConfig
 from auv_path_following.guidance.approach import Agility, ApproachConfig
-from auv_path_following.guidance.ilos import Ilos, IlosConfig
-from auv_path_following.guidance.law import GuidanceLaw, LawInputs
-from auv_path_following.guidance.los import Los, LosConfig
+from auv_path_following.guidance.law import LawInputs
+from auv_path_following.guidance.laws import LAWS, law_step
 from auv_path_following.guidance.progress import Progress
 from auv_path_following.guidance.switching import SwitchingConfig
 from auv_path_following.guidance.virtual_point import (
@@ -23,16 +21,16 @@ from auv_path_following.guidance.virtual_point import (
     tangential_speed,
 )
 from auv_path_following.paths.composite import CompositePath
+from auv_path_following.registry import law_of, law_settings
 
 #: A longer gap between two updates counts as this much, s: nothing is known of what happened in it.
 LONGEST_STEP = 1.0
 
 
-@settings
+@law_settings("law", "guidance law", LAWS)
 class PathFollowerConfig:
     """Everything about guidance that is not the path."""
 
-    law: Literal["ailos", "ilos", "los"] = setting("ailos", "guidance law: ailos, ilos or los")
     compensate_current: bool = setting(True, "use the estimated current in Eqs. (22) and (31)", live=True)
     minimum_speed: float = setting(
         0.2,
@@ -45,23 +43,18 @@ class PathFollowerConfig:
     rejoin_reach: float = setting(
         50.0, "after a hold P is looked for at most so far ahead", unit="m", ge=0.0, le=1000.0, live=True
     )
-    ailos: AilosConfig = setting(factory=AilosConfig, doc="AILOS")
-    ilos: IlosConfig = setting(factory=IlosConfig, doc="integral line of sight")
-    los: LosConfig = setting(factory=LosConfig, doc="proportional line of sight")
     virtual_point: VirtualPointConfig = setting(factory=VirtualPointConfig, doc="virtual point")
     switching: SwitchingConfig = setting(factory=SwitchingConfig, doc="subpath switching")
+
+    if TYPE_CHECKING:  # the choice and the laws' own settings
+
+        def __init__(self, **fields: Any) -> None: ...
+        def __getattr__(self, name: str) -> Any: ...
 
     @property
     def lookahead(self) -> float:
         """Delta of the chosen law, m; where it adapts, the largest."""
-        match self.law:
-            case "ilos":
-                return self.ilos.lookahead
-            case "los":
-                return self.los.lookahead
-            case _:
-                adaptive = self.ailos.adaptive
-                return adaptive.largest * adaptive.hull_length if adaptive.enabled else self.ailos.lookahead
+        return float(getattr(self, self.law).largest_lookahead)
 
 
 class GuidanceOutput(NamedTuple):
@@ -108,7 +101,7 @@ class PathFollower:
         self.path = path
         self.progress = Progress(path, agility)
         config = config or PathFollowerConfig()
-        self.law: GuidanceLaw = _law(config)
+        self._law: Any = None
         self._turn_rate = agility.turn_rate if agility is not None else math.inf
         self.configure(config)
 
@@ -118,15 +111,11 @@ class PathFollower:
         self.progress.circle.config = config.switching
         self.progress.approach_config = config.approach
         self.progress.circle.lookahead = config.lookahead
-        match config.law, self.law:
-            case "ailos", Ailos():
-                self.law.config = config.ailos
-            case "ilos", Ilos():
-                self.law.config = config.ilos
-            case "los", Los():
-                self.law.config = config.los
-            case _:
-                self.law = _law(config)
+        law = law_of(LAWS, config.law)
+        prepared = law.prepare(getattr(config, law.name), None)
+        if type(prepared) is not type(self._law):
+            self._initial = self._state = law.initial
+        self._law = prepared
 
     @property
     def virtual_point(self) -> VirtualPoint:
@@ -136,12 +125,12 @@ class PathFollower:
     def reset(self) -> None:
         """Return to the beginning of the path."""
         self.progress.reset()
-        self.law.reset()
+        self._state = self._initial
 
     def rejoin(self, navigation: Navigation) -> None:
         """Go on after a hold, from where the vehicle is now: `Progress.rejoin`."""
         self.progress.rejoin(navigation, self.config.rejoin_reach)
-        self.law.reset()
+        self._state = self._initial
 
     def look(self, navigation: Navigation) -> GuidanceOutput:
         """The errors as they stand while no mission runs: P rests, the vehicle's own heading is desired."""
@@ -181,7 +170,8 @@ class PathFollower:
         beta_r = math.atan2(water.vr, water.ur)
         if Ur < config.minimum_speed:
             Ur = beta_r = 0.0
-        law = self.law.update(LawInputs(ye, chi_p, Ur, beta_r, current), dt)
+        inputs = LawInputs(ye, chi_p, Ur, beta_r, current)
+        self._state, law = law_step(self._law, self._state, inputs, dt)
 
         drawn = saturated(xe, config.virtual_point.saturation)
         desired = tangential_speed(config.virtual_point.k, drawn, psi, water, chi_p, current)
@@ -219,13 +209,3 @@ class PathFollower:
             "approach": progress.approach_to_go,
             "finished": P.finished,
         }
-
-
-def _law(config: PathFollowerConfig) -> GuidanceLaw:
-    match config.law:
-        case "ilos":
-            return Ilos(config.ilos)
-        case "los":
-            return Los(config.los)
-        case _:
-            return Ailos(config.ailos)

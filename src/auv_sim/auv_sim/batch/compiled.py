@@ -68,7 +68,7 @@ def take_over_pure() -> None:
     for step, steps in DISPATCHED:
         if id(step) not in _taken_over:
             _taken_over.add(id(step))
-            overload(step, jit_options={"error_model": "numpy"})(_chooser(steps))
+            overload(step, jit_options={"error_model": "numpy"}, strict=False)(_chooser(steps))
 
 
 def _chooser(steps: Mapping[type[Any], Step]) -> Callable[..., Any]:

@@ -8,17 +8,19 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from auv_msgs_py.angles import wrap
-from auv_msgs_py.types import Current, Navigation, WaterVelocity
+from auv_msgs_py.types import NO_CURRENT, Current, Navigation, Reference, WaterVelocity
+from auv_path_following.control.autopilot import AutopilotInputs, first_state, steer
+from auv_path_following.guidance.current_observer import ObserverInputs, ObserverState, observe
 from auv_sim.analysis.flown_share import Cells
 from auv_sim.batch import tally
 from auv_sim.batch.compiled import compiled
 from auv_sim.batch.curve import Curve
 from auv_sim.batch.flown_cells import pass_cells
-from auv_sim.batch.follow import first_state, follow
+from auv_sim.batch.follow import first_state as first_follower_state
+from auv_sim.batch.follow import follow
 from auv_sim.batch.numbers import Flight
 from auv_sim.batch.path_point import distance_to
-from auv_sim.batch.steps import AutopilotState, ObserverState, advance, observe, steer
+from auv_sim.batch.steps import advance
 from auv_sim.plant.remus import PlantState
 
 Array = npt.NDArray[np.float64]
@@ -72,9 +74,9 @@ def fly_one(
     """
     n = len(curve.subpath)
     current = Current(c.Vx, c.Vy)
-    seen = ObserverState(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    follower = first_state(approaches)
-    pilot = AutopilotState(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    observer = ObserverState(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, NO_CURRENT)
+    follower = first_follower_state(c.guidance, approaches)
+    pilot = first_state(c.autopilot)
     rudder = commanded = 0.0
     i, clear = -1, 0.0
     flown[:] = False
@@ -83,17 +85,16 @@ def fly_one(
         since = c.dt if k > 0 else 0.0
         navigation = Navigation(state.x, state.y, state.psi, state.r)
         water = WaterVelocity(state.ur, state.vr)
-        seen = observe(c.observer, seen, navigation, water, since)
-        follower, guided = follow(
-            c.guidance, approach, curve, follower, navigation, water, Current(seen.Vx, seen.Vy), since
-        )
+        observer, seen = observe(c.observer, observer, ObserverInputs(navigation, water, True), since)
+        estimate = seen.current
+        follower, guided = follow(c.guidance, approach, curve, follower, navigation, water, estimate, since)
         if follower.lost:
             return End(k + 1, 0.0, True, True, state)
-        psi_e = wrap(state.psi - guided.psi_d)
         finished = follower.finished
-        if not finished:
-            pilot = steer(c.autopilot, pilot, navigation, guided.psi_d, guided.r_d, since)
-        command = 0.0 if finished else pilot.rudder
+        reference = Reference(guided.psi_d, guided.r_d, 0.0 if finished else c.thrust)
+        pilot, steered = steer(c.autopilot, pilot, AutopilotInputs(navigation, reference), since)
+        psi_e = steered.psi_e
+        command, thrust = steered.command
         at = 0 if follower.approaching else follower.i
         s = 0.0 if follower.approaching else at + follower.t
         if at != i:
@@ -104,15 +105,17 @@ def fly_one(
             distance = min(distance, clear)
         finite = math.isfinite(command) and math.isfinite(state.x + state.y + state.psi + state.ur + state.vr)
         if finite:
-            tally.count(whole, subpaths, i, s, k * c.dt, distance, psi_e, seen.Vx - c.Vx, seen.Vy - c.Vy)
+            tally.count(
+                whole, subpaths, i, s, k * c.dt, distance, psi_e, estimate.Vx - c.Vx, estimate.Vy - c.Vy
+            )
         if every > 0 and k % every == 0:
             row = track[k // every]
             row[0], row[1], row[2], row[3] = k, state.x, state.y, state.psi
             row[4], row[5], row[6], row[7] = state.r, state.ur, state.vr, rudder
-            row[8], row[9] = command, 0.0 if finished else c.thrust
+            row[8], row[9] = command, thrust
             row[10], row[11] = guided.psi_d, guided.r_d
             row[12], row[13], row[14] = guided.xe, guided.ye, psi_e
-            row[15], row[16], row[17] = s, seen.Vx, seen.Vy
+            row[15], row[16], row[17] = s, estimate.Vx, estimate.Vy
         if finished or not finite:
             return End(k + 1, s, finite, False, state)
         if k > 0:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from auv_msgs_py.angles import wrap
 from auv_msgs_py.types import Current, Navigation, WaterVelocity
 from auv_path_following.guidance.acceptance import Corner
 from auv_path_following.guidance.approach import NEAR
 from auv_path_following.guidance.law import LawInputs
+from auv_path_following.guidance.laws import law_step
 from auv_path_following.guidance.path_follower import LONGEST_STEP
 from auv_sim.batch.compiled import compiled
 from auv_sim.batch.curve import (
@@ -27,9 +28,7 @@ from auv_sim.batch.numbers import Guidance
 from auv_sim.batch.path_point import evaluate
 from auv_sim.batch.shared import (
     acceptance_radius,
-    ailos_update,
     is_at,
-    los_update,
     path_errors,
     saturated,
     tangential_speed,
@@ -37,7 +36,7 @@ from auv_sim.batch.shared import (
 
 
 class FollowerState(NamedTuple):
-    """Of `PathFollower`, its `VirtualPoint` and ILOS.
+    """Of `PathFollower`, its `VirtualPoint` and its law.
 
     Attributes:
         approaching: P is on the approach, not on the path; i and t are of the approach then.
@@ -46,7 +45,7 @@ class FollowerState(NamedTuple):
         i, t: subpath (from 0) and place on it.
         t_rate, metres_per_t: P's speed in t, and the path's there.
         finished: the path has ended.
-        integral: of ILOS.
+        law: of the guidance law.
     """
 
     approaching: bool
@@ -57,7 +56,7 @@ class FollowerState(NamedTuple):
     t_rate: float
     metres_per_t: float
     finished: bool
-    integral: float
+    law: Any
 
 
 class Guided(NamedTuple):
@@ -70,9 +69,9 @@ class Guided(NamedTuple):
 
 
 @compiled
-def first_state(approaches: bool) -> FollowerState:
+def first_state(c: Guidance, approaches: bool) -> FollowerState:
     """As after `PathFollower.reset`, the approach being planned."""
-    return FollowerState(approaches, False, False, 0, 0.0, 0.0, 0.0, False, 0.0)
+    return FollowerState(approaches, False, False, 0, 0.0, 0.0, 0.0, False, c.law_begins)
 
 
 @compiled
@@ -103,21 +102,15 @@ def follow(
     beta_r = math.atan2(water.vr, water.ur)
     if Ur < c.minimum_speed:
         Ur = beta_r = 0.0
-    integral = state.integral
-    inputs = LawInputs(ye, chi_p, Ur, beta_r, current)
-    if c.law == 0:
-        psi_d = ailos_update(c.ailos, inputs, dt).psi_d
-    elif c.law == 1:
-        psi_d, integral = _ilos(c, inputs, integral, dt)
-    else:
-        psi_d = los_update(c.los, inputs, dt).psi_d
+    law, out = law_step(c.law, state.law, LawInputs(ye, chi_p, Ur, beta_r, current), dt)
+    psi_d = out.psi_d
 
     U_P = tangential_speed(c.k, saturated(xe, c.saturation), navigation.psi, water, chi_p, current)
     speed = math.hypot(point.dx, point.dy)
     t_rate = U_P / speed
     if finished or (t <= 0.0 and U_P < 0.0):
         t_rate = U_P = speed = 0.0
-    after = FollowerState(approaching, lost, joined, i, t, t_rate, speed, finished, integral)
+    after = FollowerState(approaching, lost, joined, i, t, t_rate, speed, finished, law)
     if finished:
         return after, Guided(navigation.psi, 0.0, xe, ye)
     squared = point.dx * point.dx + point.dy * point.dy
@@ -197,14 +190,3 @@ def _reached(
         corner = Corner(row[i, CHI_IN], row[i, CHI_OUT], row[i, WIDEST])
         radius = acceptance_radius(c.cornering, corner, c.lookahead, Ur, current)
     return math.hypot(row[i, JOINT_X] - navigation.x, row[i, JOINT_Y] - navigation.y) <= radius
-
-
-@compiled
-def _ilos(c: Guidance, inputs: LawInputs, integral: float, dt: float) -> tuple[float, float]:
-    """`Ilos.update`: psi_d and the integral."""
-    Delta, sigma = c.ilos.lookahead, c.ilos.sigma
-    aim = inputs.ye + sigma * integral
-    integral += dt * Delta * inputs.ye / (aim * aim + Delta * Delta)
-    chi_r = math.atan(-(inputs.ye + sigma * integral) / Delta)
-    beta_r = inputs.beta_r if c.ilos.sideslip else 0.0
-    return inputs.chi_p + chi_r - beta_r, integral

@@ -4,13 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from auv_path_following.control import nism
-from auv_path_following.control.hull_model import HullModel
-from auv_path_following.control.reference_model import ReferenceModel
-from auv_path_following.guidance import acceptance, adaptive_lookahead, ailos, virtual_point
+from auv_path_following.control import autopilot  # noqa: F401 - its pure functions
+from auv_path_following.guidance import acceptance, virtual_point
 from auv_path_following.guidance import approach as guidance_approach
-from auv_path_following.guidance.ailos import Ailos
-from auv_path_following.guidance.los import Los
 from auv_sim.batch.compiled import part, take_over_pure
 from auv_sim.plant import remus
 from auv_sim.plant.remus import RemusDynamics
@@ -21,17 +17,9 @@ saturated = part(virtual_point.saturated)
 tangential_speed = part(virtual_point.tangential_speed)
 crab_angle = part(acceptance.crab_angle)
 acceptance_radius = part(acceptance.acceptance_radius)
-adaptive_delta = part(adaptive_lookahead.adaptive_lookahead)
-adaptive_offset = part(ailos.adaptive_offset)
-rudder_rate: Any = part(nism.rudder_rate)
 moved = part(remus.moved)
 
-# Methods that only read their object: `numbers` has what stands in its place.
-ailos_update: Any = part(Ailos.update)
-los_update: Any = part(Los.update)
-approach: Any = part(ReferenceModel.approach)
+# A method that only reads its object: `numbers` has what stands in its place.
 derivative: Any = part(RemusDynamics.derivative)
-accelerations: Any = part(HullModel.accelerations)
-rudder_gain: Any = part(HullModel.rudder_gain)
 
 take_over_pure()

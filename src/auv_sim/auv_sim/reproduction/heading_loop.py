@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from auv_path_following.control.hull_model import HullModel
+from auv_path_following.control.hull_model import HullModel, accelerations, rudder_gain
 from auv_path_following.vehicle import Vehicle
 
 Array = npt.NDArray[np.float64]
@@ -19,15 +19,18 @@ def linear_hull(vehicle: Vehicle) -> tuple[Array, Array]:
 
     Central differences over 0.02 m/s and 0.02 rad/s, so the quadratic drags count with a small value.
     """
-    model = HullModel(vehicle)
-    ur = model.cruise(vehicle.thrust_max)
+    model = HullModel(vehicle).sway_yaw
+    ur = vehicle.top_speed
     h = 0.02
     columns = [
-        (np.array(model.accelerations(ur, h * v, h * r)) - np.array(model.accelerations(ur, -h * v, -h * r)))
+        (
+            np.array(accelerations(model, ur, h * v, h * r))
+            - np.array(accelerations(model, ur, -h * v, -h * r))
+        )
         / (2 * h)
         for v, r in ((1.0, 0.0), (0.0, 1.0))
     ]
-    return np.column_stack(columns), np.array(model.rudder_gain(ur))
+    return np.column_stack(columns), np.array(rudder_gain(model, ur))
 
 
 def open_loop(vehicle: Vehicle, w: Array) -> npt.NDArray[Any]:

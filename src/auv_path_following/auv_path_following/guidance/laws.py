@@ -1,0 +1,11 @@
+"""The guidance laws."""
+
+from __future__ import annotations
+
+from auv_path_following.guidance import ailos, ilos, los
+from auv_path_following.registry import chosen_step
+
+#: The first is the default.
+LAWS = (ailos.LAW, ilos.LAW, los.LAW)
+
+law_step = chosen_step(LAWS)
