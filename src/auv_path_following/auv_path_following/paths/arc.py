@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, Final
 
 from auv_msgs_py.elementary import functions_of
+from auv_path_following.paths.rows import ARC
 from auv_path_following.paths.segment import PathPoint
 
 
@@ -46,3 +47,7 @@ class Arc:
     def length_to_go(self, t: float) -> float:
         """Length from t to the end, m."""
         return self.length * (1.0 - t)
+
+    def row(self) -> list[float]:
+        """ARC, centre, radius, a0, sweep."""
+        return [ARC, self.cx, self.cy, self.radius, self.a0, self.a1 - self.a0]

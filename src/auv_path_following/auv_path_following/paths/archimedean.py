@@ -6,6 +6,7 @@ import math
 from typing import Any, Final
 
 from auv_msgs_py.elementary import functions_of
+from auv_path_following.paths.rows import SPIRAL
 from auv_path_following.paths.segment import PathPoint
 
 
@@ -57,3 +58,7 @@ class ArchimedeanSpiral:
     def length_to_go(self, t: float) -> float:
         """Length from t to the end, m."""
         return abs(self._end - self._primitive(self._radius0 + t * self._growth))
+
+    def row(self) -> list[float]:
+        """SPIRAL, centre, radius at its start, growth, a0, sweep."""
+        return [SPIRAL, self.cx, self.cy, self._radius0, self._growth, self._a0, self._sweep]

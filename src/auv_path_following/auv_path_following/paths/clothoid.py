@@ -8,6 +8,7 @@ from typing import Any, Final
 import numpy as np
 
 from auv_msgs_py.elementary import functions_of
+from auv_path_following.paths.pieces import fitted_row
 from auv_path_following.paths.segment import PathPoint
 
 #: Beyond these the Fresnel form loses digits by cancellation, and the curve is all but an arc.
@@ -95,3 +96,7 @@ class Clothoid:
     def length_to_go(self, t: float) -> float:
         """Length from t to the end, m."""
         return self.length * (1.0 - t)
+
+    def row(self) -> list[float]:
+        """FITTED and its pieces."""
+        return fitted_row(self)

@@ -6,6 +6,7 @@ import itertools
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Final, Literal
 
 import numpy as np
@@ -14,7 +15,9 @@ import numpy.typing as npt
 from auv_msgs_py.angles import wrap
 from auv_msgs_py.errors import ConfigurationError
 from auv_path_following.paths.closest import closest_distance
+from auv_path_following.paths.rows import PathRows
 from auv_path_following.paths.segment import PathPoint, Segment
+from auv_path_following.paths.subpaths import Subpaths
 
 Array = npt.NDArray[np.float64]
 
@@ -34,6 +37,7 @@ class Joint:
         index: number of the subpath that ends here, counted from 1 as the paper does.
         x, y: where it is (start of the next subpath), NED, m.
         gap: distance between the end and the start that should be one, m.
+        chi_in, chi_out: courses before and after it, rad.
         angle_step: how far the course jumps, rad in [-pi, pi), positive to starboard.
         curvature_step: how far the curvature jumps, 1/m.
         geometric: G0 connected, G1 course continuous too, G2 curvature continuous too.
@@ -44,6 +48,8 @@ class Joint:
     x: float
     y: float
     gap: float
+    chi_in: float
+    chi_out: float
     angle_step: float
     curvature_step: float
     geometric: Literal["G0", "G1", "G2"]
@@ -86,6 +92,12 @@ class CompositePath:
     def evaluate(self, i: int, t: float) -> PathPoint:
         """The point at t in [0, 1] of subpath i (from 0)."""
         return self.segments[i].evaluate(t)
+
+    @cached_property
+    def rows(self) -> PathRows:
+        """The path as numbers."""
+        subpaths = Subpaths(self.segments, self.joints, self._after)
+        return PathRows(self.n, subpaths, subpaths.piece)
 
     def at(self, s: float) -> PathPoint:
         """The point at s, Eq. (1); s is held within [0, n]."""
@@ -149,7 +161,8 @@ class CompositePath:
 
 
 def _joint(number: int, end: PathPoint, start: PathPoint) -> Joint:
-    angle_step = wrap(start.chi - end.chi)
+    chi_in, chi_out = end.chi, start.chi
+    angle_step = wrap(chi_out - chi_in)
     curvature_step = start.kappa - end.kappa
     geometric: Literal["G0", "G1", "G2"] = "G0"
     if abs(angle_step) <= ANGLE_TOLERANCE:
@@ -163,6 +176,8 @@ def _joint(number: int, end: PathPoint, start: PathPoint) -> Joint:
         x=start.x,
         y=start.y,
         gap=math.hypot(start.x - end.x, start.y - end.y),
+        chi_in=chi_in,
+        chi_out=chi_out,
         angle_step=angle_step,
         curvature_step=curvature_step,
         geometric=geometric,

@@ -16,6 +16,7 @@ from typing import Any, Final
 import numpy as np
 
 from auv_msgs_py.elementary import functions_of
+from auv_path_following.paths.rows import FERMAT, MIRRORED
 from auv_path_following.paths.segment import PathPoint
 
 _NODES = 8
@@ -49,6 +50,11 @@ class _Curve:
             q2 = (start + width * node) ** 2
             total += weight * math.sqrt(1.0 + self._4w2 * q2 * q2)
         return self._c * width * total
+
+    @property
+    def numbers(self) -> tuple[float, float, float]:
+        """c, w and chi."""
+        return self._c, self._w, self._chi
 
     def length(self, q: float) -> float:
         """Length from the origin to q, m."""
@@ -101,6 +107,10 @@ class FermatSpiral:
         """Length from t to the end, m."""
         return self.length - self._curve.length(t)
 
+    def row(self) -> list[float]:
+        """FERMAT, x0, y0, c, w, chi0."""
+        return [FERMAT, self.x0, self.y0, *self._curve.numbers]
+
 
 class MirroredFermatSpiral:
     """The mirrored spiral, Eq. (13): curvature falls to zero at its end.
@@ -132,3 +142,7 @@ class MirroredFermatSpiral:
     def length_to_go(self, t: float) -> float:
         """Length from t to the end, m."""
         return self._curve.length(1.0 - t)
+
+    def row(self) -> list[float]:
+        """MIRRORED, x_end, y_end, c, w, chi_end."""
+        return [MIRRORED, self.x_end, self.y_end, *self._curve.numbers]

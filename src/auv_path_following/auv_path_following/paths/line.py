@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any, Final
 
+from auv_path_following.paths.rows import LINE
 from auv_path_following.paths.segment import PathPoint
 
 
@@ -37,3 +38,7 @@ class Line:
     def length_to_go(self, t: float) -> float:
         """Length from t to the end, m."""
         return self.length * (1.0 - t)
+
+    def row(self) -> list[float]:
+        """LINE, x0, y0, dx, dy."""
+        return [LINE, *self.evaluate(0.0)[:4]]

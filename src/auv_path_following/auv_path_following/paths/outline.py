@@ -68,6 +68,8 @@ def last_stretch(segment: Segment) -> float:
 
     All of a line, of an arc the last half turn: where a curve passes its own end on the way, that is not it.
     """
+    if segment.kind == "line":
+        return 0.0
     t, p = look(segment)
     x, y = np.asarray(p.x), np.asarray(p.y)
     pieces = np.hypot(np.diff(x), np.diff(y))

@@ -10,6 +10,7 @@ from numpy.polynomial import Polynomial as Series
 
 from auv_msgs_py.errors import ConfigurationError
 from auv_path_following.paths.arc_length import ArcLength
+from auv_path_following.paths.pieces import fitted_row
 from auv_path_following.paths.segment import PathPoint
 
 #: Least speed that a curve may have, as a share of its length: below, it stands still or turns on the spot.
@@ -48,6 +49,10 @@ class Polynomial:
     def length_to_go(self, t: float) -> float:
         """Length from t to the end, m."""
         return self._arc.to_go(t)
+
+    def row(self) -> list[float]:
+        """FITTED and its pieces."""
+        return fitted_row(self)
 
 
 def slowest(north: Any, east: Any) -> float:

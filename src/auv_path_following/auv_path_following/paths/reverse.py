@@ -29,6 +29,11 @@ class Reversed:
         """Length from t to the end, m."""
         return self.length - self.segment.length_to_go(1.0 - t)
 
+    def row(self) -> list[float]:
+        """The segment's, with its kind negated."""
+        kind, *numbers = self.segment.row()
+        return [-kind, *numbers]
+
 
 def reversed_path(segments: Sequence[Segment]) -> list[Segment]:
     """The same way back: last segment first, each turned round."""

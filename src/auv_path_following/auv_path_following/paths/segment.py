@@ -59,3 +59,9 @@ class Segment(Protocol):
 
     def length_to_go(self, t: float) -> float:
         """Length from t to the end of the segment, m."""
+
+    def row(self) -> list[float]:
+        """Its kind and its numbers, as `rows.evaluate` reads them.
+
+        `pieces.fitted_row` makes them for a kind that has no formula there.
+        """

@@ -13,6 +13,7 @@ from numpy.polynomial import Polynomial as Series
 from auv_msgs_py.errors import ConfigurationError
 from auv_path_following.paths.arc_length import ArcLength
 from auv_path_following.paths.polynomial import STANDSTILL, slowest
+from auv_path_following.paths.rows import CUBIC
 from auv_path_following.paths.segment import PathPoint
 
 
@@ -96,3 +97,8 @@ class Spline:
     def length_to_go(self, t: float) -> float:
         """Length from t to the end, m."""
         return self._arc.to_go(t)
+
+    def row(self) -> list[float]:
+        """CUBIC and its pieces: the t at the start of each and its eight coefficients."""
+        pieces = zip(self._knots, self._rows, strict=True)
+        return [CUBIC, *(number for start, row in pieces for number in (start, *row))]

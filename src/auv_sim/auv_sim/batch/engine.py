@@ -24,12 +24,13 @@ from auv_path_following import vehicle
 from auv_path_following.guidance.approach import approach_to
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.line import Line
+from auv_path_following.paths.rows import PathRows
 from auv_sim import closed_loop
 from auv_sim.analysis.flown_share import Cells, cells_of, share_of
 from auv_sim.analysis.run import Run
 from auv_sim.batch import tally
 from auv_sim.batch.compiled import COMPILED
-from auv_sim.batch.curve import Curve, curve_of
+from auv_sim.batch.distance import Outlines, outlines_of, rows_of
 from auv_sim.batch.flight import TRACK_COLUMNS, End, fly_one
 from auv_sim.batch.flights import Flights, figures_of
 from auv_sim.batch.judge import judged
@@ -124,12 +125,13 @@ def track(scenario: Scenario, every: int = 1) -> Run:
 class _Course(NamedTuple):
     """A path as compiled code reads it."""
 
-    curve: Curve
+    curve: PathRows
+    outlines: Outlines
     cells: Cells
 
     @classmethod
     def of(cls, path: CompositePath) -> _Course:
-        return cls(curve_of(path), cells_of(path))
+        return cls(rows_of(path), outlines_of(path), cells_of(path))
 
 
 def _flown(flight: Any, scenario: Scenario, course: _Course, every: int) -> tuple[End, Any, Any, Any, Any]:
@@ -138,7 +140,7 @@ def _flown(flight: Any, scenario: Scenario, course: _Course, every: int) -> tupl
     if scenario.guidance.approach.enabled:
         navigation = Navigation(start.x, start.y, start.psi, start.r)
         path = approach_to(scenario.path.start_pose, navigation, flight.guidance.approach_radius)
-    approach = course.curve if path is None else curve_of(path)
+    approach = course.curve if path is None else rows_of(path)
     whole = np.empty(tally.FLIGHT_TALLIES)
     subpaths = np.empty((len(course.curve.subpath), tally.SUBPATH_TALLIES))
     flown = np.empty(len(course.cells.cells), np.bool_)

@@ -11,15 +11,15 @@ import numpy.typing as npt
 from auv_msgs_py.types import NO_CURRENT, Current, Navigation, Reference, WaterVelocity
 from auv_path_following.control.autopilot import AutopilotInputs, first_state, steer
 from auv_path_following.guidance.current_observer import ObserverInputs, ObserverState, observe
+from auv_path_following.paths.rows import PathRows
 from auv_sim.analysis.flown_share import Cells
 from auv_sim.batch import tally
 from auv_sim.batch.compiled import compiled
-from auv_sim.batch.curve import Curve
+from auv_sim.batch.distance import Outlines, distance_to
 from auv_sim.batch.flown_cells import pass_cells
 from auv_sim.batch.follow import first_state as first_follower_state
 from auv_sim.batch.follow import follow
 from auv_sim.batch.numbers import Flight
-from auv_sim.batch.path_point import distance_to
 from auv_sim.batch.steps import advance
 from auv_sim.plant.remus import PlantState
 
@@ -51,9 +51,10 @@ class End(NamedTuple):
 @compiled
 def fly_one(
     c: Flight,
-    approach: Curve,
+    approach: PathRows,
     approaches: bool,
-    curve: Curve,
+    curve: PathRows,
+    outlines: Outlines,
     cells: Cells,
     state: PlantState,
     whole: Array,
@@ -65,14 +66,13 @@ def fly_one(
     """Fly until the end of the path, the last step, or a state that is not finite.
 
     Args:
-        c, curve, cells: what is flown; the path as a curve and as cells.
-        approach: flown before it, where it `approaches`; else any curve.
+        c, curve, outlines, cells: what is flown; the path as rows, as outlines and as cells.
+        approach: flown before it, where it `approaches`; else any path.
         state: the plant's first state.
         whole, subpaths: tallies, shape (FLIGHT_TALLIES,) and (n, SUBPATH_TALLIES); written.
         flown: shape (cells,), which cells were flown; written.
         track: shape (rows, TRACK_COLUMNS), every `every`-th odometry; written; `every` 0 for none.
     """
-    n = len(curve.subpath)
     current = Current(c.Vx, c.Vy)
     observer = ObserverState(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, NO_CURRENT)
     follower = first_follower_state(c.guidance, approaches)
@@ -99,9 +99,9 @@ def fly_one(
         s = 0.0 if follower.approaching else at + follower.t
         if at != i:
             i, clear = at, 0.0
-        distance = distance_to(curve, i, state.x, state.y)
+        distance = distance_to(curve, outlines, i, state.x, state.y)
         if distance > clear:
-            clear = _clearance(curve, n, i, state.x, state.y)
+            clear = _clearance(curve, outlines, i, state.x, state.y)
             distance = min(distance, clear)
         finite = math.isfinite(command) and math.isfinite(state.x + state.y + state.psi + state.ur + state.vr)
         if finite:
@@ -135,7 +135,7 @@ def fly_one(
 
 
 @compiled
-def _clearance(curve: Curve, n: int, i: int, x: float, y: float) -> float:
+def _clearance(curve: PathRows, outlines: Outlines, i: int, x: float, y: float) -> float:
     """Closest distance to the subpaths before and after subpath i, m.
 
     The distance of a track counts them, too (`CompositePath.distance`), but they are seldom nearer: less the
@@ -143,7 +143,7 @@ def _clearance(curve: Curve, n: int, i: int, x: float, y: float) -> float:
     """
     closest = math.inf
     if i > 0:
-        closest = distance_to(curve, i - 1, x, y)
-    if i + 1 < n:
-        closest = min(closest, distance_to(curve, i + 1, x, y))
+        closest = distance_to(curve, outlines, i - 1, x, y)
+    if i + 1 < curve.n:
+        closest = min(closest, distance_to(curve, outlines, i + 1, x, y))
     return closest

@@ -12,20 +12,23 @@ from auv_path_following.guidance.approach import NEAR
 from auv_path_following.guidance.law import LawInputs
 from auv_path_following.guidance.laws import law_step
 from auv_path_following.guidance.path_follower import LONGEST_STEP
-from auv_sim.batch.compiled import compiled
-from auv_sim.batch.curve import (
+from auv_path_following.paths.rows import (
     CHI_IN,
     CHI_OUT,
     CORNER,
+    END,
+    JOINT,
     JOINT_X,
     JOINT_Y,
     LENGTH,
     STRETCH,
     WIDEST,
-    Curve,
+    PathRows,
+    evaluate,
 )
+from auv_path_following.paths.segment import PathPoint
+from auv_sim.batch.compiled import compiled
 from auv_sim.batch.numbers import Guidance
-from auv_sim.batch.path_point import evaluate
 from auv_sim.batch.shared import (
     acceptance_radius,
     is_at,
@@ -77,8 +80,8 @@ def first_state(c: Guidance, approaches: bool) -> FollowerState:
 @compiled
 def follow(
     c: Guidance,
-    approach: Curve,
-    curve: Curve,
+    approach: PathRows,
+    curve: PathRows,
     state: FollowerState,
     navigation: Navigation,
     water: WaterVelocity,
@@ -92,7 +95,9 @@ def follow(
     Ur = math.hypot(water.ur, water.vr)
     moved = _moved(c, approach, curve, state, navigation, Ur, current, dt)
     approaching, lost, joined, i, t, finished = moved
-    point = evaluate(approach, i, t) if approaching else evaluate(curve, i, t)
+    along = approach if approaching else curve
+    x, y, dx, dy, ddx, ddy = evaluate(along, along.subpath[i], t)
+    point = PathPoint(x, y, dx, dy, ddx, ddy)
     chi_p = math.atan2(point.dy, point.dx)
     xe, ye = path_errors(navigation, point, chi_p)
     off = math.hypot(xe, ye)
@@ -122,8 +127,8 @@ def follow(
 @compiled
 def _moved(
     c: Guidance,
-    approach: Curve,
-    curve: Curve,
+    approach: PathRows,
+    curve: PathRows,
     state: FollowerState,
     navigation: Navigation,
     Ur: float,
@@ -140,9 +145,9 @@ def _moved(
     if state.approaching:
         if not finished:
             return True, False, False, i, t, False
-        start = evaluate(curve, 0, 0.0)
+        start = evaluate(curve, curve.subpath[0], 0.0)
         x, y, psi, _ = navigation
-        if not is_at(x, y, psi, start.x, start.y, math.atan2(start.dy, start.dx)):
+        if not is_at(x, y, psi, start[0], start[1], math.atan2(start[3], start[2])):
             return True, True, False, i, t, False
         i, t, finished, _ = _onwards(curve, 0, beyond)
         return False, False, False, i, t, finished
@@ -154,39 +159,39 @@ def _moved(
 
 
 @compiled
-def _onwards(curve: Curve, i: int, way: float) -> tuple[int, float, bool, float]:
+def _onwards(curve: PathRows, i: int, way: float) -> tuple[int, float, bool, float]:
     """`VirtualPoint.advance`: subpath, t, whether the path ended, and how many metres beyond."""
     while True:
-        start = evaluate(curve, i, 0.0)
-        t = way / math.hypot(start.dx, start.dy)
+        start = evaluate(curve, curve.subpath[i], 0.0)
+        t = way / math.hypot(start[2], start[3])
         if t < 1.0:
             return i, t, False, 0.0
-        way = max(way - curve.subpath[i, LENGTH], 0.0)
-        if i + 1 >= len(curve.subpath):
+        way = max(way - curve.subpath[i][LENGTH], 0.0)
+        if i + 1 >= curve.n:
             return i, 1.0, True, way
         i += 1
 
 
 @compiled
-def _next(curve: Curve, i: int, way: float) -> tuple[int, float, bool, float]:
+def _next(curve: PathRows, i: int, way: float) -> tuple[int, float, bool, float]:
     """`VirtualPoint.go_on`, and on by `way` metres: as `_onwards`."""
-    if i + 1 >= len(curve.subpath):
+    if i + 1 >= curve.n:
         return i, 1.0, True, way
     return _onwards(curve, i + 1, way)
 
 
 @compiled
 def _reached(
-    c: Guidance, curve: Curve, navigation: Navigation, i: int, t: float, Ur: float, current: Current
+    c: Guidance, curve: PathRows, navigation: Navigation, i: int, t: float, Ur: float, current: Current
 ) -> bool:
     """`CircleOfAcceptance.reached`."""
-    row = curve.subpath
-    if c.switching == 0 or i + 1 >= len(row):
+    row: Any = curve.subpath[i]
+    if c.switching == 0 or row[JOINT] == END:
         return False
-    if (c.switching == 1 and row[i, CORNER] == 0.0) or t < row[i, STRETCH]:
+    if (c.switching == 1 and row[JOINT] != CORNER) or t < max(row[STRETCH], 0.5):
         return False
     radius = c.radius
-    if not radius > 0.0 and row[i, CORNER] > 0.0:
-        corner = Corner(row[i, CHI_IN], row[i, CHI_OUT], row[i, WIDEST])
+    if not radius > 0.0 and row[JOINT] == CORNER:
+        corner = Corner(row[CHI_IN], row[CHI_OUT], row[WIDEST])
         radius = acceptance_radius(c.cornering, corner, c.lookahead, Ur, current)
-    return math.hypot(row[i, JOINT_X] - navigation.x, row[i, JOINT_Y] - navigation.y) <= radius
+    return math.hypot(row[JOINT_X] - navigation.x, row[JOINT_Y] - navigation.y) <= radius
