@@ -16,7 +16,8 @@ import pytest
 from auv_msgs_py.types import STOP, Command, Current
 from auv_path_following import vehicle
 from auv_sim.mission.vehicle_driver import free_port
-from auv_sim.plant.remus import PlantState, RemusPlant
+from auv_sim.plant.remus import PlantState
+from auv_sim.plant.simulated import SimulatedVehicle
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "driver.md"
 KNOT = 1852.0 / 3600.0
@@ -35,7 +36,9 @@ class JsonVehicle(threading.Thread):
     def __init__(self, port: int) -> None:
         super().__init__(daemon=True)
         self.port = port
-        self.plant = RemusPlant(vehicle.load("remus100"), PlantState(5.0, -7.0, 0.5, 0.0, 0.0, 0.0))
+        self.plant = SimulatedVehicle(
+            vehicle.load("remus100"), PlantState(5.0, -7.0, 0.5, 0.0, 0.0, 0.0), current=CURRENT
+        )
         self.over = False
 
     def run(self) -> None:
@@ -54,9 +57,9 @@ class JsonVehicle(threading.Thread):
                 continue
             due += 0.05
             moving = time.monotonic() - heard_at < 1.0
-            self.plant.advance(command if moving else STOP, 0.05, CURRENT)
-            s = self.plant.state
-            u, v = self.plant.ground_velocity(CURRENT)
+            self.plant.advance(command if moving else STOP, 0.05)
+            s = self.plant.motion
+            u, v = self.plant.ground_velocity
             measured = {
                 "age_s": max(time.monotonic() - due, 0.0), "north_m": s.x, "east_m": s.y,
                 "heading_deg": math.degrees(s.psi) % 360.0, "turn_deg_s": math.degrees(s.r),

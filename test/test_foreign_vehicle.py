@@ -31,7 +31,7 @@ from auv_path_following.nodes.guidance_node import GuidanceNode
 from auv_path_following.nodes.heading_autopilot_node import HeadingAutopilotNode
 from auv_path_following.paths import mission_file
 from auv_sim.closed_loop import start_of
-from auv_sim.plant.remus import RemusPlant
+from auv_sim.plant.simulated import SimulatedVehicle
 
 CURRENT = Current(0.1, -0.1)
 SENSOR = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -48,7 +48,8 @@ class ForeignVehicle:
 
     def __init__(self, mission: Path, rate: float, frames: tuple[str, str]) -> None:
         self.node = rclpy.create_node("foreign_vehicle", namespace="/auv")
-        self.plant = RemusPlant(vehicle.load("remus100"), start_of(mission_file.load(str(mission)).path))
+        start = start_of(mission_file.load(str(mission)).path)
+        self.plant = SimulatedVehicle(vehicle.load("remus100"), start, current=CURRENT)
         self.step = 1.0 / rate
         self.stamp = topics.FIRST_STAMP_NS
         self.state = ""
@@ -81,20 +82,20 @@ class ForeignVehicle:
         self._commands.clear()
         clock = Clock()
         set_stamp(clock.clock, self.stamp)
-        u, v = self.plant.ground_velocity(CURRENT)
+        u, v = self.plant.ground_velocity
         fill_odometry(self.odometry, self.plant.navigation, u, v, self.stamp)
         fill_water_velocity(self.water, self.plant.water_velocity, self.stamp)
         self._clock.publish(clock)
         self._water.publish(self.water)
         self._odometry.publish(self.odometry)
-        self.track.append((self.plant.state.x, self.plant.state.y))
+        self.track.append(self.plant.motion[:2])
 
     def answered(self) -> bool:
         return len(self._commands) == 2
 
     def act(self) -> None:
         command = Command(self._commands.get("rudder_cmd", 0.0), self._commands.get("thrust_cmd", 0.0))
-        self.plant.advance(command, self.step, CURRENT)
+        self.plant.advance(command, self.step)
         self.stamp += round(self.step * 1e9)
 
 

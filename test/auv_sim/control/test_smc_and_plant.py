@@ -9,13 +9,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from auv_msgs_py.types import NO_CURRENT
 from auv_path_following import vehicle
 from auv_path_following.control import smc as smc_law
 from auv_path_following.control.controller import HeadingInputs
 from auv_path_following.control.hull_model import HullModel, accelerations, rudder_gain, sway_after
 from auv_path_following.control.smc import SmcConfig
-from auv_sim.plant.remus import PlantState, RemusDynamics
+from auv_sim.plant.remus import planar_hull_of, planar_slopes
 from laws import flown
 
 HULLS = [vehicle.load(name) for name in ("remus100", "remus100_table2", "remus100_mismatch")]
@@ -27,7 +26,7 @@ speeds, sways, rates = st.floats(0.5, 2.5), st.floats(-0.3, 0.3), st.floats(-0.5
 
 def plant_yaw(hull, ur, vr, r, delta):
     """(dvr/dt, dr/dt) of the simulator."""
-    return RemusDynamics(hull).derivative(PlantState(0.0, 0.0, 0.0, ur, vr, r), delta, 6.48, NO_CURRENT)[4:]
+    return planar_slopes(planar_hull_of(hull), 0.0, ur, vr, r, delta, 6.48)[3:]
 
 
 @settings(deadline=None)

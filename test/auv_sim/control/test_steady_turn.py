@@ -12,7 +12,8 @@ from auv_msgs_py.types import Command
 from auv_path_following import config_files, vehicle
 from auv_path_following.control.hull_model import tightest_turn
 from auv_path_following.vehicle import Cruise, Turning, Vehicle
-from auv_sim.plant.remus import PlantState, RemusPlant
+from auv_sim.plant.remus import PlantState
+from auv_sim.plant.simulated import SimulatedVehicle
 from hulls import REMUS, STABLE, drawn
 
 HULLS = {
@@ -24,9 +25,9 @@ HULLS = {
 
 def simulated(hull: Vehicle, seconds: float = 60.0) -> PlantState:
     """The plant after so long with all its thrust and the rudder hard over to port."""
-    plant = RemusPlant(hull, PlantState(0.0, 0.0, 0.0, hull.top_speed, 0.0, 0.0))
+    plant = SimulatedVehicle(hull, PlantState(0.0, 0.0, 0.0, hull.top_speed, 0.0, 0.0))
     plant.advance(Command(hull.rudder.max_angle, hull.thrust_max), seconds)
-    return plant.state
+    return plant.motion
 
 
 @pytest.mark.parametrize("name", HULLS)

@@ -12,7 +12,19 @@ from hypothesis import strategies as st
 
 from auv_msgs_py.types import NO_CURRENT, STOP, Command, Current
 from auv_path_following import vehicle
-from auv_sim.plant.remus import PlantState, RemusDynamics, RemusPlant
+from auv_sim.plant.actuator import ServoState
+from auv_sim.plant.remus import (
+    Afloat,
+    PlantInputs,
+    PlantState,
+    ground_velocity,
+    navigation_of,
+    planar_hull_of,
+    planar_slopes,
+    plant_at,
+    plant_of,
+    plant_step,
+)
 
 NAMES = ("remus100", "remus100_table2")
 VEHICLES = {name: vehicle.load(name) for name in NAMES}
@@ -44,11 +56,22 @@ def mirrored(state):
     return PlantState(x, -y, -psi, ur, -vr, -r)
 
 
-def flown(name, state, course, current=NO_CURRENT, mirror=False):
-    plant = RemusPlant(VEHICLES[name], mirrored(state) if mirror else state)
+def afloat(state: PlantState, course, name="remus100", current=NO_CURRENT) -> Afloat:
+    """The plant after a course: a list of (command, seconds)."""
+    config, plant = plant_of(VEHICLES[name]), plant_at(state)
     for command, dt in course:
-        plant.advance(Command(-command.rudder, command.thrust) if mirror else command, dt, current)
+        plant, motion = plant_step(config, plant, PlantInputs(command, current), dt)
+        assert motion == plant.hull
     return plant
+
+
+def flown(state: PlantState, course, name="remus100", current=NO_CURRENT) -> PlantState:
+    return afloat(state, course, name, current).hull
+
+
+def slopes(name, state, delta, thrust, current=NO_CURRENT):
+    x_dot, y_dot, *rest = planar_slopes(planar_hull_of(VEHICLES[name]), *state[2:], delta, thrust)
+    return [x_dot + current.Vx, y_dot + current.Vy, state.r, *rest]
 
 
 @settings(deadline=None)
@@ -72,8 +95,7 @@ def test_derivative_is_eqs_14_18_19(name, state, delta, thrust, current):
     SN += hull.Nuud * ur**2 * delta
     R = np.array([[math.cos(psi), -math.sin(psi)], [math.sin(psi), math.cos(psi)]])
     expected = [*(R @ [ur, vr] + current), r, *np.linalg.solve(M, [SX, SY, SN])]
-    found = RemusDynamics(VEHICLES[name]).derivative(state, delta, thrust, current)
-    assert found == pytest.approx(expected, rel=1e-10, abs=1e-12)
+    assert slopes(name, state, delta, thrust, current) == pytest.approx(expected, rel=1e-10, abs=1e-12)
 
 
 def test_the_two_hulls_differ_where_they_should():
@@ -84,20 +106,21 @@ def test_the_two_hulls_differ_where_they_should():
 @settings(deadline=None, max_examples=40)
 @given(st.sampled_from(NAMES), states, commands, currents)
 def test_port_and_starboard_are_mirror_images(name, state, course, current):
-    here = flown(name, state, course, current)
-    there = flown(name, state, course, Current(current.Vx, -current.Vy), mirror=True)
-    assert there.state == pytest.approx(mirrored(here.state), rel=1e-9, abs=1e-9)
-    assert there.rudder.angle == -here.rudder.angle
+    other = [(Command(-command.rudder, command.thrust), dt) for command, dt in course]
+    here = afloat(state, course, name, current)
+    there = afloat(mirrored(state), other, name, Current(current.Vx, -current.Vy))
+    assert there.hull == pytest.approx(mirrored(here.hull), rel=1e-9, abs=1e-9)
+    assert there.servo.angle == -here.servo.angle
 
 
 @settings(deadline=None, max_examples=40)
 @given(states, commands, currents)
 def test_a_steady_current_carries_the_track_along_and_changes_nothing_else(state, course, current):
-    still, moving = flown("remus100", state, course), flown("remus100", state, course, current)
+    still, moving = flown(state, course), flown(state, course, current=current)
     seconds = sum(dt for _, dt in course)
-    assert moving.state.x == pytest.approx(still.state.x + current.Vx * seconds, abs=1e-8)
-    assert moving.state.y == pytest.approx(still.state.y + current.Vy * seconds, abs=1e-8)
-    assert moving.state[2:] == still.state[2:]
+    assert moving.x == pytest.approx(still.x + current.Vx * seconds, abs=1e-8)
+    assert moving.y == pytest.approx(still.y + current.Vy * seconds, abs=1e-8)
+    assert moving[2:] == still[2:]
 
 
 @settings(deadline=None, max_examples=40)
@@ -108,8 +131,8 @@ def test_turning_the_world_changes_nothing(state, course, turn):
     def turned(p):
         return PlantState(c * p.x - s * p.y, s * p.x + c * p.y, p.psi + turn, p.ur, p.vr, p.r)
 
-    here, there = flown("remus100", state, course), flown("remus100", turned(state), course)
-    assert there.state == pytest.approx(turned(here.state), rel=1e-9, abs=1e-8)
+    here, there = flown(state, course), flown(turned(state), course)
+    assert there == pytest.approx(turned(here), rel=1e-9, abs=1e-8)
 
 
 @pytest.mark.parametrize("thrust", [THRUST, 2.0])
@@ -118,31 +141,35 @@ def test_speed_ahead_is_the_closed_solution(name, thrust):
     """Straight ahead (m - Xud) ur' = XT - |Xuu| ur^2, which tanh solves; at the end ur = sqrt(XT/|Xuu|)."""
     hull = VEHICLES[name].hull
     terminal = math.sqrt(thrust / -hull.Xuu)
-    plant = RemusPlant(VEHICLES[name], PlantState(0.0, 0.0, 0.3, 0.0, 0.0, 0.0))
+    state = PlantState(0.0, 0.0, 0.3, 0.0, 0.0, 0.0)
     for k in range(1, 101):
-        plant.advance(Command(0.0, thrust), 1.0)
+        state = flown(state, [(Command(0.0, thrust), 1.0)], name)
         expected = terminal * math.tanh(k * -hull.Xuu * terminal / (hull.m - hull.Xud))
-        assert plant.state.ur == pytest.approx(expected, rel=1e-8)
-    assert plant.state.ur == pytest.approx(terminal, rel=1e-3)
-    assert (plant.state.vr, plant.state.r, plant.state.psi) == (0.0, 0.0, 0.3)
-    assert plant.state.y == pytest.approx(plant.state.x * math.tan(0.3))
+        assert state.ur == pytest.approx(expected, rel=1e-8)
+    assert state.ur == pytest.approx(terminal, rel=1e-3)
+    assert (state.vr, state.r, state.psi) == (0.0, 0.0, 0.3)
+    assert state.y == pytest.approx(state.x * math.tan(0.3))
 
 
 @pytest.mark.parametrize(("thrust", "used"), [(100.0, THRUST), (-5.0, 0.0)])
 def test_thrust_is_limited_to_what_the_vehicle_can(thrust, used):
-    asked, got = (RemusPlant(REMUS, PlantState(0.0, 0.0, 0.0, 1.0, 0.0, 0.0)) for _ in range(2))
-    asked.advance(Command(0.0, thrust), 5.0)
-    got.advance(Command(0.0, used), 5.0)
-    assert asked.state == got.state
+    start = PlantState(0.0, 0.0, 0.0, 1.0, 0.0, 0.0)
+    assert flown(start, [(Command(0.0, thrust), 5.0)]) == flown(start, [(Command(0.0, used), 5.0)])
+
+
+def test_the_efficiency_is_a_share_of_the_thrust_as_limited():
+    start, config = plant_at(PlantState(0.0, 0.0, 0.0, 1.0, 0.0, 0.0)), plant_of(REMUS)
+    weak, _ = plant_step(config, start, PlantInputs(Command(0.0, 100.0), NO_CURRENT, 0.5), 5.0)
+    assert weak.hull == flown(start.hull, [(Command(0.0, 0.5 * REMUS.thrust_max), 5.0)])
 
 
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("delta", [0.2, -0.2])
 def test_positive_rudder_turns_to_port(name, delta):
-    plant = flown(name, PlantState(0.0, 0.0, 0.0, 1.9, 0.0, 0.0), [(Command(delta, THRUST), 5.0)])
-    assert plant.state.r * delta < 0.0
-    assert plant.state.psi * delta < 0.0
-    assert plant.state.y * delta < 0.0
+    state = flown(PlantState(0.0, 0.0, 0.0, 1.9, 0.0, 0.0), [(Command(delta, THRUST), 5.0)], name)
+    assert state.r * delta < 0.0
+    assert state.psi * delta < 0.0
+    assert state.y * delta < 0.0
 
 
 @pytest.mark.parametrize("moving_rudder", [False, True], ids=["rudder at rest", "rudder turning"])
@@ -152,10 +179,10 @@ def test_runge_kutta_is_of_fourth_order(moving_rudder):
     seconds = 2.0 if moving_rudder else 4.0
 
     def end(max_step):
-        plant = RemusPlant(REMUS, start, max_step)
-        plant.rudder.angle = 0.05 if moving_rudder else 0.2
-        plant.advance(Command(0.6 if moving_rudder else 0.2, THRUST), seconds)
-        return np.array(plant.state)
+        plant = Afloat(start, ServoState(0.05 if moving_rudder else 0.2))
+        inputs = PlantInputs(Command(0.6 if moving_rudder else 0.2, THRUST), NO_CURRENT)
+        config = plant_of(REMUS)._replace(max_step=max_step)
+        return np.array(plant_step(config, plant, inputs, seconds)[1])
 
     exact = end(0.0025)
     assert exact[4] > 0.0 > exact[5]
@@ -166,21 +193,19 @@ def test_runge_kutta_is_of_fourth_order(moving_rudder):
 
 
 def test_a_long_step_is_divided_evenly():
-    long, short = (RemusPlant(REMUS, PlantState(0.0, 0.0, 0.0, 1.9, 0.0, 0.0)) for _ in range(2))
-    long.advance(Command(0.3, THRUST), 0.12)
-    for _ in range(3):
-        short.advance(Command(0.3, THRUST), 0.04)
-    assert long.state == pytest.approx(short.state, abs=1e-14)
+    start = PlantState(0.0, 0.0, 0.0, 1.9, 0.0, 0.0)
+    long = flown(start, [(Command(0.3, THRUST), 0.12)])
+    assert long == pytest.approx(flown(start, [(Command(0.3, THRUST), 0.04)] * 3), abs=1e-14)
 
 
 def test_the_shipped_step_is_fine_enough():
     """10, 20 and 50 Hz agree to a millimetre over a minute of hard rudder."""
     ends = []
     for rate in (10, 20, 50):
-        plant = RemusPlant(REMUS, PlantState(0.0, 0.0, 0.0, 1.9, 0.0, 0.0))
-        for k in range(60 * rate):
-            plant.advance(Command(0.4 if k // (10 * rate) % 2 else -0.4, THRUST), 1.0 / rate)
-        ends.append(plant.state)
+        course = [
+            (Command(0.4 if k // (10 * rate) % 2 else -0.4, THRUST), 1.0 / rate) for k in range(60 * rate)
+        ]
+        ends.append(flown(PlantState(0.0, 0.0, 0.0, 1.9, 0.0, 0.0), course))
     for end in ends[:2]:
         assert end[:2] == pytest.approx(ends[2][:2], abs=1e-3)
 
@@ -189,8 +214,8 @@ def test_the_shipped_step_is_fine_enough():
 @given(states, currents)
 def test_velocity_over_ground_is_that_of_the_position(state, current):
     """Eqs. (15) and (16) with the signs that follow from Eq. (14): turned to the world they give (x', y')."""
-    u, v = RemusPlant(REMUS, state).ground_velocity(current)
-    x_dot, y_dot, *_ = RemusDynamics(REMUS).derivative(state, 0.0, 0.0, current)
+    u, v = ground_velocity(state, current)
+    x_dot, y_dot, *_ = slopes("remus100", state, 0.0, 0.0, current)
     assert math.cos(state.psi) * u - math.sin(state.psi) * v == pytest.approx(x_dot, abs=1e-12)
     assert math.sin(state.psi) * u + math.cos(state.psi) * v == pytest.approx(y_dot, abs=1e-12)
 
@@ -201,28 +226,15 @@ def test_velocity_over_ground_is_that_of_the_position(state, current):
     ids=["north", "east", "south", "west"],
 )
 def test_eq_15_on_the_four_headings(psi, expected):
-    plant = RemusPlant(REMUS, PlantState(0.0, 0.0, psi, 1.0, 0.0, 0.0))
-    assert plant.ground_velocity(Current(0.1, 0.2)) == pytest.approx(expected)
+    state = PlantState(0.0, 0.0, psi, 1.0, 0.0, 0.0)
+    assert ground_velocity(state, Current(0.1, 0.2)) == pytest.approx(expected)
 
 
-def test_measurements_are_the_state():
-    plant = RemusPlant(REMUS, PlantState(1.0, 2.0, 9.0, 1.5, -0.1, 0.2))
-    assert plant.navigation == (1.0, 2.0, 9.0, 0.2)
-    assert plant.water_velocity == (1.5, -0.1)
-
-
-def test_reset_brings_back_state_and_rudder():
-    start = PlantState(1.0, 2.0, 0.5, 1.5, 0.0, 0.0)
-    plant = RemusPlant(REMUS, start)
-    plant.advance(Command(0.5, THRUST), 3.0)
-    assert plant.rudder.angle > 0.0
-    plant.reset()
-    assert plant.state == start
-    assert plant.rudder.angle == plant.rudder.target == 0.0
+def test_an_ideal_navigation_is_the_state():
+    assert navigation_of(PlantState(1.0, 2.0, 9.0, 1.5, -0.1, 0.2)) == (1.0, 2.0, 9.0, 0.2)
 
 
 def test_left_alone_it_slows_down_on_its_course():
-    plant = RemusPlant(REMUS, PlantState(0.0, 0.0, 0.5, 1.9, 0.0, 0.0))
-    plant.advance(STOP, 60.0)
-    assert 0.0 < plant.state.ur < 0.5
-    assert plant.state.psi == 0.5
+    state = flown(PlantState(0.0, 0.0, 0.5, 1.9, 0.0, 0.0), [(STOP, 60.0)])
+    assert 0.0 < state.ur < 0.5
+    assert state.psi == 0.5

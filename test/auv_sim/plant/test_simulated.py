@@ -10,7 +10,15 @@ from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.types import Command, Current
 from auv_path_following import config_files, vehicle
 from auv_sim.plant import sea
-from auv_sim.plant.remus import PlantState, RemusPlant
+from auv_sim.plant.remus import (
+    PlantInputs,
+    PlantState,
+    ground_velocity,
+    navigation_of,
+    plant_at,
+    plant_of,
+    plant_step,
+)
 from auv_sim.plant.sea import Sea
 from auv_sim.plant.simulated import SimulatedVehicle
 
@@ -29,26 +37,43 @@ def flown(simulated: SimulatedVehicle) -> list[object]:
 
 def test_without_a_sea_it_is_the_plant_to_the_last_bit() -> None:
     simulated = SimulatedVehicle(vehicle.load("remus100"), START, current=CURRENT)
-    plant = RemusPlant(vehicle.load("remus100"), START)
+    config, plant = plant_of(vehicle.load("remus100")), plant_at(START)
     for command in COMMANDS:
-        assert simulated.navigation == plant.navigation
-        assert simulated.water_velocity == plant.water_velocity
-        assert simulated.ground_velocity == plant.ground_velocity(CURRENT)
-        assert simulated.truth == (plant.navigation, *plant.ground_velocity(CURRENT))
+        assert simulated.navigation == navigation_of(plant.hull)
+        assert simulated.water_velocity == (plant.hull.ur, plant.hull.vr)
+        assert simulated.rudder == plant.servo.angle
+        assert simulated.ground_velocity == ground_velocity(plant.hull, CURRENT)
+        assert simulated.truth == (navigation_of(plant.hull), *ground_velocity(plant.hull, CURRENT))
         assert (simulated.current, simulated.water_lock) == (CURRENT, True)
         simulated.advance(command, 0.05)
-        plant.advance(command, 0.05, CURRENT)
+        plant, _ = plant_step(config, plant, PlantInputs(command, CURRENT), 0.05)
+
+
+def test_reset_brings_back_state_and_rudder() -> None:
+    simulated = SimulatedVehicle(vehicle.load("remus100"), START)
+    simulated.advance(Command(0.5, 6.0), 3.0)
+    assert simulated.rudder > 0.0
+    simulated.reset()
+    assert (simulated.motion, simulated.rudder) == (START, 0.0)
+
+
+def test_a_vehicle_is_placed_where_it_is_asked_to_be() -> None:
+    simulated = SimulatedVehicle(vehicle.load("remus100"), START)
+    simulated.advance(Command(0.5, 6.0), 3.0)
+    rudder = simulated.rudder
+    simulated.place(START)
+    assert (simulated.motion, simulated.rudder) == (START, rudder)
 
 
 def test_a_sea_with_nothing_in_it_moves_the_vehicle_no_otherwise() -> None:
     """Its navigator still reckons, but the hull does not feel it."""
     simulated = SimulatedVehicle(vehicle.load("remus100"), START, Sea(name="still"), current=CURRENT)
-    plant = RemusPlant(vehicle.load("remus100"), START)
+    config, plant = plant_of(vehicle.load("remus100")), plant_at(START)
     for command in COMMANDS:
         simulated.advance(command, 0.05)
-        plant.advance(command, 0.05, CURRENT)
-        assert simulated.truth[0] == plant.navigation
-        assert simulated.ground_velocity == plant.ground_velocity(CURRENT)
+        plant, motion = plant_step(config, plant, PlantInputs(command, CURRENT), 0.05)
+        assert simulated.truth[0] == navigation_of(motion)
+        assert simulated.ground_velocity == ground_velocity(motion, CURRENT)
 
 
 @pytest.mark.parametrize("name", config_files.shipped("seas"))
@@ -77,8 +102,8 @@ def test_thrust_varies_by_some_per_cent() -> None:
     for _ in range(400):
         simulated.advance(Command(0.0, 6.48), 0.05)
         strong.advance(Command(0.0, 6.48), 0.05)
-    assert simulated.plant.state.ur != strong.plant.state.ur
-    assert simulated.plant.state.ur == pytest.approx(strong.plant.state.ur, rel=0.15)
+    assert simulated.motion.ur != strong.motion.ur
+    assert simulated.motion.ur == pytest.approx(strong.motion.ur, rel=0.15)
 
 
 @pytest.mark.parametrize(

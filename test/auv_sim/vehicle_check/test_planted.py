@@ -44,7 +44,7 @@ def record(
 ) -> Recording:
     """What the listener would have heard of the small test, without the wire."""
     driver = PlantedVehicle(planted, REMUS, BEGIN)
-    driver.plant.state = START._replace(psi=heading)
+    driver.plant.place(START._replace(psi=heading))
     recording = Recording(duration=END, sim_time=True, wiggled=wiggle, endpoints=endpoints(planted))
     for k in range(round((END + FAREWELL) / STEP)):
         now = BEGIN + k * STEP

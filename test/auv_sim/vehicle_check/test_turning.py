@@ -10,8 +10,9 @@ import pytest
 from auv_path_following import vehicle
 from auv_path_following.control.hull_model import tightest_turn
 from auv_path_following.vehicle import Vehicle
-from auv_sim.plant.actuator import RudderServo
-from auv_sim.plant.remus import PlantState, RemusPlant
+from auv_sim.plant.actuator import with_rate
+from auv_sim.plant.remus import PlantState
+from auv_sim.plant.simulated import SimulatedVehicle
 from auv_sim.vehicle_check.fits import STEP, Fit
 from auv_sim.vehicle_check.turning import fit_turning
 from auv_sim.vehicle_check.wiggle import END, Wiggle
@@ -37,14 +38,13 @@ HULLS = {
 
 def flown(hull: Vehicle, scale: float = 1.0, rate: float = 1.0, delay: float = 0.0) -> Fit:
     """The small test, flown by a hull whose driver changes the rudder; the fit by its radius and speed."""
-    plant = RemusPlant(hull, PlantState(0.0, 0.0, 0.3, 0.0, 0.0, 0.0), STEP)
-    plant.rudder = RudderServo(hull.rudder.max_angle, rate * hull.rudder.max_rate)
+    plant = SimulatedVehicle(with_rate(hull, rate), PlantState(0.0, 0.0, 0.3, 0.0, 0.0, 0.0))
     t = np.arange(0.0, END, STEP)
     commands = [Wiggle.of(hull).at(float(now)) for now in t]
     late = round(delay / STEP)
     speed, yaw_rate = np.empty_like(t), np.empty_like(t)
     for k in range(t.size):
-        speed[k], yaw_rate[k] = plant.state.ur, -plant.state.r
+        speed[k], yaw_rate[k] = plant.motion.ur, -plant.motion.r
         obeyed = commands[max(k - late, 0)]
         plant.advance(obeyed._replace(rudder=scale * obeyed.rudder), STEP)
     rudder = np.array([command.rudder for command in commands])

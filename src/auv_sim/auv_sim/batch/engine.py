@@ -36,7 +36,7 @@ from auv_sim.batch.flights import Flights, figures_of
 from auv_sim.batch.judge import judged
 from auv_sim.batch.scenarios import flight_of
 from auv_sim.closed_loop import Scenario, start_of
-from auv_sim.plant.remus import PlantState
+from auv_sim.plant.remus import PlantState, plant_at
 
 _TRACK = ("x", "y", "psi", "r", "ur", "vr", "rudder", "rudder_cmd", "thrust_cmd", "psi_d", "r_d",
           "xe", "ye", "psi_e", "s", "Vx_est", "Vy_est")  # fmt: skip
@@ -147,5 +147,7 @@ def _flown(flight: Any, scenario: Scenario, course: _Course, every: int) -> tupl
     rows = math.ceil(flight.steps / every) if every else 0
     kept = np.empty((rows, TRACK_COLUMNS))
     with np.errstate(all="ignore"):  # a state that runs away is a result
-        end = fly_one(flight, approach, path is not None, *course, start, whole, subpaths, flown, kept, every)
+        end = fly_one(
+            flight, approach, path is not None, *course, plant_at(start), whole, subpaths, flown, kept, every
+        )
     return end, whole, subpaths, flown, kept[: math.ceil(end.rows / every)] if every else kept

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from auv_msgs_py.types import NO_CURRENT, Current, Navigation, Reference, WaterVelocity
+from auv_msgs_py.types import NO_CURRENT, Current, Reference, WaterVelocity
 from auv_path_following.control.autopilot import AutopilotInputs, first_state, steer
 from auv_path_following.guidance.current_observer import ObserverInputs, ObserverState, observe
 from auv_path_following.paths.rows import PathRows
@@ -20,8 +20,7 @@ from auv_sim.batch.flown_cells import pass_cells
 from auv_sim.batch.follow import first_state as first_follower_state
 from auv_sim.batch.follow import follow
 from auv_sim.batch.numbers import Flight
-from auv_sim.batch.steps import advance
-from auv_sim.plant.remus import PlantState
+from auv_sim.plant.remus import Afloat, PlantInputs, PlantState, navigation_of, plant_step
 
 Array = npt.NDArray[np.float64]
 Flags = npt.NDArray[np.bool_]
@@ -56,7 +55,7 @@ def fly_one(
     curve: PathRows,
     outlines: Outlines,
     cells: Cells,
-    state: PlantState,
+    afloat: Afloat,
     whole: Array,
     subpaths: Array,
     flown: Flags,
@@ -68,7 +67,7 @@ def fly_one(
     Args:
         c, curve, outlines, cells: what is flown; the path as rows, as outlines and as cells.
         approach: flown before it, where it `approaches`; else any path.
-        state: the plant's first state.
+        afloat: the plant's first state.
         whole, subpaths: tallies, shape (FLIGHT_TALLIES,) and (n, SUBPATH_TALLIES); written.
         flown: shape (cells,), which cells were flown; written.
         track: shape (rows, TRACK_COLUMNS), every `every`-th odometry; written; `every` 0 for none.
@@ -77,13 +76,14 @@ def fly_one(
     observer = ObserverState(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, NO_CURRENT)
     follower = first_follower_state(c.guidance, approaches)
     pilot = first_state(c.autopilot)
-    rudder = commanded = 0.0
+    commanded = 0.0
     i, clear = -1, 0.0
     flown[:] = False
     tally.begin(whole, subpaths)
     for k in range(c.steps):
         since = c.dt if k > 0 else 0.0
-        navigation = Navigation(state.x, state.y, state.psi, state.r)
+        state, rudder = afloat.hull, afloat.servo.angle
+        navigation = navigation_of(state)
         water = WaterVelocity(state.ur, state.vr)
         observer, seen = observe(c.observer, observer, ObserverInputs(navigation, water, True), since)
         estimate = seen.current
@@ -123,15 +123,14 @@ def fly_one(
                 whole, (command - commanded) / c.dt, abs(command) >= c.autopilot.max_angle - 1e-12
             )
         commanded = command
-        before, rudder_before = state, rudder
-        state, rudder = advance(c.plant, state, rudder, command, c.plant.thrust, c.dt, current)
-        dx, dy = state.x - before.x, state.y - before.y
+        afloat, motion = plant_step(c.plant, afloat, PlantInputs(steered.command, current, 1.0), c.dt)
+        dx, dy = motion.x - state.x, motion.y - state.y
         covered = math.sqrt(dx * dx + dy * dy)
         clear -= covered
         if k + 1 < c.steps:
-            tally.count_step(subpaths, i, c.dt, abs(rudder - rudder_before), covered)
-            pass_cells(cells, flown, s, before.x, before.y, state.x, state.y)
-    return End(c.steps, s, finite, False, before)  # the way after the last odometry is nobody's
+            tally.count_step(subpaths, i, c.dt, abs(afloat.servo.angle - rudder), covered)
+            pass_cells(cells, flown, s, state.x, state.y, motion.x, motion.y)
+    return End(c.steps, s, finite, False, state)  # the way after the last odometry is nobody's
 
 
 @compiled

@@ -8,40 +8,11 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from auv_msgs_py.pure import numbers_of
 from auv_path_following.control.autopilot import Autopilot
 from auv_path_following.guidance.acceptance import Cornering
-from auv_sim.plant.remus import RemusDynamics
+from auv_sim.plant.remus import Plant
 
 SWITCHING = ("off", "g0", "all")
-
-
-class Dynamics(NamedTuple):
-    """Stands for a `RemusDynamics`, in the place of `self`."""
-
-    hull: Any
-    inv_x: float
-    inv_vv: float
-    inv_vr: float
-    inv_rv: float
-    inv_rr: float
-    Xvr: float
-
-    @classmethod
-    def of(cls, dynamics: RemusDynamics) -> Dynamics:
-        """The same numbers."""
-        names = cls._fields[1:]
-        return cls(numbers_of(dynamics.hull), *(float(getattr(dynamics, name)) for name in names))
-
-
-class Plant(NamedTuple):
-    """The simulated vehicle: `RemusPlant` without its state. `thrust` is what it gives, N."""
-
-    dynamics: Dynamics
-    max_angle: float
-    max_rate: float
-    max_step: float
-    thrust: float
 
 
 class Guidance(NamedTuple):

@@ -9,9 +9,9 @@ from auv_path_following.guidance.approach import Agility, agility_of, turn_radiu
 from auv_path_following.guidance.laws import LAWS
 from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.registry import law_of
-from auv_sim.batch.numbers import SWITCHING, Dynamics, Flight, Guidance, Plant
+from auv_sim.batch.numbers import SWITCHING, Flight, Guidance
 from auv_sim.closed_loop import Scenario
-from auv_sim.plant.remus import RemusDynamics, RemusPlant
+from auv_sim.plant.remus import plant_of
 
 
 def flight_of(scenario: Scenario) -> Flight:
@@ -25,13 +25,7 @@ def flight_of(scenario: Scenario) -> Flight:
     if not c.thrust > 0.0:
         raise ConfigurationError("thrust", f"{c.thrust:g}", "a number greater than 0")
     return Flight(
-        plant=Plant(
-            dynamics=Dynamics.of(RemusDynamics(c.vehicle)),
-            max_angle=c.vehicle.rudder.max_angle,
-            max_rate=c.vehicle.rudder.max_rate,
-            max_step=RemusPlant.MAX_STEP,
-            thrust=float(min(c.thrust, assumed.thrust_max, c.vehicle.thrust_max)),
-        ),
+        plant=plant_of(c.vehicle),
         guidance=_guidance(c.guidance, agility_of(assumed, c.thrust)),
         observer=numbers_of(c.observer),
         autopilot=autopilot.prepare(c.autopilot, assumed),

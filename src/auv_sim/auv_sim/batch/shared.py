@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from auv_path_following.control import autopilot  # noqa: F401 - its pure functions
 from auv_path_following.guidance import acceptance, virtual_point
 from auv_path_following.guidance import approach as guidance_approach
 from auv_sim.batch.compiled import part, take_over_pure
-from auv_sim.plant import remus
-from auv_sim.plant.remus import RemusDynamics
+from auv_sim.plant import remus  # noqa: F401 - its pure functions
 
 is_at = part(guidance_approach.is_at)
 path_errors = part(virtual_point.path_errors)
@@ -17,9 +14,5 @@ saturated = part(virtual_point.saturated)
 tangential_speed = part(virtual_point.tangential_speed)
 crab_angle = part(acceptance.crab_angle)
 acceptance_radius = part(acceptance.acceptance_radius)
-moved = part(remus.moved)
-
-# A method that only reads its object: `numbers` has what stands in its place.
-derivative: Any = part(RemusDynamics.derivative)
 
 take_over_pure()

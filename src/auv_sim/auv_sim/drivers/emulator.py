@@ -32,7 +32,8 @@ from auv_sim.drivers.mavlink_mapping import (
 )
 from auv_sim.drivers.mavlink_signing import load_key
 from auv_sim.parameters import CRUISE
-from auv_sim.plant.remus import PlantState, RemusPlant
+from auv_sim.plant.remus import PlantState
+from auv_sim.plant.simulated import SimulatedVehicle
 
 #: One step, ms; every period below is a multiple of it.
 STEP_MS = 10
@@ -78,8 +79,7 @@ class Emulator:
     """
 
     def __init__(self, hull: Vehicle, initial: PlantState, current: Current) -> None:
-        self.plant = RemusPlant(hull, initial)
-        self.current = current
+        self.plant = SimulatedVehicle(hull, initial, current=current)
         self.limits = Limits.of(hull)
         self.now_ms = BOOT_MS
         self.in_tube = True
@@ -114,7 +114,7 @@ class Emulator:
             self.said.append((CHANNELS["heartbeat"], message))
         command: Command = STOP if self.failsafe else self._command
         if not self.in_tube:
-            self.plant.advance(command, STEP_MS * 1e-3, self.current)
+            self.plant.advance(command, STEP_MS * 1e-3)
         self.now_ms += STEP_MS
 
     def _heartbeat(self) -> Any:
@@ -125,13 +125,13 @@ class Emulator:
         )
 
     def _attitude(self) -> Any:
-        state = self.plant.state
+        state = self.plant.motion
         psi, r = math.remainder(state.psi, math.tau), 0.0 if self.in_tube else state.r
         return mavlink.MAVLink_attitude_message(self.now_ms, 0.0, 0.0, psi, 0.0, 0.0, r)
 
     def _position(self) -> Any:
-        state = self.plant.state
-        u, v = (0.0, 0.0) if self.in_tube else self.plant.ground_velocity(self.current)
+        state = self.plant.motion
+        u, v = (0.0, 0.0) if self.in_tube else self.plant.ground_velocity
         cos_psi, sin_psi = math.cos(state.psi), math.sin(state.psi)
         return mavlink.MAVLink_local_position_ned_message(
             self.now_ms, state.x, state.y, 0.0, u * cos_psi - v * sin_psi, u * sin_psi + v * cos_psi, 0.0
@@ -142,7 +142,7 @@ class Emulator:
         return water_track(self.now_ms * 1000, ur, vr)
 
     def _servo(self) -> Any:
-        pulse = pulse_of_rudder(self.plant.rudder.angle, self.limits)
+        pulse = pulse_of_rudder(self.plant.rudder, self.limits)
         return mavlink.MAVLink_servo_output_raw_message(self.now_ms * 1000 % 2**32, 0, pulse, *[0] * 7)
 
 

@@ -174,7 +174,7 @@ class Matrix:
         assert flight.plant is not None
         if flight.plant.steps:
             x, y, psi = self._start_pose
-            flight.plant.simulated.plant.state = PlantState(x, y, psi, 0.0, 0.0, 0.0)
+            flight.plant.simulated.place(PlantState(x, y, psi, 0.0, 0.0, 0.0))
             flight.pass_time(4.0)
         flight.s = 0.0
         refused = flight.call(topics.START_SERVICE)

@@ -1,11 +1,14 @@
-"""The rudder's servo: it saturates and turns at a limited rate; a real one also has play and comes late."""
+"""Rudder servo: limited in angle and rate; a real one also has a dead band, play and a dead time."""
 
 from __future__ import annotations
 
+import dataclasses
 import math
-from collections import deque
+from typing import NamedTuple
 
+from auv_msgs_py.pure import dispatched, pure
 from auv_msgs_py.settings import setting, settings
+from auv_path_following.vehicle import Rudder, Vehicle
 
 
 @settings
@@ -21,67 +24,167 @@ class RudderFlaws:
     dead_time: float = setting(0.0, "from a command to the servo's start", unit="s", ge=0.0, le=5.0)
 
 
-class RudderServo:
-    """Moves towards its target at the greatest rate, never past the stops.
+class Order(NamedTuple):
+    """Commanded angle, rad, and whether it was commanded at the beginning of this step or is held."""
 
-    Args:
-        max_angle: stops at +- this angle, rad.
-        max_rate: rad/s.
-        flaws: dead band, backlash, dead time; none if None.
+    angle: float
+    is_new: bool
+
+
+class Deflection(NamedTuple):
+    """Angle of the rudder itself at the beginning, the middle and the end of a step, rad."""
+
+    begin: float
+    middle: float
+    end: float
+
+
+class Servo(NamedTuple):
+    """Configuration of an ideal servo: largest angle (rad) and rate (rad/s)."""
+
+    max_angle: float
+    max_rate: float
+
+
+class ServoState(NamedTuple):
+    """Measured angle, rad."""
+
+    angle: float = 0.0
+
+
+@pure
+def turn(config: Servo, state: ServoState, inputs: Order, dt: float) -> tuple[ServoState, Deflection]:
+    """Move towards the command at the greatest rate, never past the stops."""
+    max_angle, max_rate = config
+    angle = state.angle
+    error = min(max(inputs.angle, -max_angle), max_angle) - angle
+    half, reach = max_rate * (0.5 * dt), max_rate * dt
+    end = angle + min(max(error, -reach), reach)
+    return ServoState(end), Deflection(angle, angle + min(max(error, -half), half), end)
+
+
+class FlawedServo(NamedTuple):
+    """Configuration of a servo with flaws.
+
+    Attributes:
+        max_angle, max_rate: rad, rad/s.
+        band: dead band, rad.
+        play: half of the backlash, rad.
+        dead_time: s.
+        size: how many commands can be within their dead time.
+        ring: written; when their dead time is over (s), then their angles (rad), `size` each.
     """
 
-    def __init__(self, max_angle: float, max_rate: float, flaws: RudderFlaws | None = None) -> None:
-        self.max_angle = max_angle
-        self.max_rate = max_rate
-        flaws = flaws or RudderFlaws()
-        self._band, self._play = math.radians(flaws.dead_band_deg), math.radians(0.5 * flaws.backlash_deg)
-        self._dead_time = flaws.dead_time
-        self._clock = 0.0
-        self._on_their_way: deque[tuple[float, float]] = deque()
-        self._fin = 0.0
-        #: The servo's angle, rad: what it measures.
-        self.angle = 0.0
-        self.target = 0.0
+    max_angle: float
+    max_rate: float
+    band: float
+    play: float
+    dead_time: float
+    size: int
+    ring: list[float]
 
-    def command(self, angle: float) -> None:
-        """Set the target, rad; beyond the stops it is the stop."""
-        angle = min(max(angle, -self.max_angle), self.max_angle)
-        if self._dead_time:
-            self._on_their_way.append((self._clock + self._dead_time, angle))
-            self._take_what_has_come()
+
+class FlawedServoState(NamedTuple):
+    """State of a servo with flaws.
+
+    Attributes:
+        angle: of the servo, which it measures, rad.
+        target, fin: where it turns to, and the angle of the rudder itself, rad.
+        clock: s.
+        first, after: the range of commands within their dead time, as numbers of all commands.
+    """
+
+    angle: float = 0.0
+    target: float = 0.0
+    fin: float = 0.0
+    clock: float = 0.0
+    first: int = 0
+    after: int = 0
+
+
+def with_rate(vehicle: Vehicle, share: float) -> Vehicle:
+    """Return the vehicle with a share of its rudder rate."""
+    rate = share * vehicle.rudder.max_rate_deg_s
+    return dataclasses.replace(vehicle, rudder=dataclasses.replace(vehicle.rudder, max_rate_deg_s=rate))
+
+
+def servo_of(rudder: Rudder) -> Servo:
+    """Return the configuration of an ideal servo."""
+    return Servo(rudder.max_angle, rudder.max_rate)
+
+
+def flawed_servo_of(rudder: Rudder, flaws: RudderFlaws, step: float) -> FlawedServo:
+    """Return the configuration of a servo with flaws.
+
+    Args:
+        rudder: limits.
+        flaws: in degrees and s.
+        step: shortest time between two commands, s.
+    """
+    size = math.ceil(flaws.dead_time / step) + 3
+    band, play = math.radians(flaws.dead_band_deg), math.radians(0.5 * flaws.backlash_deg)
+    limits = rudder.max_angle, rudder.max_rate
+    return FlawedServo(*limits, band, play, flaws.dead_time, size, [0.0] * (2 * size))
+
+
+@pure
+def turn_flawed(
+    config: FlawedServo, state: FlawedServoState, inputs: Order, dt: float
+) -> tuple[FlawedServoState, Deflection]:
+    """Move towards the last command whose dead time is over; the rudder follows at the end of the play.
+
+    A command whose dead time ends within the step counts from its end on.
+
+    Raises:
+        IndexError: commands came faster than the ring was made for.
+    """
+    angle, target, fin, clock, first, after = state
+    if inputs.is_new:
+        command = min(max(inputs.angle, -config.max_angle), config.max_angle)
+        if config.dead_time > 0.0:
+            if after - first >= config.size:
+                raise IndexError("more commands within their dead time than the servo's ring holds")
+            slot = after % config.size
+            config.ring[slot], config.ring[config.size + slot] = clock + config.dead_time, command
+            after += 1
+            target, first = _due(config, angle, target, clock, first, after)
         else:
-            self._aim(angle)
+            target = _aim(config, angle, target, command)
+    error, half, reach = target - angle, config.max_rate * (0.5 * dt), config.max_rate * dt
+    middle, end = angle + min(max(error, -half), half), angle + min(max(error, -reach), reach)
+    play = config.play
+    fins = Deflection(angle, middle, end)
+    if play > 0.0:
+        fins = Deflection(
+            min(max(fin, angle - play), angle + play),
+            min(max(fin, middle - play), middle + play),
+            min(max(fin, end - play), end + play),
+        )
+    if config.dead_time > 0.0:
+        clock += dt
+        target, first = _due(config, end, target, clock, first, after)
+    return FlawedServoState(end, target, fins.end, clock, first, after), fins
 
-    @property
-    def fin(self) -> float:
-        """The rudder's own angle, rad: the servo's, but for the play between them."""
-        return self.fin_after(0.0) if self._play else self.angle
 
-    def after(self, seconds: float) -> float:
-        """The servo's angle `seconds` from now, rad, if the target stays; changes nothing."""
-        reach = self.max_rate * seconds
-        return self.angle + min(max(self.target - self.angle, -reach), reach)
+@pure
+def _due(
+    config: FlawedServo, angle: float, target: float, clock: float, first: int, after: int
+) -> tuple[float, int]:
+    """Take the commands whose dead time is over; return the target and the first that remains."""
+    while first < after and config.ring[first % config.size] <= clock + 1e-9:
+        target = _aim(config, angle, target, config.ring[config.size + first % config.size])
+        first += 1
+    return target, first
 
-    def fin_after(self, seconds: float) -> float:
-        """The rudder's own angle `seconds` from now, rad; changes nothing."""
-        angle = self.after(seconds)
-        if not self._play:
-            return angle
-        # It is taken along at the end of the play, and else stays where it is.
-        return min(max(self._fin, angle - self._play), angle + self._play)
 
-    def advance(self, seconds: float) -> None:
-        """Let time pass. A command that comes out of its dead time meanwhile counts from the end on."""
-        self._fin, self.angle = self.fin_after(seconds), self.after(seconds)
-        if self._dead_time:
-            self._clock += seconds
-            self._take_what_has_come()
+@pure
+def _aim(config: FlawedServo, angle: float, target: float, command: float) -> float:
+    """Return the new target, rad: a servo at rest ignores a command within its dead band."""
+    at_rest = abs(target - angle) < 1e-12
+    if not at_rest or abs(command - angle) > config.band or not config.band > 0.0:
+        return command
+    return target
 
-    def _take_what_has_come(self) -> None:
-        while self._on_their_way and self._on_their_way[0][0] <= self._clock + 1e-9:
-            self._aim(self._on_their_way.popleft()[1])
 
-    def _aim(self, angle: float) -> None:
-        at_rest = abs(self.target - self.angle) < 1e-12
-        if not at_rest or abs(angle - self.angle) > self._band or not self._band:
-            self.target = angle
+#: One step of the servo: (configuration, state, `Order`, dt) -> (state, `Deflection`).
+servo_step = dispatched({Servo: turn, FlawedServo: turn_flawed})

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from auv_msgs_py.types import NO_CURRENT, Command, Current, Navigation, WaterVelocity
+from auv_msgs_py.pure import dispatched, pure
+from auv_msgs_py.types import Command, Current, Navigation
 from auv_path_following.vehicle import Vehicle
-from auv_sim.plant.actuator import RudderFlaws, RudderServo
+from auv_sim.plant.actuator import Deflection, Order, ServoState, servo_of, servo_step
+
+#: Longest Runge-Kutta step, s; longer steps are divided.
+MAX_STEP = 0.05
 
 
 class PlantState(NamedTuple):
@@ -21,144 +25,193 @@ class PlantState(NamedTuple):
     r: float
 
 
-class RemusDynamics:
-    """Eqs. (18), (19) for one hull: the mass matrix is inverted once.
+class PlanarHull(NamedTuple):
+    """Configuration of a hull: the inverse of Eq. (18)'s mass matrix, and the coefficients of Eq. (19).
 
-    Args:
-        vehicle: the hull's coefficients.
+    `Xvr` and `Yur` have the rigid-body terms with m.
     """
 
-    def __init__(self, vehicle: Vehicle) -> None:
-        self.hull = h = vehicle.coefficients
-        determinant = (h.m - h.Yvd) * (h.Izz - h.Nrd) - h.Yrd * h.Nvd
-        self.inv_x = 1.0 / (h.m - h.Xud)
-        self.inv_vv = (h.Izz - h.Nrd) / determinant
-        self.inv_vr = h.Yrd / determinant
-        self.inv_rv = h.Nvd / determinant
-        self.inv_rr = (h.m - h.Yvd) / determinant
+    inv_x: float
+    inv_vv: float
+    inv_vr: float
+    inv_rv: float
+    inv_rr: float
+    Xuu: float
+    Xvr: float
+    Xrr: float
+    Yvv: float
+    Yrr: float
+    Yur: float
+    Yuv: float
+    Yuud: float
+    Nvv: float
+    Nrr: float
+    Nur: float
+    Nuv: float
+    Nuud: float
+
+
+def planar_hull_of(vehicle: Vehicle) -> PlanarHull:
+    """Return the configuration of a vehicle's hull.
+
+    Raises:
+        ConfigurationError: the vehicle file has no hull.
+    """
+    h = vehicle.coefficients
+    determinant = (h.m - h.Yvd) * (h.Izz - h.Nrd) - h.Yrd * h.Nvd
+    return PlanarHull(
+        1.0 / (h.m - h.Xud),
+        (h.Izz - h.Nrd) / determinant,
+        h.Yrd / determinant,
+        h.Nvd / determinant,
+        (h.m - h.Yvd) / determinant,
+        h.Xuu,
         # Prestero has the rigid-body term m vr r in surge; the paper's Eq. (19) leaves it out.
-        self.Xvr = h.Xvr + (h.m if h.surge_coupling else 0.0)
-
-    def derivative(
-        self, state: PlantState, delta: float, thrust: float, current: Current
-    ) -> tuple[float, float, float, float, float, float]:
-        """d state/dt with the rudder at `delta` (rad), thrust in N and the current in m/s, NED."""
-        _, _, psi, ur, vr, r = state
-        h = self.hull
-        SX = h.Xuu * ur * abs(ur) + self.Xvr * vr * r + h.Xrr * r * r + thrust
-        SY = (
-            h.Yvv * vr * abs(vr) + h.Yrr * r * abs(r) + (h.Yur - h.m) * ur * r + h.Yuv * ur * vr
-            + h.Yuud * ur * ur * delta
-        )  # fmt: skip
-        SN = (
-            h.Nvv * vr * abs(vr) + h.Nrr * r * abs(r) + h.Nur * ur * r + h.Nuv * ur * vr
-            + h.Nuud * ur * ur * delta
-        )  # fmt: skip
-        cos_psi, sin_psi = math.cos(psi), math.sin(psi)
-        return (
-            ur * cos_psi - vr * sin_psi + current.Vx,
-            ur * sin_psi + vr * cos_psi + current.Vy,
-            r,
-            self.inv_x * SX,
-            self.inv_vv * SY + self.inv_vr * SN,
-            self.inv_rv * SY + self.inv_rr * SN,
-        )
+        h.Xvr + (h.m if h.surge_coupling else 0.0),
+        *(h.Xrr, h.Yvv, h.Yrr, h.Yur - h.m, h.Yuv, h.Yuud, h.Nvv, h.Nrr, h.Nur, h.Nuv, h.Nuud),
+    )
 
 
-class RemusPlant:
-    """The simulated vehicle: hull and rudder servo in a current.
+class HullInputs(NamedTuple):
+    """Rudder during the step (rad), thrust (N), current (m/s, NED)."""
+
+    rudder: Deflection
+    thrust: float
+    current: Current
+
+
+@pure
+def planar_slopes(
+    hull: PlanarHull, psi: float, ur: float, vr: float, r: float, delta: float, thrust: float
+) -> tuple[float, float, float, float, float]:
+    """Return x' and y' in still water, and ur', vr', r': Eqs. (14), (18), (19).
 
     Args:
-        vehicle: hull, rudder, thruster.
-        initial: state to begin with, and to go back to on reset.
-        max_step: longest Runge-Kutta step, s; longer steps are divided.
-        flaws: of the rudder's servo; none if None.
+        hull: coefficients.
+        psi, ur, vr, r: as in `PlantState`.
+        delta: rudder angle, rad.
+        thrust: N.
+    """
+    (inv_x, inv_vv, inv_vr, inv_rv, inv_rr, Xuu, Xvr, Xrr,
+     Yvv, Yrr, Yur, Yuv, Yuud, Nvv, Nrr, Nur, Nuv, Nuud) = hull  # fmt: skip
+    sway, yaw = abs(vr), abs(r)
+    SX = Xuu * ur * abs(ur) + Xvr * vr * r + Xrr * r * r + thrust
+    SY = Yvv * vr * sway + Yrr * r * yaw + Yur * ur * r + Yuv * ur * vr + Yuud * ur * ur * delta
+    SN = Nvv * vr * sway + Nrr * r * yaw + Nur * ur * r + Nuv * ur * vr + Nuud * ur * ur * delta
+    cos_psi, sin_psi = math.cos(psi), math.sin(psi)
+    return (
+        ur * cos_psi - vr * sin_psi,
+        ur * sin_psi + vr * cos_psi,
+        inv_x * SX,
+        inv_vv * SY + inv_vr * SN,
+        inv_rv * SY + inv_rr * SN,
+    )
+
+
+@pure
+def planar_step(
+    config: PlanarHull, state: PlantState, inputs: HullInputs, dt: float
+) -> tuple[PlantState, PlantState]:
+    """One Runge-Kutta step, written flat; the output is the state."""
+    x, y, psi, ur, vr, r = state
+    (begin, middle, end), thrust, (Vx, Vy) = inputs
+    half, sixth = 0.5 * dt, dt / 6.0
+    x1, y1, u1, v1, r1 = planar_slopes(config, psi, ur, vr, r, begin, thrust)
+    ra = r + half * r1
+    x2, y2, u2, v2, r2 = planar_slopes(
+        config, psi + half * r, ur + half * u1, vr + half * v1, ra, middle, thrust
+    )
+    rb = r + half * r2
+    x3, y3, u3, v3, r3 = planar_slopes(
+        config, psi + half * ra, ur + half * u2, vr + half * v2, rb, middle, thrust
+    )
+    rc = r + dt * r3
+    x4, y4, u4, v4, r4 = planar_slopes(config, psi + dt * rb, ur + dt * u3, vr + dt * v3, rc, end, thrust)
+    state = PlantState(
+        x + sixth * (x1 + Vx + 2.0 * (x2 + Vx + (x3 + Vx)) + (x4 + Vx)),
+        y + sixth * (y1 + Vy + 2.0 * (y2 + Vy + (y3 + Vy)) + (y4 + Vy)),
+        psi + sixth * (r + 2.0 * (ra + rb) + rc),
+        ur + sixth * (u1 + 2.0 * (u2 + u3) + u4),
+        vr + sixth * (v1 + 2.0 * (v2 + v3) + v4),
+        r + sixth * (r1 + 2.0 * (r2 + r3) + r4),
+    )
+    return state, state
+
+
+#: One step of a hull: (configuration, state, `HullInputs`, dt) -> (state, `PlantState`).
+hull_step = dispatched({PlanarHull: planar_step})
+
+
+class Plant(NamedTuple):
+    """Configuration of a hull with its rudder and propeller.
+
+    Attributes:
+        hull, servo: of `hull_step` and `servo_step`.
+        thrust_max: N.
+        max_step: longest Runge-Kutta step, s.
     """
 
-    #: The longest Runge-Kutta step unless another is asked for, s.
-    MAX_STEP = 0.05
-
-    def __init__(
-        self,
-        vehicle: Vehicle,
-        initial: PlantState,
-        max_step: float = MAX_STEP,
-        flaws: RudderFlaws | None = None,
-    ) -> None:
-        self.vehicle = vehicle
-        self.dynamics = RemusDynamics(vehicle)
-        self.initial = initial
-        self.max_step = max_step
-        self.flaws = flaws
-        self.reset()
-
-    def reset(self) -> None:
-        """Back to the initial state, rudder neutral."""
-        self.state = self.initial
-        limits = self.vehicle.rudder
-        self.rudder = RudderServo(limits.max_angle, limits.max_rate, self.flaws)
-
-    def advance(
-        self, command: Command, dt: float, current: Current = NO_CURRENT, efficiency: float = 1.0
-    ) -> None:
-        """Let `dt` seconds pass under a held command and current.
-
-        Args:
-            command: rudder and thrust.
-            dt: s.
-            current: m/s, NED.
-            efficiency: what the propeller makes of its thrust; 1 is all of it.
-        """
-        self.rudder.command(command.rudder)
-        thrust = min(max(command.thrust, 0.0), self.vehicle.thrust_max) * efficiency
-        steps = max(1, math.ceil(dt / self.max_step - 1e-9))
-        for _ in range(steps):
-            self._runge_kutta(thrust, dt / steps, current)
-
-    def _runge_kutta(self, thrust: float, h: float, current: Current) -> None:
-        f = self.dynamics.derivative
-        state = self.state
-        rudder = self.rudder
-        delta, delta_half, delta_end = rudder.fin, rudder.fin_after(0.5 * h), rudder.fin_after(h)
-        k1 = f(state, delta, thrust, current)
-        k2 = f(moved(state, k1, 0.5 * h), delta_half, thrust, current)
-        k3 = f(moved(state, k2, 0.5 * h), delta_half, thrust, current)
-        k4 = f(moved(state, k3, h), delta_end, thrust, current)
-        self.state = PlantState(
-            *[
-                value + h / 6.0 * (a + 2.0 * (b + c) + d)
-                for value, a, b, c, d in zip(state, k1, k2, k3, k4, strict=True)
-            ]
-        )
-        self.rudder.advance(h)
-
-    @property
-    def navigation(self) -> Navigation:
-        """The ideal navigation's measurement."""
-        x, y, psi, _, _, r = self.state
-        return Navigation(x, y, psi, r)
-
-    @property
-    def water_velocity(self) -> WaterVelocity:
-        """The ideal water-track log's measurement."""
-        return WaterVelocity(self.state.ur, self.state.vr)
-
-    def ground_velocity(self, current: Current) -> tuple[float, float]:
-        """(u, v) over ground in the body frame, m/s: Eqs. (15), (16) with the signs that Eq. (14) demands."""
-        _, _, psi, ur, vr, _ = self.state
-        cos_psi, sin_psi = math.cos(psi), math.sin(psi)
-        uc = current.Vx * cos_psi + current.Vy * sin_psi
-        vc = -current.Vx * sin_psi + current.Vy * cos_psi
-        return ur + uc, vr + vc
+    hull: Any
+    servo: Any
+    thrust_max: float
+    max_step: float = MAX_STEP
 
 
-def moved(state: PlantState, slope: tuple[float, float, float, float, float, float], h: float) -> PlantState:
-    """The state after `h` seconds at a constant slope."""
-    return PlantState(
-        state[0] + h * slope[0],
-        state[1] + h * slope[1],
-        state[2] + h * slope[2],
-        state[3] + h * slope[3],
-        state[4] + h * slope[4],
-        state[5] + h * slope[5],
-    )
+class Afloat(NamedTuple):
+    """State of a plant: that of its hull and of its servo."""
+
+    hull: Any
+    servo: Any
+
+
+class PlantInputs(NamedTuple):
+    """Command, current (m/s, NED), and the propeller's efficiency: 1 for the thrust as commanded."""
+
+    command: Command
+    current: Current
+    efficiency: float = 1.0
+
+
+def plant_of(vehicle: Vehicle) -> Plant:
+    """Return the configuration of a vehicle with an ideal servo.
+
+    Raises:
+        ConfigurationError: the vehicle file has no hull.
+    """
+    return Plant(planar_hull_of(vehicle), servo_of(vehicle.rudder), vehicle.thrust_max)
+
+
+def plant_at(hull: PlantState) -> Afloat:
+    """Return the state of a plant with the ideal servo neutral."""
+    return Afloat(PlantState(*map(float, hull)), ServoState())
+
+
+@pure
+def plant_step(config: Plant, state: Afloat, inputs: PlantInputs, dt: float) -> tuple[Afloat, PlantState]:
+    """Let `dt` seconds pass under a held command and current; the output is the hull's motion."""
+    hull, servo = state
+    command, current, efficiency = inputs
+    thrust = min(max(command.thrust, 0.0), config.thrust_max) * efficiency
+    substeps = max(1, math.ceil(dt / config.max_step - 1e-9))
+    h = dt / substeps
+    servo, rudder = servo_step(config.servo, servo, Order(command.rudder, True), h)
+    hull, motion = hull_step(config.hull, hull, HullInputs(rudder, thrust, current), h)
+    for _ in range(substeps - 1):
+        servo, rudder = servo_step(config.servo, servo, Order(command.rudder, False), h)
+        hull, motion = hull_step(config.hull, hull, HullInputs(rudder, thrust, current), h)
+    return Afloat(hull, servo), motion
+
+
+@pure
+def ground_velocity(state: PlantState, current: Current) -> tuple[float, float]:
+    """Return (u, v) over ground, m/s, FRD: Eqs. (15), (16) with the signs that Eq. (14) demands."""
+    cos_psi, sin_psi = math.cos(state.psi), math.sin(state.psi)
+    uc = current.Vx * cos_psi + current.Vy * sin_psi
+    vc = -current.Vx * sin_psi + current.Vy * cos_psi
+    return state.ur + uc, state.vr + vc
+
+
+@pure
+def navigation_of(state: PlantState) -> Navigation:
+    """Return what an ideal navigation measures."""
+    return Navigation(state.x, state.y, state.psi, state.r)

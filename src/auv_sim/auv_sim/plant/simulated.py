@@ -12,12 +12,26 @@ import numpy as np
 
 from auv_msgs_py.types import NO_CURRENT, Command, Current, Navigation, WaterVelocity
 from auv_path_following.vehicle import Vehicle
+from auv_sim.plant.actuator import FlawedServoState, flawed_servo_of
 from auv_sim.plant.currents import WaterCurrent
 from auv_sim.plant.navigator import Navigator, NavigatorOutput
 from auv_sim.plant.noise import Noise
-from auv_sim.plant.remus import PlantState, RemusPlant
+from auv_sim.plant.remus import (
+    Afloat,
+    Plant,
+    PlantInputs,
+    PlantState,
+    ground_velocity,
+    navigation_of,
+    plant_at,
+    plant_of,
+    plant_step,
+)
 from auv_sim.plant.sea import Sea
 from auv_sim.plant.sensors import Measurements, Sensors, Truth
+
+#: Shortest time between two commands at sea, s.
+_SHORTEST_STEP = 0.001
 
 
 class SimulatedVehicle:
@@ -39,38 +53,52 @@ class SimulatedVehicle:
         seed: int = 0,
         current: Current = NO_CURRENT,
     ) -> None:
-        self.plant = RemusPlant(vehicle, initial, flaws=sea.rudder if sea else None)
+        self._config, self._initial = plant_of(vehicle), plant_at(initial)
+        if sea is not None:
+            servo = flawed_servo_of(vehicle.rudder, sea.rudder, _SHORTEST_STEP)
+            self._config = self._config._replace(servo=servo)
+            self._initial = Afloat(self._initial.hull, FlawedServoState())
         self.constant_current = current
         self._at_sea = _AtSea(sea, seed) if sea else None
         self.reset()
 
     def reset(self) -> None:
         """Begin the same run again."""
-        self.plant.reset()
+        self.state = self._initial
         if self._at_sea is not None:
-            self._at_sea.reset(self.plant, self.constant_current)
+            self._at_sea.reset(self.motion, self.constant_current)
+
+    @property
+    def motion(self) -> PlantState:
+        """True pose and velocity through the water."""
+        return self.state.hull  # type: ignore[no-any-return]
+
+    def place(self, motion: PlantState) -> None:
+        """Move the hull; servo, instruments and navigator keep their state."""
+        self.state = Afloat(motion, self.state.servo)
 
     @property
     def rudder(self) -> float:
         """The rudder angle that its servo measures, rad."""
-        return self.plant.rudder.angle
+        return self.state.servo.angle  # type: ignore[no-any-return]
 
     def advance(self, command: Command, dt: float) -> None:
         """Let `dt` seconds pass under a held command, then measure."""
         if self._at_sea is None:
-            self.plant.advance(command, dt, self.constant_current)
+            inputs = PlantInputs(command, self.constant_current)
+            self.state, _ = plant_step(self._config, self.state, inputs, dt)
         else:
-            self._at_sea.advance(self.plant, command, dt, self.constant_current)
+            self.state = self._at_sea.advance(self._config, self.state, command, dt, self.constant_current)
 
     @property
     def navigation(self) -> Navigation:
-        """The vehicle's own opinion of where it is."""
-        return self.plant.navigation if self._at_sea is None else self._at_sea.output.navigation
+        """Navigation as the vehicle reports it."""
+        return navigation_of(self.motion) if self._at_sea is None else self._at_sea.output.navigation
 
     @property
     def truth(self) -> tuple[Navigation, float, float]:
-        """Where it really is, and its true (u, v) over ground, m/s."""
-        return self.plant.navigation, *self.plant.ground_velocity(self.current)
+        """True navigation, and true (u, v) over ground, m/s."""
+        return navigation_of(self.motion), *ground_velocity(self.motion, self.current)
 
     @property
     def passing_water(self) -> WaterVelocity:
@@ -81,8 +109,11 @@ class SimulatedVehicle:
 
     @property
     def water_velocity(self) -> WaterVelocity:
-        """What its log tells of the water."""
-        return self.plant.water_velocity if self._at_sea is None else self._at_sea.measured.water
+        """Velocity through the water as its log reports it, m/s, FRD."""
+        if self._at_sea is not None:
+            return self._at_sea.measured.water
+        motion = self.motion
+        return WaterVelocity(motion.ur, motion.vr)
 
     @property
     def water_lock(self) -> bool:
@@ -99,7 +130,7 @@ class SimulatedVehicle:
     def ground_velocity(self) -> tuple[float, float]:
         """(u, v) over ground in the body frame, m/s, as measured; NaN without bottom lock."""
         if self._at_sea is None:
-            return self.plant.ground_velocity(self.constant_current)
+            return ground_velocity(self.motion, self.constant_current)
         return self._at_sea.output.u, self._at_sea.output.v
 
 
@@ -117,22 +148,24 @@ class _AtSea:
         self._sensors = Sensors(sea.sensors, (seed, 2))
         self._navigator = Navigator(sea.navigator)
 
-    def reset(self, plant: RemusPlant, constant: Current) -> None:
+    def reset(self, motion: PlantState, constant: Current) -> None:
         for part in (self._water, self._propeller, self._sensors):
             part.reset()
         off = np.random.default_rng(self._seed).standard_normal(2) * self._start
-        self._navigator.reset(plant.state.x + float(off[0]), plant.state.y + float(off[1]))
-        self._sense(plant, constant, 0.0)
+        self._navigator.reset(motion.x + float(off[0]), motion.y + float(off[1]))
+        self._sense(motion, constant, 0.0)
 
-    def advance(self, plant: RemusPlant, command: Command, dt: float, constant: Current) -> None:
+    def advance(self, plant: Plant, state: Afloat, command: Command, dt: float, constant: Current) -> Afloat:
         efficiency = max(1.0 + self._propeller.update(dt), 0.0)
-        plant.advance(command, dt, _sum(constant, self.current), efficiency)
-        self._sense(plant, constant, dt)
+        inputs = PlantInputs(command, _sum(constant, self.current), efficiency)
+        state, motion = plant_step(plant, state, inputs, dt)
+        self._sense(motion, constant, dt)
+        return state
 
-    def _sense(self, plant: RemusPlant, constant: Current, dt: float) -> None:
-        x, y, psi, ur, vr, r = plant.state
+    def _sense(self, motion: PlantState, constant: Current, dt: float) -> None:
+        x, y, psi, ur, vr, r = motion
         self.current = self._water.update(x, y, dt)
-        u, v = plant.ground_velocity(_sum(constant, self.current))
+        u, v = ground_velocity(motion, _sum(constant, self.current))
         self.measured = self._sensors.update(Truth(x, y, psi, r, ur, vr, u, v), dt)
         self.output = self._navigator.update(self.measured, dt)
 

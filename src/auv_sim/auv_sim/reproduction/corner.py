@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from auv_msgs_py.types import Command
 from auv_path_following.vehicle import Vehicle
-from auv_sim.plant.remus import PlantState, RemusPlant
+from auv_sim.plant.remus import PlantState
+from auv_sim.plant.simulated import SimulatedVehicle
 
 #: Rudder commands of a programme, and how long each is held, s.
 _KNOTS, _KNOT = 12, 0.5
@@ -66,18 +67,18 @@ def _cost(vehicle: Vehicle, angle: float, thrust: float, speed: float, program: 
         speed: at the beginning, m/s.
         program: shape (_KNOTS + 1,): where it begins, m before the corner, then shares of the largest angle.
     """
-    plant = RemusPlant(vehicle, PlantState(-max(float(program[0]), 0.0), 0.0, 0.0, speed, 0.0, 0.0))
+    plant = SimulatedVehicle(vehicle, PlantState(-max(float(program[0]), 0.0), 0.0, 0.0, speed, 0.0, 0.0))
     cos, sin = math.cos(angle), math.sin(angle)
     worst = 0.0
     for share in program[1:].tolist():
         for _ in range(round(_KNOT / _STEP)):
             plant.advance(Command(share * vehicle.rudder.max_angle, thrust), _STEP)
-            x, y = plant.state.x, plant.state.y
+            x, y = plant.motion[:2]
             first = math.hypot(max(x, 0.0), y)
             along = max(x * cos + y * sin, 0.0)
             second = math.hypot(x - along * cos, y - along * sin)
             worst = max(worst, min(first, second))
-    x, y, psi, ur, vr, r = plant.state
+    x, y, psi, ur, vr, r = plant.motion
     off = abs(-x * sin + y * cos)
     course = abs(psi + math.atan2(vr, ur) - angle)
     return max(worst, off) + max(course - 0.1, 0.0) / 0.2 + max(abs(r) - 0.1, 0.0) / 0.1

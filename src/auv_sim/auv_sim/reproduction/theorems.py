@@ -15,7 +15,8 @@ from auv_path_following.guidance.path_follower import PathFollower, PathFollower
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.line import Line
 from auv_path_following.vehicle import Vehicle
-from auv_sim.plant.remus import PlantState, RemusPlant
+from auv_sim.plant.remus import PlantState
+from auv_sim.plant.simulated import SimulatedVehicle
 from auv_sim.reproduction.measures import Decay, decay
 
 _STEP = 0.02
@@ -86,7 +87,7 @@ def theorem_2(config: CurrentObserverConfig, current: Current) -> Checked:
 
 def theorem_3(config: AutopilotConfig, vehicle: Vehicle, thrust: float) -> Checked:
     """NISM turns the simulated hull by 0.1 rad, small enough that the rudder's rate is no bound."""
-    plant = RemusPlant(vehicle, PlantState(0.0, 0.0, 0.1, _SPEED, 0.0, 0.0))
+    plant = SimulatedVehicle(vehicle, PlantState(0.0, 0.0, 0.1, _SPEED, 0.0, 0.0))
     autopilot = HeadingAutopilot(vehicle, config)
     rows = []
     for k in range(int(20.0 / _STEP)):

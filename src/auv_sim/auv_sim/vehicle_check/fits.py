@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from auv_path_following.vehicle import Vehicle
-from auv_sim.plant.actuator import RudderServo
+from auv_sim.plant.actuator import Order, Servo, ServoState, turn
 from auv_sim.vehicle_check.samples import Array
 
 #: Step of the grid on which commands and models stand, s.
@@ -49,12 +49,12 @@ WAYS = (*(Way(1.0, rate) for rate in _RATES), Way(1.0 / DEGREES, 1.0), Way(DEGRE
 
 def servo(rudder: Array, vehicle: Vehicle, rate: float) -> Array:
     """The angle of a rudder that follows commands with a share of the file's rate, rad; shape of `rudder`."""
-    servo = RudderServo(vehicle.rudder.max_angle, rate * vehicle.rudder.max_rate)
+    config = Servo(vehicle.rudder.max_angle, rate * vehicle.rudder.max_rate)
+    state = ServoState()
     angles = np.empty_like(rudder)
     for k, angle in enumerate(rudder):
-        angles[k] = servo.angle
-        servo.command(float(angle))
-        servo.advance(STEP)
+        angles[k] = state.angle
+        state, _ = turn(config, state, Order(float(angle), True), STEP)
     return angles
 
 

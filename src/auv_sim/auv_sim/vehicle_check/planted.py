@@ -18,8 +18,9 @@ from auv_msgs_py.frames import flip_yaw, quaternion_of_yaw, swap_axes, yaw_of_qu
 from auv_msgs_py.types import STOP, Command, Current
 from auv_path_following.control.hull_model import tightest_turn
 from auv_path_following.vehicle import Cruise, Turning, Vehicle
-from auv_sim.plant.actuator import RudderServo
-from auv_sim.plant.remus import PlantState, RemusPlant
+from auv_sim.plant.actuator import with_rate
+from auv_sim.plant.remus import PlantState
+from auv_sim.plant.simulated import SimulatedVehicle
 from auv_sim.vehicle_check.samples import OdometrySample, WaterSample
 from auv_sim.vehicle_check.verdict import Mistake
 
@@ -157,9 +158,7 @@ class PlantedVehicle:
 
     def __init__(self, planted: Planted, vehicle: Vehicle, begin: float) -> None:
         self.planted = planted
-        self.plant = RemusPlant(vehicle, START)
-        limits = vehicle.rudder
-        self.plant.rudder = RudderServo(limits.max_angle, planted.rudder_rate * limits.max_rate)
+        self.plant = SimulatedVehicle(with_rate(vehicle, planted.rudder_rate), START, current=CURRENT)
         self._dice = np.random.default_rng(4)
         self._now = self._next = begin
         self._count = 0
@@ -195,19 +194,19 @@ class PlantedVehicle:
             step = min(0.01, end - self._now)
             self.moving = self.moving or self._command.thrust > 0.0
             if self.moving:
-                self.plant.advance(STOP if silent else self._command, step, CURRENT)
+                self.plant.advance(STOP if silent else self._command, step)
             self._now += step
 
     def _measure(self) -> tuple[OdometrySample, WaterSample, float]:
         self._count += 1
-        state = self.plant.state
+        state = self.plant.motion
         x, y = swap_axes(state.x, state.y)
         z, w = quaternion_of_yaw(flip_yaw(state.psi))
-        u, v = self.plant.ground_velocity(CURRENT) if self.moving else (0.0, 0.0)
+        u, v = self.plant.ground_velocity if self.moving else (0.0, 0.0)
         odom = OdometrySample(
             self._now, self._now, "map", "base_link", x, y, (0.0, 0.0, z, w), u, -v, -state.r
         )
         ur, vr = (state.ur, state.vr) if self.moving else (0.0, 0.0)
         water = WaterSample(self._now, self._now, "base_link", ur, -vr)
         planted = self.planted
-        return planted.odom(odom, self._count), planted.water(water, self._count), self.plant.rudder.angle
+        return planted.odom(odom, self._count), planted.water(water, self._count), self.plant.rudder

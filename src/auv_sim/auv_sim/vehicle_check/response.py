@@ -14,8 +14,9 @@ import numpy as np
 from auv_msgs_py.frames import Convention
 from auv_msgs_py.types import Command
 from auv_path_following.vehicle import Vehicle
-from auv_sim.plant.actuator import RudderServo
-from auv_sim.plant.remus import PlantState, RemusPlant
+from auv_sim.plant.actuator import with_rate
+from auv_sim.plant.remus import PlantState
+from auv_sim.plant.simulated import SimulatedVehicle
 from auv_sim.vehicle_check.fits import STEP, WAYS, Fit, best, servo
 from auv_sim.vehicle_check.samples import Array, Motion, Recording, Value
 from auv_sim.vehicle_check.turning import fit_turning
@@ -92,11 +93,11 @@ def _fit_yaw(
         return fit_turning(t, rudder, speed, motion.t[inside], sign * motion.r[inside], vehicle)
     models = {}
     for way in WAYS:
-        plant = RemusPlant(vehicle, PlantState(0.0, 0.0, 0.0, _speed(recording, t[0]), 0.0, 0.0), STEP)
-        plant.rudder = RudderServo(vehicle.rudder.max_angle, way.rate * vehicle.rudder.max_rate)
+        begin = PlantState(0.0, 0.0, 0.0, _speed(recording, t[0]), 0.0, 0.0)
+        plant = SimulatedVehicle(with_rate(vehicle, way.rate), begin)
         model = np.empty_like(t)
         for k in range(t.size):
-            model[k] = plant.state.r if ned else -plant.state.r
+            model[k] = plant.motion.r if ned else -plant.motion.r
             plant.advance(Command(way.scale * float(rudder[k]), float(thrust[k])), STEP)
         models[way] = model
     return best(t, models, motion.t[inside], motion.r[inside])
