@@ -67,7 +67,9 @@ def test_with_the_heading_reached_the_errors_obey_eq_32(radius, turn, t, ex, ey,
 
     def errors_at(seconds):
         there = path.evaluate(t + U_P / P.speed * seconds)
-        return path_errors(Navigation(x + x_dot * seconds, y + y_dot * seconds, psi, 0.0), there, there.chi)
+        return path_errors(
+            Navigation(x + x_dot * seconds, y + y_dot * seconds, psi, 0.0), there.x, there.y, there.chi
+        )
 
     h = 1e-4
     before, after = errors_at(-h), errors_at(h)

@@ -7,6 +7,8 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
 from auv_path_following import vehicle
@@ -16,14 +18,18 @@ from auv_path_following.guidance.approach import (
     ApproachConfig,
     ApproachWatch,
     agility_of,
-    approach_to,
+    empty_approach,
     is_at,
+    plan,
     turn_radius,
 )
-from auv_path_following.guidance.path_follower import GuidanceOutput, PathFollower, PathFollowerConfig
+from auv_path_following.guidance.follow import GuidanceOutput
+from auv_path_following.guidance.path_follower import PathFollower, PathFollowerConfig
 from auv_path_following.guidance.switching import SwitchingConfig
 from auv_path_following.paths.composite import CompositePath
+from auv_path_following.paths.dubins import Pose, connect
 from auv_path_following.paths.line import Line
+from auv_path_following.paths.rows import AFTER, KIND, LENGTH, LINE, F, PathRows, evaluate
 
 SPEED, DT = 1.9, 0.1
 AHEAD = WaterVelocity(SPEED, 0.0)
@@ -67,23 +73,43 @@ def test_the_turns_leave_the_hull_a_margin_in_a_following_current(name: str, loo
 def test_near_means_three_metres_and_sixty_degrees(x: float, y: float, off: float, near: bool) -> None:
     psi = math.pi - 0.1 + math.radians(off)  # across the seam of the angles
     assert is_at(50.0 + x, 20.0 + y, psi, 50.0, 20.0, math.pi - 0.1) is near
-    planned = approach_to((50.0, 20.0, math.pi - 0.1), Navigation(50.0 + x, 20.0 + y, psi, 0.0), 10.0)
-    assert (planned is None) is near
+    start = Navigation(50.0 + x, 20.0 + y, psi, 0.0)
+    legs = plan(empty_approach(), Pose(50.0, 20.0, math.pi - 0.1), start, 10.0)
+    assert (legs == 0) is near
 
 
 @pytest.mark.parametrize(("behind", "length"), [(5.0, 5.0), (20.0, 20.0), (-5.0, None)])
 def test_the_last_leg_is_straight_unless_the_vehicle_is_too_close_for_it(
     behind: float, length: float | None
 ) -> None:
-    planned = approach_to((0.0, 0.0, 0.0), Navigation(-behind, 0.0, 0.0, 0.0), 12.0)
-    assert planned is not None
-    end = planned.segments[-1]
-    assert end.evaluate(1.0)[:2] == pytest.approx((0.0, 0.0), abs=1e-9)
-    assert (end.kind, end.evaluate(1.0).chi) == ("line", pytest.approx(0.0, abs=1e-9))
+    approach = empty_approach()
+    legs = plan(approach, Pose(0.0, 0.0, 0.0), Navigation(-behind, 0.0, 0.0, 0.0), 12.0)
+    end = approach[legs - 1]
+    x, y, dx, dy, _, _ = evaluate(PathRows(legs, approach, ()), end, 1.0)
+    assert (x, y) == pytest.approx((0.0, 0.0), abs=1e-9)
+    assert (end[KIND], math.atan2(dy, dx)) == (LINE, pytest.approx(0.0, abs=1e-9))
     if length is None:
-        assert end.length == pytest.approx(12.0)
+        assert end[LENGTH] == pytest.approx(12.0)
     else:
-        assert planned.length == pytest.approx(length)
+        assert approach[0][LENGTH] + approach[0][AFTER] == pytest.approx(length)
+
+
+@given(st.floats(-90.0, 90.0), st.floats(-90.0, 90.0), st.floats(-4.0, 4.0), st.floats(4.0, 20.0))
+def test_its_rows_are_those_of_a_dubins_path_and_a_leg(x: float, y: float, psi: float, radius: float):
+    goal = Pose(10.0, -20.0, 0.5)
+    before = Pose(goal.x - radius * math.cos(goal.chi), goal.y - radius * math.sin(goal.chi), goal.chi)
+    direct = CompositePath(connect(Pose(x, y, psi), goal, radius))
+    leg = Line(before.x, before.y, radius, goal.chi)
+    settled = CompositePath([*connect(Pose(x, y, psi), before, radius), leg])
+    approach = empty_approach()
+    legs = plan(approach, goal, Navigation(x, y, psi, 0.0), radius)
+    if legs == 0:
+        return
+    expected = settled if settled.length <= direct.length + 2.0 * radius else direct
+    assert legs == expected.n
+    for row, i in zip(approach, range(legs), strict=False):
+        assert row[KIND:F] == list(expected.rows.subpath[i][KIND:F])
+        assert row[LENGTH : AFTER + 1] == list(expected.rows.subpath[i][LENGTH : AFTER + 1])
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -92,7 +118,11 @@ def test_from_anywhere_the_start_is_reached_first_and_then_every_leg(seed: int) 
     x, y = draw.uniform(-150.0, 150.0, 2)
     current = Current(*draw.uniform(-0.28, 0.28, 2))
     start = Navigation(float(x), float(y), float(draw.uniform(-math.pi, math.pi)), 0.0)
-    steps = list(fly(PathFollower(PATH, CONFIG, AGILITY), start, current))
+    follower = PathFollower(PATH, CONFIG, AGILITY)
+    to_go, steps = [], []
+    for step in fly(follower, start, current):
+        steps.append(step)
+        to_go.append(follower.distance_to_go)
     outputs: list[GuidanceOutput] = [output for _, output in steps]
     assert outputs[-1].finished
     approaching = [output.approach > 0.0 for output in outputs]
@@ -100,10 +130,8 @@ def test_from_anywhere_the_start_is_reached_first_and_then_every_leg(seed: int) 
     assert joined > 0 and not any(approaching[joined:])
     assert {(o.i, o.s) for o in outputs[:joined]} == {(0, 0.0)}
     assert math.hypot(*steps[joined][0][:2]) < 1.0
-    assert outputs[0].distance_to_go > PATH.length
-    assert all(
-        0.0 < a.distance_to_go - b.distance_to_go < 1.5 for a, b in itertools.pairwise(outputs[:joined])
-    )
+    assert to_go[0] > PATH.length
+    assert all(0.0 < a - b < 1.5 for a, b in itertools.pairwise(to_go[:joined]))
     assert max(math.hypot(o.xe, o.ye) for o in outputs[:joined]) < 1.0
     assert max(abs(o.r_d) for o in outputs) <= AGILITY.turn_rate
     # No leg is left out: every one is entered within the circle at its start.

@@ -26,7 +26,7 @@ def cost_of_a_step(path: CompositePath) -> float:
     follower = PathFollower(path)
     spiral = path.n // 6 * 3 + 1  # the costliest kind, and the same kind in every path
     assert path.segments[spiral].kind == "fermat"
-    follower.virtual_point.i = spiral
+    follower.place_at(spiral)
     p = path.evaluate(spiral, 0.0)
     navigation = Navigation(p.x, p.y, p.chi, 0.0)
     began = time.process_time()

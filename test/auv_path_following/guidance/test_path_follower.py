@@ -14,9 +14,10 @@ from auv_path_following.guidance.acceptance import Cornering
 from auv_path_following.guidance.adaptive_lookahead import AdaptiveLookaheadConfig
 from auv_path_following.guidance.ailos import AilosConfig
 from auv_path_following.guidance.approach import Agility, ApproachConfig
+from auv_path_following.guidance.follow import LONGEST_STEP
 from auv_path_following.guidance.ilos import IlosConfig
 from auv_path_following.guidance.los import LosConfig
-from auv_path_following.guidance.path_follower import LONGEST_STEP, PathFollower, PathFollowerConfig
+from auv_path_following.guidance.path_follower import PathFollower, PathFollowerConfig
 from auv_path_following.guidance.switching import SwitchingConfig
 from auv_path_following.guidance.virtual_point import VirtualPointConfig
 from auv_path_following.paths.arc import Arc
@@ -68,12 +69,13 @@ def glide(follower, x, y, current=NO_CURRENT, known=True, seconds=120.0, vr=0.0)
 @pytest.mark.parametrize("vr", [0.0, 0.2])
 @pytest.mark.parametrize("current", [NO_CURRENT, Current(0.3, -0.4)])
 def test_from_either_side_it_comes_onto_the_line_and_reaches_the_end(offset, vr, current):
-    outputs = [output for _, output in glide(PathFollower(line(), config()), 0.0, offset, current, vr=vr)]
+    follower = PathFollower(line(), config())
+    outputs = [output for _, output in glide(follower, 0.0, offset, current, vr=vr)]
     assert outputs[0].ye == pytest.approx(offset)
     assert all(output.ye * offset > -1e-3 for output in outputs)  # it does not cross over
     assert abs(outputs[-1].ye) < 1e-3
     assert outputs[-1].finished
-    assert outputs[-1].distance_to_go == 0.0
+    assert follower.distance_to_go == 0.0
     assert outputs[-1].s == 1.0
 
 
@@ -105,7 +107,8 @@ def test_an_unknown_current_leaves_an_offset_and_compensation_takes_it_away():
 
 
 def test_signals_fit_together():
-    for navigation, output in glide(PathFollower(circle(), config()), 33.0, 1.0, Current(0.1, 0.1), vr=0.1):
+    follower = PathFollower(circle(), config())
+    for navigation, output in glide(follower, 33.0, 1.0, Current(0.1, 0.1), vr=0.1):
         if output.finished:
             break
         assert output.psi_d == pytest.approx(wrap(output.chi_p + output.chi_r - output.beta_r))
@@ -114,7 +117,7 @@ def test_signals_fit_together():
         assert output.r_d == output.kappa * output.U_P  # Eq. (9)
         assert output.kappa == pytest.approx(1.0 / 30.0)
         assert output.beta_r == pytest.approx(math.atan2(0.1, SPEED))
-        assert output.s == pytest.approx(1.0 - output.distance_to_go / (45.0 * math.pi))
+        assert output.s == pytest.approx(1.0 - follower.distance_to_go / (45.0 * math.pi))
         assert math.hypot(output.x_p - navigation.x, output.y_p - navigation.y) == pytest.approx(
             math.hypot(output.xe, output.ye)
         )
@@ -146,7 +149,7 @@ def test_after_an_early_switch_p_waits_for_the_vehicle_without_feed_forward():
     path = CompositePath([Line(0.0, 0.0, 60.0, 0.0), Arc(30.0, 0.0, 30.0, 0.0, math.pi)])
     follower = PathFollower(path, config("g0"))
     # The next subpath begins eastwards; the vehicle is still 4 m west of it and points north.
-    follower.virtual_point.t = 0.95
+    follower.place_at(0, 0.95)
     follower.update(Navigation(57.0, -1.0, 0.0, 0.0), AHEAD, NO_CURRENT, 0.0)
     behind = Navigation(58.0, -4.0, 0.0, 0.0)
     for k in range(20):
@@ -192,13 +195,13 @@ def test_new_gains_keep_the_place_on_the_path_and_reset_does_not():
     follower = PathFollower(corner(), config())
     for _ in glide(follower, 0.0, 0.0, seconds=40.0):
         pass
-    before = follower.virtual_point.s
+    before = follower.s
     assert before > 1.0
     wide = PathFollowerConfig(
         ailos=AilosConfig(lookahead=12.0), virtual_point=VirtualPointConfig(k=0.5, saturation=50.0)
     )
     follower.configure(wide)
-    assert follower.virtual_point.s == before
+    assert follower.s == before
     y, x = 2.0, 60.0 + 12.0
     output = follower.update(Navigation(x, y, math.pi / 2, 0.0), STILL, NO_CURRENT, 0.0)
     assert output.chi_r == pytest.approx(math.atan(12.0 / 12.0))  # 12 m to port of the leg to the east
@@ -274,7 +277,7 @@ def test_a_line_given_as_points_ends_at_its_end():
 def test_a_circle_of_acceptance_does_not_count_before_the_subpath_was_joined():
     follower = PathFollower(corner(), config("g0"))
     beside = Navigation(57.0, -4.0, 0.0, 0.0)  # inside the circle, 4 m beside the first leg
-    follower.virtual_point.t = 0.9
+    follower.place_at(0, 0.9)
     assert [follower.update(beside, STILL, NO_CURRENT, DT).i for _ in range(5)] == [0] * 5
     near = Navigation(57.0, -1.0, 0.0, 0.0)
     assert [follower.update(near, STILL, NO_CURRENT, DT).i for _ in range(2)] == [0, 1]

@@ -188,7 +188,7 @@ def test_a_gap_of_time_holds_and_rejoins_whichever_notices_it_first(
     s = step(bench, 20.0, 12.0, 1.0)
     bench.until(lambda: states(bench)[-2:] == ["holding", "running"])
     assert s == pytest.approx(0.12, abs=1e-4)
-    assert node.follower.virtual_point.s == pytest.approx(s, abs=1e-9)
+    assert node.follower.s == pytest.approx(s, abs=1e-9)
 
 
 def test_an_approach_is_a_phase_of_its_own(bench: Bench, tmp_path: Any) -> None:

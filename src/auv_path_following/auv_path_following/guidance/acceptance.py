@@ -6,11 +6,13 @@ import math
 from typing import NamedTuple
 
 from auv_msgs_py.angles import wrap
+from auv_msgs_py.pure import pure
 from auv_msgs_py.types import NO_CURRENT, Current
 from auv_path_following.control.hull_model import tightest_turn
 from auv_path_following.control.nism import NismConfig, kp_of
 from auv_path_following.control.reference_model import ReferenceConfig, limits_of
 from auv_path_following.paths.composite import CompositePath
+from auv_path_following.paths.rows import CHI_IN, CHI_OUT, WIDEST
 from auv_path_following.vehicle import Vehicle
 
 #: Share of the speed through the water that a current across a leg may take.
@@ -65,11 +67,11 @@ class Corner(NamedTuple):
 
 def corner_of(path: CompositePath, i: int) -> Corner:
     """Return the corner at the end of subpath `i` (from 0); its circle takes half the shorter leg at most."""
-    before, after = path.segments[i : i + 2]
-    widest = 0.5 * min(before.length, after.length)
-    return Corner(before.evaluate(1.0).chi, after.evaluate(0.0).chi, widest)
+    row = path.rows.subpath[i]
+    return Corner(row[CHI_IN], row[CHI_OUT], row[WIDEST])
 
 
+@pure
 def acceptance_radius(
     cornering: Cornering, corner: Corner, lookahead: float, Ur: float, current: Current = NO_CURRENT
 ) -> float:
@@ -99,6 +101,7 @@ def acceptance_radius(
     return min(max(radius, 0.0), corner.widest)
 
 
+@pure
 def crab_angle(chi: float, Ur: float, current: Current) -> float:
     """Return the heading on a straight course `chi` less the course, rad: theta_n of Eq. (31) is its sine."""
     across = (-math.sin(chi) * current.Vx + math.cos(chi) * current.Vy) / Ur

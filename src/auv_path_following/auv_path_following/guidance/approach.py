@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from auv_msgs_py.angles import wrap
+from auv_msgs_py.pure import pure
 from auv_msgs_py.settings import setting, settings
 from auv_msgs_py.types import Navigation
 from auv_path_following.control.hull_model import tightest_turn
 from auv_path_following.guidance.acceptance import Cornering, cornering_of
-from auv_path_following.paths.composite import CompositePath
-from auv_path_following.paths.dubins import Pose, connect
-from auv_path_following.paths.line import Line
+from auv_path_following.paths.dubins import NOTHING, STRAIGHT, Part, Pose, parts, shortest
+from auv_path_following.paths.rows import AFTER, ARC, COLUMNS, KIND, LENGTH, LINE, A, B, C, D, E
 from auv_path_following.vehicle import Vehicle
 
 #: A vehicle this near to a pose (m) and to its course (rad) is there: it needs no approach.
@@ -23,6 +23,8 @@ TURN_SHARE = 0.6
 CURRENT = 0.4
 #: Turns are no tighter than this many look-ahead distances: line of sight cuts tighter ones.
 LOOKAHEADS = 2.0
+#: Most subpaths of an approach: three of Dubins' and a straight leg.
+LEGS = 4
 
 
 @settings
@@ -74,36 +76,89 @@ def turn_radius(config: ApproachConfig, agility: Agility, lookahead: float) -> f
     return config.radius or max(turn, LOOKAHEADS * lookahead)
 
 
+@pure
 def is_at(x: float, y: float, psi: float, at_x: float, at_y: float, chi: float) -> bool:
     """Return whether a vehicle at (x, y, psi) is near enough to the pose (at_x, at_y, chi): m, rad, NED."""
     return math.hypot(x - at_x, y - at_y) <= NEAR and abs(wrap(psi - chi)) <= NEAR_COURSE
 
 
-def approach_to(
-    goal: tuple[float, float, float], navigation: Navigation, radius: float
-) -> CompositePath | None:
-    """Return a short path from the vehicle's pose to another one.
+def empty_approach() -> list[list[float]]:
+    """Return the rows that `plan` writes into; compiled code has an array of shape (LEGS, COLUMNS)."""
+    return [[0.0] * COLUMNS for _ in range(LEGS)]
+
+
+@pure
+def plan(approach: Any, goal: Pose, navigation: Navigation, radius: float) -> int:
+    """Write a short path from the vehicle's pose to another one.
 
     It is the shortest with turns of one radius (Dubins) to a point one radius before the goal, and a straight
     leg from there, on which the vehicle settles. Where the leg costs more than twice its length, because the
     vehicle is close behind the goal, the shortest path leads to the goal itself.
 
     Args:
-        goal: x, y (m) and course (rad), NED.
+        approach: of `empty_approach`; written.
+        goal: NED.
         navigation: the vehicle's pose, NED.
         radius: of the turns, m.
 
     Returns:
-        The path; None where the vehicle is at the goal already.
+        The number of rows written; 0 where the vehicle is at the goal already.
     """
     x, y, psi, _ = navigation
-    if is_at(x, y, psi, *goal):
-        return None
-    here, there = Pose(x, y, psi), Pose(*goal)
-    before = Pose(there.x - radius * math.cos(there.chi), there.y - radius * math.sin(there.chi), there.chi)
-    direct = CompositePath(connect(here, there, radius))
-    settled = CompositePath([*connect(here, before, radius), Line(*before[:2], radius, there.chi)])
-    return settled if settled.length <= direct.length + 2.0 * radius else direct
+    if is_at(x, y, psi, goal.x, goal.y, goal.chi):
+        return 0
+    here = Pose(x, y, psi)
+    _, direct = _lay(approach, here, goal, radius)
+    chi = goal.chi
+    before = Pose(goal.x - radius * math.cos(chi), goal.y - radius * math.sin(chi), chi)
+    legs, length = _lay(approach, here, before, radius)
+    if length + radius <= direct + 2.0 * radius:
+        _write_line(approach[legs], before.x, before.y, radius, chi)
+        legs += 1
+    else:
+        legs, _ = _lay(approach, here, goal, radius)
+    after = 0.0
+    for k in range(legs - 1, -1, -1):
+        approach[k][AFTER] = after
+        after += approach[k][LENGTH]
+    return legs
+
+
+@pure
+def _lay(approach: Any, here: Pose, there: Pose, radius: float) -> tuple[int, float]:
+    """Write the shortest Dubins path; return the number of its rows and its length, m."""
+    word = shortest(here, there, radius)
+    opening, middle, closing = parts(here, there, word, radius)
+    legs, length = 0, 0.0
+    if word.before > NOTHING:
+        length += _write_arc(approach[legs], opening)
+        legs += 1
+    if word.between > NOTHING:
+        if word.middle == STRAIGHT:
+            x, y, size, chi, _ = middle
+            length += _write_line(approach[legs], x, y, size, chi)
+        else:
+            length += _write_arc(approach[legs], middle)
+        legs += 1
+    if word.after > NOTHING:
+        length += _write_arc(approach[legs], closing)
+        legs += 1
+    return legs, length
+
+
+@pure
+def _write_line(row: Any, x: float, y: float, length: float, chi: float) -> float:
+    row[KIND], row[A], row[B], row[LENGTH] = LINE, x, y, length
+    row[C], row[D], row[E] = length * math.cos(chi), length * math.sin(chi), 0.0
+    return length
+
+
+@pure
+def _write_arc(row: Any, arc: Part) -> float:
+    cx, cy, radius, a0, a1 = arc
+    length = radius * abs(a1 - a0)
+    row[KIND], row[A], row[B], row[C], row[D], row[E], row[LENGTH] = ARC, cx, cy, radius, a0, a1 - a0, length
+    return length
 
 
 class ApproachWatch:

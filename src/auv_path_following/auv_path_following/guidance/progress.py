@@ -3,121 +3,163 @@
 from __future__ import annotations
 
 import math
+from typing import Any, NamedTuple
 
+from auv_msgs_py.pure import pure
 from auv_msgs_py.types import Current, Navigation
-from auv_path_following.guidance.approach import NEAR, Agility, ApproachConfig, approach_to, turn_radius
+from auv_path_following.guidance.approach import NEAR, plan
 from auv_path_following.guidance.rejoin import closest_ahead
-from auv_path_following.guidance.switching import CircleOfAcceptance
-from auv_path_following.guidance.virtual_point import VirtualPoint
-from auv_path_following.paths.composite import CompositePath
+from auv_path_following.guidance.switching import Circles, reached
+from auv_path_following.guidance.virtual_point import VirtualPoint, advanced, moved, passed_on
+from auv_path_following.paths.dubins import Pose
+from auv_path_following.paths.rows import AFTER, LENGTH, PathRows, evaluate
 
 
-class Progress:
-    """Moves the virtual point: on the path never past what the vehicle has not passed.
+class ProgressConfig(NamedTuple):
+    """What decides where P goes.
+
+    Attributes:
+        circles: of acceptance.
+        approaches: a vehicle away from the path's start is led there first.
+        approach_radius: of an approach's turns, m.
+        rejoin_reach: most that P goes ahead after a hold, m.
+    """
+
+    circles: Circles
+    approaches: bool
+    approach_radius: float
+    rejoin_reach: float
+
+
+class Progress(NamedTuple):
+    """Where a mission is.
 
     A mission begins at the path's start: a vehicle that is elsewhere is led there first, by a point on a
     Dubins path of its own. The circle of acceptance at the end of a subpath counts only once the vehicle has
     been within `NEAR` of P on that subpath.
 
-    Args:
-        path: the path.
-        agility: of the hull; None: no approach, P waits at the path's start.
+    Attributes:
+        point: P: on the approach while there is one, then on the path.
+        legs: number of the approach's subpaths; 0: P is on the path.
+        approach: the approach's rows; `move` writes a new approach into them.
+        planned: whether an approach is needed was decided, and the vehicle has not lost it since.
+        joined: the vehicle has been near P on this subpath.
+        x, y: where the vehicle was at the last step, NED, m.
     """
 
-    def __init__(self, path: CompositePath, agility: Agility | None) -> None:
-        self.path = path
-        self.circle = CircleOfAcceptance(path, cornering=None if agility is None else agility.cornering)
-        self.approach_config = ApproachConfig()
-        self._agility = agility
-        self._on_path = VirtualPoint(path)
-        self.reset()
+    point: VirtualPoint
+    legs: int
+    approach: Any
+    planned: bool
+    joined: bool
+    x: float
+    y: float
 
-    def reset(self) -> None:
-        """Return to the beginning of the path."""
-        self._on_path.reset()
-        self._approach: VirtualPoint | None = None
-        self._is_planned = self._has_joined = False
-        self._at: tuple[float, float] | None = None
 
-    @property
-    def point(self) -> VirtualPoint:
-        """P: on the approach while there is one, then on the path."""
-        return self._approach or self._on_path
+@pure
+def first_progress(approach: Any) -> Progress:
+    """Return the beginning of a mission; `approach` as of `approach.empty_approach`."""
+    return Progress(VirtualPoint(0, 0.0, 0.0, 0.0, False), 0, approach, False, False, 0.0, 0.0)
 
-    @property
-    def on_path(self) -> VirtualPoint:
-        """P on the path; it waits at the start during an approach."""
-        return self._on_path
 
-    @property
-    def approach_to_go(self) -> float:
-        """What is left of the approach, m; 0 when there is none."""
-        P = self._approach
-        return 0.0 if P is None else P.path.distance_to_go(P.i, P.t)
+@pure
+def followed(path: PathRows, legs: int, approach: Any) -> PathRows:
+    """Return what P is on: the approach, or the path."""
+    return PathRows(legs, approach, path.piece) if legs > 0 else path
 
-    @property
-    def distance_to_go(self) -> float:
-        """From P to the end of the path, m."""
-        return self.approach_to_go + self.path.distance_to_go(self._on_path.i, self._on_path.t)
 
-    def move(self, navigation: Navigation, Ur: float, current: Current, dt: float) -> bool:
-        """Move P for `dt` seconds; return whether it has come to another subpath, or to the path's end.
+@pure
+def approach_to_go(legs: int, approach: Any, i: int, t: float) -> float:
+    """Return what is left of an approach, m; 0 where there is none."""
+    if legs == 0:
+        return 0.0
+    row = approach[i]
+    left: float = row[LENGTH] * (1.0 - t) + row[AFTER]
+    return left
 
-        Args:
-            navigation: measured pose, NED.
-            Ur: speed through the water, m/s.
-            current: the observer's estimate, m/s, NED.
-            dt: seconds since the last call.
-        """
-        P, approach = self._on_path, self._approach
-        self._at = navigation[:2]
-        if not self._is_planned:
-            self._plan(navigation)
-            return False
-        if approach is not None:
-            approach.move(dt)
-            if approach.finished:
-                self._plan(navigation)
-            if self._approach is None:
-                P.advance(approach.beyond)
-            return False
-        switched = P.move(dt)
-        x, y = self._at
-        if not P.finished and self._has_joined and self.circle.reached(x, y, P.i, P.t, Ur, current):
-            P.go_on()
-            switched = True
-        self._has_joined = self._has_joined and not switched
-        return switched
 
-    def judge(self, off: float) -> None:
-        """Note from the distance to P, m, whether the vehicle has joined the subpath or lost the approach."""
-        if self._approach is None:
-            self._has_joined = self._has_joined or off <= NEAR
-        else:
-            self._is_planned = off <= self._radius
+@pure
+def move(
+    config: ProgressConfig,
+    path: PathRows,
+    state: Progress,
+    navigation: Navigation,
+    Ur: float,
+    current: Current,
+    dt: float,
+) -> tuple[int, float, bool, int, bool, bool]:
+    """Move P for `dt` seconds; on the path never past what the vehicle has not passed.
 
-    def rejoin(self, navigation: Navigation, longest_reach: float) -> None:
-        """After a hold: P goes ahead to the closest point of as much path as the vehicle may have come along.
+    Args:
+        config, path, state: of the mission.
+        navigation: measured pose, NED.
+        Ur: speed through the water, m/s.
+        current: the observer's estimate, m/s, NED.
+        dt: seconds since the last step.
 
-        It is looked for no farther ahead than the vehicle was carried, with half as much again for the
-        path's turns, and never behind: a leg that lies beside this one is not mistaken for it. An approach is
-        planned anew instead.
-        """
-        if self._approach is not None or not self._is_planned:
-            self._is_planned = False
-            return
-        P, (x, y) = self._on_path, self._at or navigation[:2]
-        carried = math.hypot(navigation.x - x, navigation.y - y)
-        reach = min(1.5 * carried + 1.0, longest_reach)
-        before = P.i
-        P.advance_to(*closest_ahead(self.path, P.i, P.t, navigation.x, navigation.y, reach))
-        self._has_joined = self._has_joined and P.i == before
+    Returns:
+        P's subpath, t on it and whether the path has ended; number of the approach's subpaths; whether the
+        vehicle has joined the subpath; whether P has come to another subpath of the path, or to its end.
+    """
+    P, legs, approach, planned, joined, _, _ = state
+    if not planned:
+        before, legs = legs, _plan(config, path, approach, navigation)
+        if before > 0 or legs > 0:
+            return 0, 0.0, False, legs, joined, False
+        return P.i, P.t, P.finished, 0, joined, False
+    i, t, finished, beyond = moved(followed(path, legs, approach), P, dt)
+    if legs > 0:
+        if finished:
+            legs = _plan(config, path, approach, navigation)
+            i, t, finished = 0, 0.0, False
+            if legs == 0:
+                i, t, finished, _ = advanced(path, 0, beyond)
+        return i, t, finished, legs, joined, False
+    switched = i != P.i or finished != P.finished
+    x, y, _, _ = navigation
+    if joined and not finished and reached(config.circles, path.subpath[i], x, y, t, Ur, current):
+        i, t, finished, _ = passed_on(path, i, 0.0)
+        switched = True
+    return i, t, finished, 0, joined and not switched, switched
 
-    def _plan(self, navigation: Navigation) -> None:
-        """Plan the approach from here; none where the vehicle is at the path's start."""
-        self._is_planned, self._approach = True, None
-        if self._agility is None or not self.approach_config.enabled:
-            return
-        self._radius = turn_radius(self.approach_config, self._agility, self.circle.lookahead)
-        way = approach_to(self.path.start_pose, navigation, self._radius)
-        self._approach = None if way is None else VirtualPoint(way)
+
+@pure
+def _plan(config: ProgressConfig, path: PathRows, approach: Any, navigation: Navigation) -> int:
+    """Plan the approach from here; return its number of subpaths, 0 at the path's start."""
+    if not config.approaches:
+        return 0
+    x, y, dx, dy, _, _ = evaluate(path, path.subpath[0], 0.0)
+    return plan(approach, Pose(x, y, math.atan2(dy, dx)), navigation, config.approach_radius)
+
+
+@pure
+def settled(
+    config: ProgressConfig, state: Progress, P: VirtualPoint, legs: int, joined: bool, off: float,
+    navigation: Navigation,
+) -> Progress:  # fmt: skip
+    """Return the state after a step: `off` is the distance to P, m.
+
+    It decides whether the vehicle has joined the subpath or lost the approach.
+    """
+    planned = legs == 0 or off <= config.approach_radius
+    joined = joined or (legs == 0 and off <= NEAR)
+    return Progress(P, legs, state.approach, planned, joined, navigation.x, navigation.y)
+
+
+@pure
+def rejoined(config: ProgressConfig, path: PathRows, state: Progress, navigation: Navigation) -> Progress:
+    """Return the state after a hold: P at the closest point of the path ahead.
+
+    It is looked for no farther ahead than the vehicle was carried, with half as much again for the path's
+    turns, and never behind: a leg that lies beside this one is not mistaken for it. An approach is planned
+    anew instead.
+    """
+    P, legs, approach, planned, joined, x, y = state
+    if legs > 0 or not planned:
+        return Progress(P, legs, approach, False, joined, x, y)
+    carried = math.hypot(navigation.x - x, navigation.y - y)
+    reach = min(1.5 * carried + 1.0, config.rejoin_reach)
+    i, t = P.i, P.t
+    if not P.finished:
+        i, t = closest_ahead(path, i, t, navigation.x, navigation.y, reach)
+    return Progress(VirtualPoint(i, t, 0.0, 0.0, P.finished), 0, approach, True, joined and i == P.i, x, y)

@@ -3,16 +3,26 @@
 from __future__ import annotations
 
 import math
-from typing import Literal
+from typing import Any, Literal, NamedTuple, get_args
 
+from auv_msgs_py.pure import pure
 from auv_msgs_py.settings import Auto, setting, settings
 from auv_msgs_py.types import NO_CURRENT, Current
-from auv_path_following.guidance.acceptance import Corner, Cornering, acceptance_radius, corner_of
-from auv_path_following.paths.composite import CompositePath
-from auv_path_following.paths.outline import last_stretch
-from auv_path_following.paths.segment import Segment
+from auv_path_following.guidance.acceptance import Corner, Cornering, acceptance_radius
+from auv_path_following.paths.rows import (
+    CHI_IN,
+    CHI_OUT,
+    CORNER,
+    END,
+    JOINT,
+    JOINT_X,
+    JOINT_Y,
+    STRETCH,
+    WIDEST,
+)
 
 SwitchingMode = Literal["off", "g0", "all"]
+OFF, ONLY_CORNERS, ALL_JOINTS = range(3)
 
 
 @settings
@@ -39,74 +49,79 @@ def as_wished(config: SwitchingConfig, mode: SwitchingMode | None, radius: float
     )
 
 
-class CircleOfAcceptance:
-    """Eq. (44) for a path whose joints are classified, and for subpaths of any length and shape.
+class Circles(NamedTuple):
+    """The circles of acceptance of a path.
 
-    Args:
-        path: the path.
-        config: which joints, and Rk.
-        cornering: how the vehicle turns, for an Rk of 0; without it that is no circle.
-        lookahead: Delta, m, for an Rk of 0.
+    Attributes:
+        mode: index of `SwitchingMode`.
+        radius: Rk, m.
+        computed: Rk is computed for each corner instead.
+        cornering: how the vehicle turns, for a computed Rk.
+        lookahead: Delta, m, for a computed Rk.
     """
 
-    def __init__(
-        self,
-        path: CompositePath,
-        config: SwitchingConfig | None = None,
-        cornering: Cornering | None = None,
-        lookahead: float = 0.0,
-    ) -> None:
-        self.path = path
-        self.config = config or SwitchingConfig()
-        self.lookahead = lookahead
-        self._cornering = cornering
-        self._stretches: dict[int, float] = {}
-        self._corners: dict[int, Corner] = {}
-
-    def radius(self, i: int, Ur: float, current: Current) -> float:
-        """Return Rk at the end of subpath `i` (from 0), m, at a speed through the water in m/s.
-
-        A smooth joint needs no circle: where Rk is computed it is 0 there.
-        """
-        if self.config.radius > 0.0 or self._cornering is None or self.path.joints[i].geometric != "G0":
-            return self.config.radius
-        if i not in self._corners:
-            self._corners[i] = corner_of(self.path, i)
-        return acceptance_radius(self._cornering, self._corners[i], self.lookahead, Ur, current)
-
-    def reached(
-        self, x: float, y: float, i: int, t: float, Ur: float = 0.0, current: Current = NO_CURRENT
-    ) -> bool:
-        """Whether a vehicle at (x, y), with P at t of subpath `i` (from 0), may go on to the next one.
-
-        Args:
-            x, y: the vehicle's position, NED, m.
-            i, t: place of P.
-            Ur: its speed through the water, m/s.
-            current: the estimate, m/s, NED.
-        """
-        mode = self.config.mode
-        if mode == "off" or i >= len(self.path.joints):
-            return False
-        joint = self.path.joints[i]
-        if mode == "g0" and joint.geometric != "G0":
-            return False
-        if t < self._stretch(i):
-            return False
-        return math.hypot(joint.x - x, joint.y - y) <= self.radius(i, Ur, current)
-
-    def _stretch(self, i: int) -> float:
-        """From where on the circle of subpath `i` counts; found when it is first entered."""
-        if i not in self._stretches:
-            self._stretches[i] = counts_from(self.path.segments[i])
-        return self._stretches[i]
+    mode: int
+    radius: float
+    computed: bool
+    cornering: Cornering
+    lookahead: float
 
 
-def counts_from(segment: Segment) -> float:
-    """Return the t from which on the circle at a subpath's end counts.
+def circles_of(config: SwitchingConfig, cornering: Cornering | None, lookahead: float) -> Circles:
+    """Return the circles of acceptance.
+
+    Args:
+        config: which joints, and Rk.
+        cornering: how the vehicle turns, for an Rk of 0; None: an Rk of 0 is no circle.
+        lookahead: Delta, m.
+    """
+    mode = get_args(SwitchingMode).index(config.mode)
+    computed = cornering is not None and not config.radius > 0.0
+    return Circles(mode, float(config.radius), computed, cornering or _NO_CORNERING, lookahead)
+
+
+@pure
+def radius_at(circles: Circles, row: Any, Ur: float, current: Current) -> float:
+    """Return Rk at the end of a subpath, m.
+
+    A smooth joint needs no circle: where Rk is computed it is 0 there.
+
+    Args:
+        circles: of the path.
+        row: of the subpath.
+        Ur: speed through the water, m/s.
+        current: the estimate, m/s, NED.
+    """
+    if not circles.computed or row[JOINT] != CORNER:
+        return circles.radius
+    corner = Corner(row[CHI_IN], row[CHI_OUT], row[WIDEST])
+    return acceptance_radius(circles.cornering, corner, circles.lookahead, Ur, current)
+
+
+@pure
+def reached(
+    circles: Circles, row: Any, x: float, y: float, t: float, Ur: float = 0.0, current: Current = NO_CURRENT
+) -> bool:
+    """Return whether the next subpath is followed, Eq. (44), for subpaths of any length and shape.
 
     A subpath that comes back to its start has its joint there, and a vehicle that sets out is inside the
     circle at once: only the last stretch counts. Of a subpath shorter than the circle, as between dense
     waypoints, half is followed at least, so that P does not run ahead from one circle to the next.
+
+    Args:
+        circles: of the path.
+        row: of the subpath.
+        x, y: the vehicle's position, NED, m.
+        t: place of P on the subpath.
+        Ur: speed through the water, m/s.
+        current: the estimate, m/s, NED.
     """
-    return max(last_stretch(segment), 0.5)
+    if t < 0.5 or t < row[STRETCH]:
+        return False
+    mode, joint = circles.mode, row[JOINT]
+    if mode == OFF or joint == END or (mode == ONLY_CORNERS and joint != CORNER):
+        return False
+    return math.hypot(row[JOINT_X] - x, row[JOINT_Y] - y) <= radius_at(circles, row, Ur, current)
+
+
+_NO_CORNERING = Cornering(1.0, 0.0)

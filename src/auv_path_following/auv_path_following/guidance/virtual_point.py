@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from auv_msgs_py.pure import pure
 from auv_msgs_py.settings import setting, settings
 from auv_msgs_py.types import Current, Navigation, WaterVelocity
-from auv_path_following.paths.composite import CompositePath
-from auv_path_following.paths.segment import PathPoint
+from auv_path_following.paths.rows import LENGTH, PathRows, evaluate
 
 
 @settings
@@ -30,13 +30,20 @@ class PathErrors(NamedTuple):
     ye: float
 
 
-def path_errors(navigation: Navigation, point: PathPoint, chi_p: float) -> PathErrors:
-    """The vehicle's place as seen from P, Eq. (20)."""
-    dx, dy = navigation.x - point.x, navigation.y - point.y
+@pure
+def path_errors(navigation: Navigation, x_p: float, y_p: float, chi_p: float) -> PathErrors:
+    """Return the vehicle's place as seen from P, Eq. (20).
+
+    Args:
+        navigation: the vehicle's pose, NED.
+        x_p, y_p, chi_p: P (m) and the path's course there (rad), NED.
+    """
+    dx, dy = navigation.x - x_p, navigation.y - y_p
     cos_chi, sin_chi = math.cos(chi_p), math.sin(chi_p)
     return PathErrors(dx * cos_chi + dy * sin_chi, -dx * sin_chi + dy * cos_chi)
 
 
+@pure
 def saturated(xe: float, limit: float) -> float:
     """Return xe (m) held within +-limit, for Eq. (22): up to the limit it is xe itself.
 
@@ -47,6 +54,7 @@ def saturated(xe: float, limit: float) -> float:
     return min(max(xe, -limit), limit)
 
 
+@pure
 def tangential_speed(
     k: float, xe: float, psi: float, water: WaterVelocity, chi_p: float, current: Current
 ) -> float:
@@ -60,86 +68,81 @@ def tangential_speed(
     return through_water + k * xe + math.cos(chi_p) * current.Vx + math.sin(chi_p) * current.Vy
 
 
-class VirtualPoint:
-    """Where P is: the subpath's index i (from 0), which never decreases, and t in [0, 1] on it."""
+class VirtualPoint(NamedTuple):
+    """Where P is, and how fast until the next step.
 
-    def __init__(self, path: CompositePath) -> None:
-        self.path = path
-        self.reset()
+    Attributes:
+        i: subpath, from 0; it never decreases.
+        t: place on the subpath, in [0, 1].
+        t_rate: dt/d(time), 1/s; 0: P rests.
+        metres_per_t: |dp/dt| where the speed was set, m.
+        finished: P is at the end of the path.
+    """
 
-    def reset(self) -> None:
-        """Return to the beginning of the path."""
-        self.i = 0
-        self.t = 0.0
-        self.finished = False
-        #: How far the last `move` led beyond the end of the path, m.
-        self.beyond = 0.0
-        self.rest()
+    i: int = 0
+    t: float = 0.0
+    t_rate: float = 0.0
+    metres_per_t: float = 0.0
+    finished: bool = False
 
     @property
     def s(self) -> float:
         """The global parameter of Eq. (1), in [0, n]."""
         return self.i + self.t
 
-    def move(self, dt: float) -> bool:
-        """Move by Eq. (43) with the speed set last; return whether P has left its subpath.
 
-        Departs from Eq. (43), which sets P to the start of the next subpath: the rest of the step's way is
-        carried over as length, over as many subpaths as it takes. The time is linear in the subpaths passed.
-        """
-        self.t = max(self.t + self._t_rate * dt, 0.0)
-        if self.t < 1.0 or self.finished:
-            return False
-        way = (self.t - 1.0) * self._metres_per_t
-        self.go_on()
-        self.advance(way)
-        return True
+#: i, t, whether P is at the end of the path, and how far the step led beyond it, m.
+Place = tuple[int, float, bool, float]
 
-    def advance(self, way: float) -> None:
-        """Move on by `way` metres from the start of a subpath."""
-        while not self.finished:
-            segment = self.path.segments[self.i]
-            self.t = way / segment.evaluate(0.0).speed
-            if self.t < 1.0:
-                return
-            way = max(way - segment.length, 0.0)
-            self.go_on()
-        self.beyond = way
 
-    def go_on(self) -> None:
-        """Move to the start of the next subpath, or to the end of the path."""
-        self.rest()
-        if self.i + 1 >= self.path.n:
-            self.t = 1.0
-            self.finished = True
-        else:
-            self.i += 1
-            self.t = 0.0
+@pure
+def moved(path: PathRows, P: VirtualPoint, dt: float) -> Place:
+    """Return where P is after `dt` seconds, Eq. (43).
 
-    def advance_to(self, i: int, t: float) -> None:
-        """Move to a place ahead (one behind is ignored), and stay there until the next `set_speed`."""
-        self.rest()
-        if not self.finished and (i, t) > (self.i, self.t):
-            self.i, self.t = i, t
+    Departs from Eq. (43), which sets P to the start of the next subpath: the rest of the step's way is
+    carried over as length, over as many subpaths as it takes. The time is linear in the subpaths passed.
+    """
+    t = max(P.t + P.t_rate * dt, 0.0)
+    if t < 1.0 or P.finished:
+        return P.i, t, P.finished, 0.0
+    return passed_on(path, P.i, (t - 1.0) * P.metres_per_t)
 
-    def rest(self) -> None:
-        """Stay until the next `set_speed`, however long that takes."""
-        self._t_rate = self._metres_per_t = 0.0
 
-    def point(self) -> PathPoint:
-        """P and the path's derivatives there."""
-        return self.path.evaluate(self.i, self.t)
+@pure
+def passed_on(path: PathRows, i: int, way: float) -> Place:
+    """Return the place `way` metres behind the end of subpath `i`: on a later one, or the end of the path."""
+    if i + 1 >= path.n:
+        return i, 1.0, True, way
+    return advanced(path, i + 1, way)
 
-    def set_speed(self, U_P: float, point: PathPoint) -> float:
-        """Set the speed U_P (m/s) until the next update, Eq. (42).
 
-        Returns:
-            The speed of P: 0 where it waits at the start of a subpath for a vehicle that is still behind
-            it, and at the end of the path.
-        """
-        if self.finished or (self.t <= 0.0 and U_P < 0.0):
-            self.rest()
-            return 0.0
-        self._metres_per_t = point.speed
-        self._t_rate = U_P / self._metres_per_t
-        return U_P
+@pure
+def advanced(path: PathRows, i: int, way: float) -> Place:
+    """Return the place `way` metres from the start of subpath `i`."""
+    while True:
+        row = path.subpath[i]
+        _, _, dx, dy, _, _ = evaluate(path, row, 0.0)
+        t = way / math.hypot(dx, dy)
+        if t < 1.0:
+            return i, t, False, 0.0
+        way = max(way - row[LENGTH], 0.0)
+        if i + 1 >= path.n:
+            return i, 1.0, True, way
+        i += 1
+
+
+@pure
+def driven(i: int, t: float, finished: bool, U_P: float, metres_per_t: float) -> tuple[VirtualPoint, float]:
+    """Return P with the speed U_P (m/s) until the next step, Eq. (42), and that speed.
+
+    The speed is 0 where P waits at the start of a subpath for a vehicle that is still behind it, and at the
+    end of the path.
+
+    Args:
+        i, t, finished: place of P.
+        U_P: of Eq. (22), m/s.
+        metres_per_t: |dp/dt| there, m.
+    """
+    if finished or (t <= 0.0 and U_P < 0.0):
+        return VirtualPoint(i, t, 0.0, 0.0, finished), 0.0
+    return VirtualPoint(i, t, U_P / metres_per_t, metres_per_t, finished), U_P

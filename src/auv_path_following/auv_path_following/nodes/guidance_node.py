@@ -12,9 +12,10 @@ from auv_msgs_py import topics
 from auv_msgs_py.runtime import SuiteNode, run_nodes
 from auv_path_following import vehicle
 from auv_path_following.guidance.approach import ApproachWatch, agility_of
+from auv_path_following.guidance.follow import GuidanceOutput
 from auv_path_following.guidance.limits import Limits
 from auv_path_following.guidance.mission_state import MissionState, State
-from auv_path_following.guidance.path_follower import GuidanceOutput, PathFollower
+from auv_path_following.guidance.path_follower import PathFollower
 from auv_path_following.nodes.guidance_output import GuidanceMessages, StateMessages, whole_path
 from auv_path_following.nodes.navigation_input import Inputs, NavigationInput
 from auv_path_following.parameters import GuidanceParameters
@@ -159,16 +160,19 @@ class GuidanceNode(SuiteNode):
             if news := self._approach.update(output.approach, dt):
                 self.get_logger().info(news)
             self.health.warn("approach", self._approach.complaint(self.parameters.guidance.approach.overdue))
-            broken = self.limits.broken(navigation, output.xe, output.ye, output.distance_to_go, dt)
+            to_go = self.follower.distance_to_go
+            broken = self.limits.broken(navigation, output.xe, output.ye, to_go, dt)
             if output.finished:
                 self.state.complete()
         else:
             output = self.follower.look(navigation)
+            to_go = self.follower.distance_to_go
             broken = self.limits.wait(dt) if self.state.under_way else ""
         if broken and self.state.under_way:
             self.state.abort(broken)
         self._output = output
-        self._messages.fill(output, self.mission.thrust if self.state.running else 0.0, inputs.stamp)
+        thrust = self.mission.thrust if self.state.running else 0.0
+        self._messages.fill(output, to_go, thrust, inputs.stamp)
         self.answer(self._publish)
 
     def _publish(self) -> None:

@@ -13,7 +13,7 @@ from auv_msgs_py.frames import flip_yaw
 from auv_msgs_py.mission_word import PERIOD, TIMES
 from auv_msgs_py.runtime import SuiteNode
 from auv_msgs_py.wire import Float64, PoseStamped, Vector3Stamped
-from auv_path_following.guidance.path_follower import GuidanceOutput
+from auv_path_following.guidance.follow import GuidanceOutput
 from auv_path_following.paths.composite import CompositePath
 
 #: Distance between the poses of `path`, m.
@@ -91,11 +91,12 @@ class GuidanceMessages:
         self._path_error, self._error = node.advertise(topics.PATH_ERROR), Vector3Stamped()
         self._error.header.frame_id = PATH_FRAME
 
-    def fill(self, output: GuidanceOutput, thrust: float, stamp: int) -> None:
+    def fill(self, output: GuidanceOutput, distance_to_go: float, thrust: float, stamp: int) -> None:
         """Take a result in NED.
 
         Args:
             output: the result.
+            distance_to_go: from P to the end of the path, m.
             thrust: desired thrust, N.
             stamp: of the odometry that it answers, ns.
         """
@@ -104,7 +105,7 @@ class GuidanceMessages:
         floats[topics.DESIRED_YAW_RATE][1].data = -output.r_d
         floats[topics.DESIRED_THRUST][1].data = thrust
         floats[topics.PATH_PARAMETER][1].data = output.s
-        floats[topics.DISTANCE_TO_GO][1].data = output.distance_to_go
+        floats[topics.DISTANCE_TO_GO][1].data = distance_to_go
         fill_pose(self._pose, output.x_p, output.y_p, output.chi_p, stamp)
         set_stamp(self._error.header.stamp, stamp)
         vector = self._error.vector

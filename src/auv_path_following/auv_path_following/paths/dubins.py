@@ -103,9 +103,7 @@ def _word(start: Pose, end: Pose, radius: float, sides: tuple[float, float, floa
         course, size, after = _straight(first, last, distance, bearing)
     else:
         course, size, after = _curled(first, distance, bearing)
-    return Word(
-        first, middle, last, _turn(first, start.chi, course), size, _turn(last, after, end.chi)
-    )
+    return Word(first, middle, last, _turn(first, start.chi, course), size, _turn(last, after, end.chi))
 
 
 @pure

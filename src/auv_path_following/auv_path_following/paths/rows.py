@@ -56,6 +56,13 @@ class PathRows(NamedTuple):
 
 
 @pure
+def curvature(dx: float, dy: float, ddx: float, ddy: float) -> float:
+    """Return the curvature, Eq. (8), 1/m, positive where the path turns to starboard."""
+    squared = dx * dx + dy * dy
+    return (dx * ddy - dy * ddx) / (squared * math.sqrt(squared))
+
+
+@pure
 def evaluate(path: PathRows, row: Any, t: float) -> Point:
     """Return the point at t in [0, 1] of a subpath of `path`, as `Segment.evaluate`: NED, m.
 

@@ -50,13 +50,6 @@ def compiled(function: F) -> F:
     return numba.njit(nogil=True, cache=True, **_OPTIONS)(function)  # type: ignore[no-any-return]
 
 
-def part(function: F) -> F:
-    """The same function; what is compiled may call it, too. This is how a law serves both worlds."""
-    if numba is not None:
-        register_jitable(**_OPTIONS)(function)
-    return function
-
-
 _taken_over: set[int] = set()
 
 

@@ -19,9 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from auv_msgs_py import topics
-from auv_msgs_py.types import Navigation
 from auv_path_following import vehicle
-from auv_path_following.guidance.approach import approach_to
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.line import Line
 from auv_path_following.paths.rows import PathRows
@@ -70,14 +68,12 @@ def fly(
             courses[id(scenario.path)] = _Course.of(scenario.path)
 
     def one(scenario: Scenario) -> dict[str, Any]:
-        figures = None
         if scenario.sea is None:
             flight = flights[id(scenario)]
             course = courses[id(scenario.path)]
             end, whole, subpaths, flown, _ = _flown(flight, scenario, course, 0)
-            if not end.lost:
-                figures = figures_of(end, whole, subpaths, share_of(course.cells, flown).share, flight.dt)
-        if figures is None:
+            figures = figures_of(end, whole, subpaths, share_of(course.cells, flown).share, flight.dt)
+        else:
             figures = judged(closed_loop.fly(scenario), scenario)
         if done is not None:
             done(figures["steps"])
@@ -102,7 +98,7 @@ def track(scenario: Scenario, every: int = 1) -> Run:
 
     Args:
         scenario: what to fly.
-        every: keep every so-manieth odometry, from the first one on.
+        every: keep every n-th odometry, from the first one on.
 
     Returns:
         What `closed_loop.fly` returns, to rounding.
@@ -111,10 +107,9 @@ def track(scenario: Scenario, every: int = 1) -> Run:
         ConfigurationError: a scenario that cannot be flown.
     """
     flight = flight_of(scenario)
-    if scenario.sea is None:
-        end, *_, rows = _flown(flight, scenario, _Course.of(scenario.path), every)
-    if scenario.sea is not None or end.lost:
+    if scenario.sea is not None:
         return closed_loop.fly(scenario).select(slice(None, None, every))
+    *_, rows = _flown(flight, scenario, _Course.of(scenario.path), every)
     step_ns = round(scenario.step * 1e9)
     t = [(topics.FIRST_STAMP_NS + int(k) * step_ns) * 1e-9 for k in rows[:, 0]]
     columns = {"t": t} | {name: rows[:, j] for j, name in enumerate(_TRACK, 1)}
@@ -136,18 +131,11 @@ class _Course(NamedTuple):
 
 def _flown(flight: Any, scenario: Scenario, course: _Course, every: int) -> tuple[End, Any, Any, Any, Any]:
     start = PlantState(*map(float, scenario.initial or start_of(scenario.path)))
-    path = None
-    if scenario.guidance.approach.enabled:
-        navigation = Navigation(start.x, start.y, start.psi, start.r)
-        path = approach_to(scenario.path.start_pose, navigation, flight.guidance.approach_radius)
-    approach = course.curve if path is None else rows_of(path)
     whole = np.empty(tally.FLIGHT_TALLIES)
     subpaths = np.empty((len(course.curve.subpath), tally.SUBPATH_TALLIES))
     flown = np.empty(len(course.cells.cells), np.bool_)
     rows = math.ceil(flight.steps / every) if every else 0
     kept = np.empty((rows, TRACK_COLUMNS))
     with np.errstate(all="ignore"):  # a state that runs away is a result
-        end = fly_one(
-            flight, approach, path is not None, *course, plant_at(start), whole, subpaths, flown, kept, every
-        )
+        end = fly_one(flight, *course, plant_at(start), whole, subpaths, flown, kept, every)
     return end, whole, subpaths, flown, kept[: math.ceil(end.rows / every)] if every else kept

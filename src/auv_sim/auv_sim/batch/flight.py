@@ -10,17 +10,20 @@ import numpy.typing as npt
 
 from auv_msgs_py.types import NO_CURRENT, Current, Reference, WaterVelocity
 from auv_path_following.control.autopilot import AutopilotInputs, first_state, steer
+from auv_path_following.guidance.approach import LEGS
 from auv_path_following.guidance.current_observer import ObserverInputs, ObserverState, observe
-from auv_path_following.paths.rows import PathRows
+from auv_path_following.guidance.follow import FollowerInputs, follow
+from auv_path_following.guidance.follow import first_state as first_follower_state
+from auv_path_following.paths.rows import COLUMNS, PathRows
 from auv_sim.analysis.flown_share import Cells
 from auv_sim.batch import tally
-from auv_sim.batch.compiled import compiled
+from auv_sim.batch.compiled import compiled, take_over_pure
 from auv_sim.batch.distance import Outlines, distance_to
 from auv_sim.batch.flown_cells import pass_cells
-from auv_sim.batch.follow import first_state as first_follower_state
-from auv_sim.batch.follow import follow
 from auv_sim.batch.numbers import Flight
 from auv_sim.plant.remus import Afloat, PlantInputs, PlantState, navigation_of, plant_step
+
+take_over_pure()
 
 Array = npt.NDArray[np.float64]
 Flags = npt.NDArray[np.bool_]
@@ -36,22 +39,18 @@ class End(NamedTuple):
         rows: odometries.
         s: of Eq. (1).
         finite: whether the state stayed finite.
-        lost: it needs an approach anew, and was not flown on.
         state: the last one.
     """
 
     rows: int
     s: float
     finite: bool
-    lost: bool
     state: PlantState
 
 
 @compiled
 def fly_one(
     c: Flight,
-    approach: PathRows,
-    approaches: bool,
     curve: PathRows,
     outlines: Outlines,
     cells: Cells,
@@ -66,7 +65,6 @@ def fly_one(
 
     Args:
         c, curve, outlines, cells: what is flown; the path as rows, as outlines and as cells.
-        approach: flown before it, where it `approaches`; else any path.
         afloat: the plant's first state.
         whole, subpaths: tallies, shape (FLIGHT_TALLIES,) and (n, SUBPATH_TALLIES); written.
         flown: shape (cells,), which cells were flown; written.
@@ -74,7 +72,7 @@ def fly_one(
     """
     current = Current(c.Vx, c.Vy)
     observer = ObserverState(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, NO_CURRENT)
-    follower = first_follower_state(c.guidance, approaches)
+    follower = first_follower_state(c.guidance, np.zeros((LEGS, COLUMNS)))
     pilot = first_state(c.autopilot)
     commanded = 0.0
     i, clear = -1, 0.0
@@ -87,18 +85,17 @@ def fly_one(
         water = WaterVelocity(state.ur, state.vr)
         observer, seen = observe(c.observer, observer, ObserverInputs(navigation, water, True), since)
         estimate = seen.current
-        follower, guided = follow(c.guidance, approach, curve, follower, navigation, water, estimate, since)
-        if follower.lost:
-            return End(k + 1, 0.0, True, True, state)
-        finished = follower.finished
+        follower, guided = follow(
+            c.guidance, curve, follower, FollowerInputs(navigation, water, estimate), since
+        )
+        finished = guided.finished
         reference = Reference(guided.psi_d, guided.r_d, 0.0 if finished else c.thrust)
         pilot, steered = steer(c.autopilot, pilot, AutopilotInputs(navigation, reference), since)
         psi_e = steered.psi_e
         command, thrust = steered.command
-        at = 0 if follower.approaching else follower.i
-        s = 0.0 if follower.approaching else at + follower.t
-        if at != i:
-            i, clear = at, 0.0
+        s = guided.s
+        if guided.i != i:
+            i, clear = guided.i, 0.0
         distance = distance_to(curve, outlines, i, state.x, state.y)
         if distance > clear:
             clear = _clearance(curve, outlines, i, state.x, state.y)
@@ -117,7 +114,7 @@ def fly_one(
             row[12], row[13], row[14] = guided.xe, guided.ye, psi_e
             row[15], row[16], row[17] = s, estimate.Vx, estimate.Vy
         if finished or not finite:
-            return End(k + 1, s, finite, False, state)
+            return End(k + 1, s, finite, state)
         if k > 0:
             tally.count_command(
                 whole, (command - commanded) / c.dt, abs(command) >= c.autopilot.max_angle - 1e-12
@@ -130,7 +127,7 @@ def fly_one(
         if k + 1 < c.steps:
             tally.count_step(subpaths, i, c.dt, abs(afloat.servo.angle - rudder), covered)
             pass_cells(cells, flown, s, state.x, state.y, motion.x, motion.y)
-    return End(c.steps, s, finite, False, state)  # the way after the last odometry is nobody's
+    return End(c.steps, s, finite, state)  # the way after the last odometry is nobody's
 
 
 @compiled

@@ -9,31 +9,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from auv_path_following.control.autopilot import Autopilot
-from auv_path_following.guidance.acceptance import Cornering
+from auv_path_following.guidance.follow import FollowerConfig
 from auv_sim.plant.remus import Plant
-
-SWITCHING = ("off", "g0", "all")
-
-
-class Guidance(NamedTuple):
-    """`PathFollowerConfig` and `Agility`; `law` is the chosen law's configuration, with its first state;
-    `switching` is an index of `SWITCHING`.
-
-    `lookahead` is `PathFollowerConfig.lookahead`, which the law may not use at every distance.
-    """
-
-    law: Any
-    law_begins: Any
-    compensate_current: bool
-    minimum_speed: float
-    k: float
-    saturation: float
-    approach_radius: float
-    turn_rate: float
-    switching: int
-    radius: float
-    cornering: Cornering
-    lookahead: float
 
 
 class Flight(NamedTuple):
@@ -48,7 +25,7 @@ class Flight(NamedTuple):
     """
 
     plant: Plant
-    guidance: Guidance
+    guidance: FollowerConfig
     observer: Any
     autopilot: Autopilot
     thrust: float

@@ -96,7 +96,7 @@ def subpath_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
 def _guidance_step(path: CompositePath) -> float:
     follower, steps = PathFollower(path), 500
     spiral = path.n // 6 * 3 + 1
-    follower.virtual_point.i = spiral
+    follower.place_at(spiral)
     p = path.evaluate(spiral, 0.0)
     navigation, water = Navigation(p.x, p.y, p.chi, 0.0), WaterVelocity(1.9, 0.0)
     begin = time.perf_counter()

@@ -86,7 +86,7 @@ def _given_circles(mission: Mission, switching: SwitchingConfig, lookahead: floa
         found = f"{switching.radius:g} m with a look-ahead of {lookahead:g} m"
         level: Level = "refused" if switching.radius > _FAR_TOO_WIDE * lookahead else "warning"
         yield Verdict(level, "switching.radius", found, "at most the look-ahead, Rk <= Delta of Eq. (44)")
-    # Along the path: a circle counts on the last stretch of its subpath only, see `CircleOfAcceptance`.
+    # Along the path: a circle counts on the last stretch of its subpath only, see `switching.reached`.
     gaps = -np.diff([mission.path.distance_to_go(j.index, 0.0) for j in joints])
     overlapping = np.flatnonzero(gaps < 2.0 * switching.radius)
     if overlapping.size:

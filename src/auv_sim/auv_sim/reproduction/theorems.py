@@ -47,13 +47,12 @@ def theorem_1(config: PathFollowerConfig, current: Current) -> dict[str, Checked
     # P starts at the line's beginning: xe = 5 m (k xe is not saturated) and ye = 4 m decay side by side.
     for k in range(int(60.0 / _STEP)):
         psi = 0.0
-        for _ in range(2):  # psi_d does not depend on psi: the second look is with psi = psi_d
-            g = PathFollower.update(follower, Navigation(x, y, psi, 0.0), water, current, 0.0)
+        for dt in (_STEP if k else 0.0, 0.0):  # psi_d does not depend on psi: the second one has psi = psi_d
+            g = PathFollower.update(follower, Navigation(x, y, psi, 0.0), water, current, dt)
             psi = g.psi_d
         rows.append((k * _STEP, abs(g.xe), abs(g.ye)))
         x += (_SPEED * math.cos(psi) + current.Vx) * _STEP
         y += (_SPEED * math.sin(psi) + current.Vy) * _STEP
-        follower.virtual_point.move(_STEP)
     t, xe, ye = np.array(rows).T
     rate = guidance_rate(config.ailos.lookahead, _SPEED, current.Vy)
     return {

@@ -1,0 +1,185 @@
+"""One step of guidance: virtual point, switching and a line-of-sight law in their order; Eqs. (9), (17)."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from auv_msgs_py.angles import wrap
+from auv_msgs_py.pure import pure
+from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
+from auv_path_following.guidance.law import LawInputs
+from auv_path_following.guidance.laws import law_step
+from auv_path_following.guidance.progress import (
+    Progress,
+    ProgressConfig,
+    approach_to_go,
+    first_progress,
+    followed,
+    move,
+    rejoined,
+    settled,
+)
+from auv_path_following.guidance.virtual_point import (
+    VirtualPoint,
+    driven,
+    path_errors,
+    saturated,
+    tangential_speed,
+)
+from auv_path_following.paths.rows import PathRows, curvature, evaluate
+
+#: A longer gap between two updates counts as this much, s: nothing is known of what happened in it.
+LONGEST_STEP = 1.0
+
+
+class FollowerConfig(NamedTuple):
+    """`PathFollowerConfig` and `Agility` as numbers.
+
+    Attributes:
+        law: configuration of the chosen law.
+        law_begins: its state at the beginning.
+        compensate_current: use the estimated current.
+        minimum_speed: below it beta_r and alpha are 0, m/s.
+        k, saturation: of the virtual point (1/s, m).
+        turn_rate: bound of r_d, rad/s.
+        progress: where P goes.
+    """
+
+    law: Any
+    law_begins: Any
+    compensate_current: bool
+    minimum_speed: float
+    k: float
+    saturation: float
+    turn_rate: float
+    progress: ProgressConfig
+
+
+class FollowerInputs(NamedTuple):
+    """Measured pose (NED) and velocity through water (FRD), and the observer's estimate."""
+
+    navigation: Navigation
+    water: WaterVelocity
+    current: Current
+
+
+class FollowerState(NamedTuple):
+    """Where the mission is, and the state of the law."""
+
+    progress: Progress
+    law: Any
+
+
+class GuidanceOutput(NamedTuple):
+    """One update's result with every signal a plot wants (NED, m, rad, s).
+
+    During an approach P, its errors and its course are the approach's, s and i are 0, and `approach` is what
+    is left of it, m.
+    """
+
+    psi_d: float
+    r_d: float
+    xe: float
+    ye: float
+    psi_e: float
+    s: float
+    i: int
+    x_p: float
+    y_p: float
+    chi_p: float
+    kappa: float
+    U_P: float
+    beta_r: float
+    chi_r: float
+    alpha: float
+    theta_n: float
+    approach: float
+    switched: bool
+    finished: bool
+
+
+@pure
+def first_state(config: FollowerConfig, approach: Any) -> FollowerState:
+    """Return the state at the beginning of the path; `approach` as of `approach.empty_approach`."""
+    return FollowerState(first_progress(approach), config.law_begins)
+
+
+@pure
+def follow(
+    config: FollowerConfig, path: PathRows, state: FollowerState, inputs: FollowerInputs, dt: float
+) -> tuple[FollowerState, GuidanceOutput]:
+    """Take one step of guidance.
+
+    Args:
+        config: of `prepare`.
+        path: the path's rows.
+        state: of the last step.
+        inputs: measurements and estimate.
+        dt: seconds since the last step (0 on the first one); of a gap `LONGEST_STEP` at most counts.
+    """
+    (navigation, water, current), dt = inputs, min(dt, LONGEST_STEP)
+    if not config.compensate_current:
+        current = NO_CURRENT
+    progress, psi = state.progress, navigation.psi
+    Ur = math.hypot(water.ur, water.vr)  # Eq. (17)
+    i, t, finished, legs, joined, switched = move(
+        config.progress, path, progress, navigation, Ur, current, dt
+    )
+    along = followed(path, legs, progress.approach)
+    x_p, y_p, dx, dy, ddx, ddy = evaluate(along, along.subpath[i], t)
+    chi_p = math.atan2(dy, dx)
+    xe, ye = path_errors(navigation, x_p, y_p, chi_p)
+
+    beta_r = math.atan2(water.vr, water.ur)
+    if Ur < config.minimum_speed:
+        Ur = beta_r = 0.0
+    law, out = law_step(config.law, state.law, LawInputs(ye, chi_p, Ur, beta_r, current), dt)
+
+    drawn = saturated(xe, config.saturation)
+    desired = tangential_speed(config.k, drawn, psi, water, chi_p, current)
+    P, U_P = driven(i, t, finished, desired, math.hypot(dx, dy))
+    kappa = curvature(dx, dy, ddx, ddy)
+    # At the end of the path there is nothing more to turn to.
+    psi_d, r_d = (psi, 0.0) if finished else (wrap(out.psi_d), kappa * U_P)  # Eq. (9)
+    r_d = min(max(r_d, -config.turn_rate), config.turn_rate)
+    progress = settled(config.progress, progress, P, legs, joined, math.hypot(xe, ye), navigation)
+    approach = approach_to_go(legs, progress.approach, i, t)
+    if legs > 0:
+        i, t = 0, 0.0
+    return FollowerState(progress, law), GuidanceOutput(
+        psi_d, r_d, xe, ye, wrap(psi - psi_d), i + t, i, x_p, y_p, chi_p, kappa, U_P, beta_r,
+        out.chi_r, out.alpha, out.theta_n, approach, switched, finished,
+    )  # fmt: skip
+
+
+@pure
+def look(
+    path: PathRows, state: FollowerState, navigation: Navigation
+) -> tuple[FollowerState, GuidanceOutput]:
+    """Return the errors as they stand while no mission runs.
+
+    P rests until the next step, however long that takes; the vehicle's own heading is desired.
+    """
+    P, legs, approach, planned, joined, x, y = state.progress
+    i, t = P.i, P.t
+    along = followed(path, legs, approach)
+    x_p, y_p, dx, dy, ddx, ddy = evaluate(along, along.subpath[i], t)
+    chi_p = math.atan2(dy, dx)
+    xe, ye = path_errors(navigation, x_p, y_p, chi_p)
+    progress = Progress(VirtualPoint(i, t, 0.0, 0.0, P.finished), legs, approach, planned, joined, x, y)
+    left = approach_to_go(legs, approach, i, t)
+    if legs > 0:
+        i, t = 0, 0.0
+    return FollowerState(progress, state.law), GuidanceOutput(
+        navigation.psi, 0.0, xe, ye, 0.0, i + t, i, x_p, y_p, chi_p, curvature(dx, dy, ddx, ddy), 0.0, 0.0,
+        0.0, 0.0, 0.0, left, False, P.finished,
+    )  # fmt: skip
+
+
+@pure
+def rejoin(
+    config: FollowerConfig, path: PathRows, state: FollowerState, navigation: Navigation
+) -> FollowerState:
+    """Return the state after a hold: P is beside the vehicle, see `rejoined`; the law begins anew."""
+    return FollowerState(rejoined(config.progress, path, state.progress, navigation), config.law_begins)
