@@ -12,7 +12,7 @@ from auv_msgs_py.types import Navigation
 from auv_path_following.control.hull_model import tightest_turn
 from auv_path_following.guidance.acceptance import Cornering, cornering_of
 from auv_path_following.paths.dubins import NOTHING, STRAIGHT, Part, Pose, parts, shortest
-from auv_path_following.paths.rows import AFTER, ARC, COLUMNS, KIND, LENGTH, LINE, A, B, C, D, E
+from auv_path_following.paths.rows import AFTER, ARC, COLUMNS, KIND, LENGTH, LINE, SPEED, A, B, C, D, E
 from auv_path_following.vehicle import Vehicle
 
 #: A vehicle this near to a pose (m) and to its course (rad) is there: it needs no approach.
@@ -107,16 +107,17 @@ def plan(approach: Any, goal: Pose, navigation: Navigation, radius: float) -> in
     x, y, psi, _ = navigation
     if is_at(x, y, psi, goal.x, goal.y, goal.chi):
         return 0
-    here = Pose(x, y, psi)
-    _, direct = _lay(approach, here, goal, radius)
     chi = goal.chi
     before = Pose(goal.x - radius * math.cos(chi), goal.y - radius * math.sin(chi), chi)
-    legs, length = _lay(approach, here, before, radius)
-    if length + radius <= direct + 2.0 * radius:
-        _write_line(approach[legs], before.x, before.y, radius, chi)
-        legs += 1
-    else:
-        legs, _ = _lay(approach, here, goal, radius)
+    legs, direct = 0, 0.0
+    for there in (goal, before, goal):
+        legs, length = _lay(approach, Pose(x, y, psi), there, radius)
+        if there != before:
+            direct = length
+        elif length + radius <= direct + 2.0 * radius:
+            _write_line(approach[legs], before.x, before.y, radius, chi)
+            legs += 1
+            break
     after = 0.0
     for k in range(legs - 1, -1, -1):
         approach[k][AFTER] = after
@@ -150,6 +151,7 @@ def _lay(approach: Any, here: Pose, there: Pose, radius: float) -> tuple[int, fl
 def _write_line(row: Any, x: float, y: float, length: float, chi: float) -> float:
     row[KIND], row[A], row[B], row[LENGTH] = LINE, x, y, length
     row[C], row[D], row[E] = length * math.cos(chi), length * math.sin(chi), 0.0
+    row[SPEED] = math.hypot(row[C], row[D])
     return length
 
 
@@ -157,7 +159,9 @@ def _write_line(row: Any, x: float, y: float, length: float, chi: float) -> floa
 def _write_arc(row: Any, arc: Part) -> float:
     cx, cy, radius, a0, a1 = arc
     length = radius * abs(a1 - a0)
-    row[KIND], row[A], row[B], row[C], row[D], row[E], row[LENGTH] = ARC, cx, cy, radius, a0, a1 - a0, length
+    sweep = a1 - a0
+    row[KIND], row[A], row[B], row[C], row[D], row[E], row[LENGTH] = ARC, cx, cy, radius, a0, sweep, length
+    row[SPEED] = math.hypot(-sweep * (radius * math.sin(a0)), sweep * (radius * math.cos(a0)))
     return length
 
 

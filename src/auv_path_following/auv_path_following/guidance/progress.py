@@ -102,18 +102,17 @@ def move(
         vehicle has joined the subpath; whether P has come to another subpath of the path, or to its end.
     """
     P, legs, approach, planned, joined, _, _ = state
-    if not planned:
+    i, t, finished, beyond = P.i, P.t, P.finished, 0.0
+    if planned:
+        i, t, finished, beyond = moved(followed(path, legs, approach), P, dt)
+    if not planned or (legs > 0 and finished):
         before, legs = legs, _plan(config, path, approach, navigation)
-        if before > 0 or legs > 0:
-            return 0, 0.0, False, legs, joined, False
-        return P.i, P.t, P.finished, 0, joined, False
-    i, t, finished, beyond = moved(followed(path, legs, approach), P, dt)
-    if legs > 0:
-        if finished:
-            legs = _plan(config, path, approach, navigation)
+        if legs > 0:
             i, t, finished = 0, 0.0, False
-            if legs == 0:
-                i, t, finished, _ = advanced(path, 0, beyond)
+        elif before > 0:
+            i, t, finished, _ = advanced(path, 0, beyond)
+        return i, t, finished, legs, joined, False
+    if legs > 0:
         return i, t, finished, legs, joined, False
     switched = i != P.i or finished != P.finished
     x, y, _, _ = navigation

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from auv_msgs_py.pure import pure
 from auv_msgs_py.settings import setting, settings
 from auv_msgs_py.types import Current, Navigation, WaterVelocity
-from auv_path_following.paths.rows import LENGTH, PathRows, evaluate
+from auv_path_following.paths.rows import LENGTH, SPEED, PathRows
 
 
 @settings
@@ -121,8 +121,7 @@ def advanced(path: PathRows, i: int, way: float) -> Place:
     """Return the place `way` metres from the start of subpath `i`."""
     while True:
         row = path.subpath[i]
-        _, _, dx, dy, _, _ = evaluate(path, row, 0.0)
-        t = way / math.hypot(dx, dy)
+        t = way / row[SPEED]
         if t < 1.0:
             return i, t, False, 0.0
         way = max(way - row[LENGTH], 0.0)

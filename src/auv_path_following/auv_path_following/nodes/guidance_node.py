@@ -171,8 +171,7 @@ class GuidanceNode(SuiteNode):
         if broken and self.state.under_way:
             self.state.abort(broken)
         self._output = output
-        thrust = self.mission.thrust if self.state.running else 0.0
-        self._messages.fill(output, to_go, thrust, inputs.stamp)
+        self._messages.fill(output, to_go, self.mission.thrust if self.state.running else 0.0, inputs.stamp)
         self.answer(self._publish)
 
     def _publish(self) -> None:

@@ -81,8 +81,8 @@ def shortest(start: Pose, end: Pose, radius: float) -> Word:
 
     Two poses always have one: of LSL and RSR both exist.
     """
-    best = _word(start, end, radius, _WORDS[0])
-    for sides in _WORDS[1:]:
+    best = Word(STRAIGHT, STRAIGHT, STRAIGHT, 0.0, math.inf, 0.0)
+    for sides in _WORDS:
         word = _word(start, end, radius, sides)
         if _size(word) < _size(best):
             best = word

@@ -22,10 +22,12 @@ LINE, ARC, FERMAT, MIRRORED, SPIRAL, CUBIC, FITTED = map(float, range(1, 8))
 #   MIRRORED         x_end, y_end, c, w, chi_end; Eq. (13)
 #   SPIRAL           cx, cy, radius0, growth, a0, sweep
 #   CUBIC, FITTED    where its first piece begins in `PathRows.piece`, number of pieces
-# Then its length and the length of path after it (m), and the joint at its end: which it is (below), where
-# (m), the t from which on the subpath leads to it, both courses there (rad), half the shorter subpath (m).
-KIND, A, B, C, D, E, F, LENGTH, AFTER, JOINT, JOINT_X, JOINT_Y, STRETCH, CHI_IN, CHI_OUT, WIDEST = range(16)
-COLUMNS = 16
+# Then its length, the length of path after it and |dp/dt| at its start (m). Then the joint at its end: which
+# it is (below), where (m), the t from which on the subpath leads to it, both courses there (rad), half the
+# shorter subpath (m).
+KIND, A, B, C, D, E, F, LENGTH, AFTER, SPEED, JOINT, JOINT_X, JOINT_Y, STRETCH = range(14)
+CHI_IN, CHI_OUT, WIDEST = range(14, 17)
+COLUMNS = 17
 #: Values of JOINT: the end of the path; a joint at which the course is continuous; a corner (G0).
 END, SMOOTH, CORNER = map(float, range(3))
 
