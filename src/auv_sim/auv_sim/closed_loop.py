@@ -92,13 +92,13 @@ def fly(scenario: Scenario, progress: Callable[[float], None] | None = None) -> 
         One row per step. A mission that was completed ends with the row at which it was.
     """
     c = scenario
-    plant = SimulatedVehicle(c.vehicle, c.initial or start_of(c.path), c.sea, c.seed, c.current)
+    step_ns = round(c.step * 1e9)
+    dt = step_ns * 1e-9
+    plant = SimulatedVehicle(c.vehicle, c.initial or start_of(c.path), c.sea, c.seed, c.current, dt)
     observer = CurrentObserver(c.observer)
     hull = c.controller_vehicle or c.vehicle
     follower = PathFollower(c.path, c.guidance, agility_of(hull, c.thrust))
     autopilot = HeadingAutopilot(hull, c.autopilot)
-    step_ns = round(c.step * 1e9)
-    dt = step_ns * 1e-9
     rows: list[tuple[float, ...]] = []
     for k in range(int(c.time_limit / c.step) + 1):
         stamp = topics.FIRST_STAMP_NS + k * step_ns

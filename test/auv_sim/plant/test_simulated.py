@@ -10,6 +10,7 @@ from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.types import Command, Current
 from auv_path_following import config_files, vehicle
 from auv_sim.plant import sea
+from auv_sim.plant import simulated as simulated_module
 from auv_sim.plant.remus import (
     PlantInputs,
     PlantState,
@@ -87,6 +88,27 @@ def test_a_seed_is_a_run_and_a_reset_begins_it_again(name: str) -> None:
     other = flown(SimulatedVehicle(hull, START, sea.load(name), 5))
     assert other[-1] != first[-1]
     assert sea.load(name).name == name
+
+
+def test_drawing_on_leaves_a_run_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    hull = vehicle.load("remus100")
+    first = flown(SimulatedVehicle(hull, START, sea.load("rough"), 4))
+    monkeypatch.setattr(simulated_module, "_BLOCK", 7)
+    assert flown(SimulatedVehicle(hull, START, sea.load("rough"), 4)) == first
+
+
+def test_at_sea_another_step_than_that_of_the_run_is_refused() -> None:
+    simulated = SimulatedVehicle(vehicle.load("remus100"), START, sea.load("calm"), step=0.1)
+    simulated.advance(COMMANDS[0], 0.1)
+    with pytest.raises(ValueError, match=r"dt: found 0.05 s, expected the step of this run at sea, 0.1 s"):
+        simulated.advance(COMMANDS[0], 0.05)
+
+
+@pytest.mark.parametrize("name", ["rough", "blue_water"])
+def test_the_twist_is_nan_without_bottom_lock(name: str) -> None:
+    simulated = SimulatedVehicle(vehicle.load("remus100"), START, sea.load(name), 4)
+    u, v = simulated.ground_velocity
+    assert math.isnan(u) == math.isnan(v) == (name == "blue_water")
 
 
 def test_a_constant_current_comes_on_top_and_may_change() -> None:

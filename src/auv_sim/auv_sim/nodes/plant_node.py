@@ -39,8 +39,11 @@ class RemusPlantNode(SuiteNode):
         p: PlantParameters = self.parameters
         self.vehicle = vehicle.load(p.vehicle)
         at_sea = sea.load(p.sea) if p.sea else None
-        self.simulated = SimulatedVehicle(self.vehicle, p.initial.state, at_sea, p.seed, p.current.value)
         self.step_ns = round(p.step * 1e9)
+        self._dt = self.step_ns * 1e-9
+        self.simulated = SimulatedVehicle(
+            self.vehicle, p.initial.state, at_sea, p.seed, p.current.value, self._dt
+        )
         self.steps = 0
         self.mission_running = False
         self._mission = MissionWord(State)
@@ -124,7 +127,7 @@ class RemusPlantNode(SuiteNode):
             self.steps = 0
             self._commands.clear()
             return
-        self.simulated.advance(command, self.step_ns * 1e-9)
+        self.simulated.advance(command, self._dt)
         self.steps += 1
 
     def _on_rudder(self, message: Float64) -> None:

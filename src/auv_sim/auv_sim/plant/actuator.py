@@ -138,29 +138,29 @@ def turn_flawed(
     Raises:
         IndexError: commands came faster than the ring was made for.
     """
+    max_angle, max_rate, band, play, dead_time, size, ring = config
     angle, target, fin, clock, first, after = state
     if inputs.is_new:
-        command = min(max(inputs.angle, -config.max_angle), config.max_angle)
-        if config.dead_time > 0.0:
-            if after - first >= config.size:
+        command = min(max(inputs.angle, -max_angle), max_angle)
+        if dead_time > 0.0:
+            if after - first >= size:
                 raise IndexError("more commands within their dead time than the servo's ring holds")
-            slot = after % config.size
-            config.ring[slot], config.ring[config.size + slot] = clock + config.dead_time, command
+            ring[after % size], ring[size + after % size] = clock + dead_time, command
             after += 1
             target, first = _due(config, angle, target, clock, first, after)
         else:
-            target = _aim(config, angle, target, command)
-    error, half, reach = target - angle, config.max_rate * (0.5 * dt), config.max_rate * dt
+            target = _aim(band, angle, target, command)
+    error, half, reach = target - angle, max_rate * (0.5 * dt), max_rate * dt
     middle, end = angle + min(max(error, -half), half), angle + min(max(error, -reach), reach)
-    play = config.play
-    fins = Deflection(angle, middle, end)
     if play > 0.0:
         fins = Deflection(
             min(max(fin, angle - play), angle + play),
             min(max(fin, middle - play), middle + play),
             min(max(fin, end - play), end + play),
         )
-    if config.dead_time > 0.0:
+    else:
+        fins = Deflection(angle, middle, end)
+    if dead_time > 0.0:
         clock += dt
         target, first = _due(config, end, target, clock, first, after)
     return FlawedServoState(end, target, fins.end, clock, first, after), fins
@@ -172,16 +172,16 @@ def _due(
 ) -> tuple[float, int]:
     """Take the commands whose dead time is over; return the target and the first that remains."""
     while first < after and config.ring[first % config.size] <= clock + 1e-9:
-        target = _aim(config, angle, target, config.ring[config.size + first % config.size])
+        target = _aim(config.band, angle, target, config.ring[config.size + first % config.size])
         first += 1
     return target, first
 
 
 @pure
-def _aim(config: FlawedServo, angle: float, target: float, command: float) -> float:
+def _aim(band: float, angle: float, target: float, command: float) -> float:
     """Return the new target, rad: a servo at rest ignores a command within its dead band."""
     at_rest = abs(target - angle) < 1e-12
-    if not at_rest or abs(command - angle) > config.band or not config.band > 0.0:
+    if not at_rest or abs(command - angle) > band or not band > 0.0:
         return command
     return target
 

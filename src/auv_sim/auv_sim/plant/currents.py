@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
+from auv_msgs_py.pure import pure
 from auv_msgs_py.settings import Pair, setting, settings
 from auv_msgs_py.types import Current
-from auv_sim.plant.noise import GaussMarkov, Seed
+from auv_sim.plant.draws import Draws, Memory, Seed
+from auv_sim.plant.noise import GaussMarkov, gauss_markov, gauss_markov_of
 
 
 @settings
@@ -62,63 +65,122 @@ class CurrentConfig:
     tide: Tide = setting(factory=Tide, doc="in time: a tidal ellipse")
 
 
-class WaterCurrent:
-    """The velocity of the water where the vehicle is.
+class Heading(NamedTuple):
+    """Cosine and sine of a course."""
+
+    cos: float
+    sin: float
+
+
+class ShearFlow(NamedTuple):
+    """Numbers of a `Shear`: 1/s, m/s, m north and east."""
+
+    gradient: float
+    limit: float
+    x: float
+    y: float
+    course: Heading
+
+
+class JetFlow(NamedTuple):
+    """Numbers of a `Jet`: m/s, m, m north and east."""
+
+    speed: float
+    width: float
+    x: float
+    y: float
+    course: Heading
+
+
+class TideFlow(NamedTuple):
+    """Numbers of a `Tide`: m/s, s, rad; the courses of both axes."""
+
+    major: float
+    minor: float
+    period: float
+    phase: float
+    course: Heading
+    across: Heading
+
+
+class Water(NamedTuple):
+    """Configuration of the water's own movement; mean and variation are north and east."""
+
+    mean: Current
+    north: GaussMarkov
+    east: GaussMarkov
+    shear: ShearFlow
+    jet: JetFlow
+    tide: TideFlow
+
+
+def water_of(config: CurrentConfig, seed: Seed, draws: Draws) -> tuple[Water, float, float]:
+    """Return the configuration of the water, and north and east of the first deviation from its mean, m/s.
+
+    Args:
+        config: the parts.
+        seed: of its generators.
+        draws: of the run.
+    """
+    v, s, j, t = config.variation, config.shear, config.jet, config.tide
+    north, Vx = gauss_markov_of(v.deviation, v.time, (*seed, 0), draws, v.limit)
+    east, Vy = gauss_markov_of(v.deviation, v.time, (*seed, 1), draws, v.limit)
+    tide = TideFlow(
+        t.major,
+        t.minor,
+        t.period,
+        math.radians(t.phase_deg),
+        _heading(t.course_deg),
+        _heading(t.course_deg + 90.0),
+    )
+    shear = ShearFlow(s.gradient, s.limit, *s.point, _heading(s.course_deg))
+    jet = JetFlow(j.speed, j.width, *j.point, _heading(j.course_deg))
+    return Water(Current(*config.mean), north, east, shear, jet, tide), Vx, Vy
+
+
+def _heading(course_deg: float) -> Heading:
+    course = math.radians(course_deg)
+    return Heading(math.cos(course), math.sin(course))
+
+
+@pure
+def vary(config: Water, north: float, east: float, memory: Memory, dt: float) -> tuple[float, float]:
+    """Return north and east of the deviation from the mean `dt` seconds later, m/s."""
+    return gauss_markov(config.north, north, memory, dt), gauss_markov(config.east, east, memory, dt)
+
+
+@pure
+def flow(config: Water, north: float, east: float, x: float, y: float, time: float) -> Current:
+    """Return the velocity of the water at a place, m/s, NED.
 
     The plant takes it as constant over a step and the hull's inertia against its changes as nothing, which
     holds while the water changes slowly against the hull's own second or two.
 
     Args:
         config: the parts.
-        seed: of its generators.
+        north, east: deviation from the mean, m/s.
+        x, y: NED, m.
+        time: since the beginning, s.
     """
-
-    def __init__(self, config: CurrentConfig, seed: Seed) -> None:
-        self.config = config
-        v = config.variation
-        self._north = GaussMarkov(v.deviation, v.time, (*seed, 0), v.limit)
-        self._east = GaussMarkov(v.deviation, v.time, (*seed, 1), v.limit)
-        self.reset()
-
-    def reset(self) -> None:
-        """Begin the same run again."""
-        self._north.reset()
-        self._east.reset()
-        self._time = 0.0
-
-    def update(self, x: float, y: float, dt: float) -> Current:
-        """The current at (x, y) (m, NED) `dt` seconds later, m/s, NED."""
-        self._time += dt
-        self._north.update(dt)
-        self._east.update(dt)
-        return self.at(x, y)
-
-    def at(self, x: float, y: float) -> Current:
-        """The present current at a place (m, NED), m/s, NED."""
-        c = self.config
-        Vx, Vy = c.mean[0] + self._north.value, c.mean[1] + self._east.value
-        if c.shear.gradient:
-            s = c.shear
-            speed = s.gradient * _across(x, y, s.point, s.course_deg)
-            Vx, Vy = _along(Vx, Vy, min(max(speed, -s.limit), s.limit), s.course_deg)
-        if c.jet.speed:
-            j = c.jet
-            far = min(abs(_across(x, y, j.point, j.course_deg)) / j.width, 300.0)
-            Vx, Vy = _along(Vx, Vy, j.speed / math.cosh(far) ** 2, j.course_deg)
-        if c.tide.major or c.tide.minor:
-            t = c.tide
-            turn = 2.0 * math.pi * self._time / t.period + math.radians(t.phase_deg)
-            Vx, Vy = _along(Vx, Vy, t.major * math.cos(turn), t.course_deg)
-            Vx, Vy = _along(Vx, Vy, t.minor * math.sin(turn), t.course_deg + 90.0)
-        return Current(Vx, Vy)
+    Vx, Vy = config.mean.Vx + north, config.mean.Vy + east
+    shear, jet, tide = config.shear, config.jet, config.tide
+    if shear.gradient != 0.0:
+        speed = shear.gradient * _across(x, y, shear.x, shear.y, shear.course)
+        speed = min(max(speed, -shear.limit), shear.limit)
+        Vx, Vy = Vx + speed * shear.course.cos, Vy + speed * shear.course.sin
+    if jet.speed > 0.0:
+        far = min(abs(_across(x, y, jet.x, jet.y, jet.course)) / jet.width, 300.0)
+        speed = jet.speed / math.cosh(far) ** 2
+        Vx, Vy = Vx + speed * jet.course.cos, Vy + speed * jet.course.sin
+    if tide.major > 0.0 or tide.minor != 0.0:
+        turn = 2.0 * math.pi * time / tide.period + tide.phase
+        major, minor = tide.major * math.cos(turn), tide.minor * math.sin(turn)
+        Vx, Vy = Vx + major * tide.course.cos, Vy + major * tide.course.sin
+        Vx, Vy = Vx + minor * tide.across.cos, Vy + minor * tide.across.sin
+    return Current(Vx, Vy)
 
 
-def _across(x: float, y: float, point: Pair, course_deg: float) -> float:
-    """Metres to starboard of the line through `point`."""
-    course = math.radians(course_deg)
-    return -(x - point[0]) * math.sin(course) + (y - point[1]) * math.cos(course)
-
-
-def _along(Vx: float, Vy: float, speed: float, course_deg: float) -> tuple[float, float]:
-    course = math.radians(course_deg)
-    return Vx + speed * math.cos(course), Vy + speed * math.sin(course)
+@pure
+def _across(x: float, y: float, x0: float, y0: float, course: Heading) -> float:
+    """Return how far (x, y) is to starboard of the line through (x0, y0), m."""
+    return -(x - x0) * course.sin + (y - y0) * course.cos

@@ -6,19 +6,24 @@ and a current that it has learned. A Kalman filter weighs the fixes against it; 
 
 from __future__ import annotations
 
-import cmath
 import math
-from collections import deque
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
+from auv_msgs_py.pure import numbers, numbers_of, pure
 from auv_msgs_py.settings import setting, settings
 from auv_msgs_py.types import Navigation
-from auv_sim.plant.sensors import Fix, Measurements
+from auv_sim.plant.draws import Draws, Now, Ring, slot
+from auv_sim.plant.position_fixes import Fixes
+from auv_sim.plant.sensors import Measurements
+
+#: For so long dead reckoning is kept, s: no fix is older.
+TRACK_TIME = 30.0
 
 
+@numbers
 @settings
 class NavigatorConfig:
-    """What the navigator believes of its instruments."""
+    """What the navigator assumes of its instruments."""
 
     start: float = setting(
         0.5, "standard deviation of the position it starts with, north and east", unit="m", gt=0.0
@@ -40,130 +45,189 @@ class NavigatorConfig:
     blend: float = setting(5.0, "a correction is spread over so long: the pose never jumps", unit="s", ge=0.0)
 
 
-class NavigatorOutput(NamedTuple):
-    """The pose (NED), the velocity over ground (m/s, NaN without bottom lock), the filter's own opinion.
+class Navigator(NamedTuple):
+    """Configuration of the navigator.
 
-    `deviation` is the standard deviation it claims for north and east, m; `refused` counts fixes.
+    Attributes:
+        assumed: the numbers of a `NavigatorConfig`.
+        latency, fixes: of the position fixes: s, and their ring.
+        track: ring of 30 s of dead reckoning: time (s), way north and east (m) since the beginning.
     """
 
-    navigation: Navigation
-    u: float
-    v: float
-    deviation: float
+    assumed: Any
+    latency: float
+    fixes: Ring
+    track: Ring
+
+
+class NavigatorState(NamedTuple):
+    """State of the filter.
+
+    Attributes:
+        z: position, north + i east, m.
+        shown: what is still to be corrected in the pose that is shown, m.
+        P_z, P_ze: variance of the position, m^2; covariance with the error of the source of velocity.
+        bottom, water: the slow errors of both sources of velocity, north + i east, m/s.
+        P_bottom, P_water: their variances.
+        on_water: whether the last velocity was one through the water.
+        velocity: the last one, north + i east, m/s.
+        way: dead reckoning since the beginning, m.
+        in_a_row, refused: fixes that were refused since one was taken, and in all.
+    """
+
+    z: complex
+    shown: complex
+    P_z: float
+    P_ze: complex
+    bottom: complex
+    P_bottom: float
+    water: complex
+    P_water: float
+    on_water: bool
+    velocity: complex
+    way: complex
+    in_a_row: int
     refused: int
 
 
-class _Error:
-    """The slow error of a source of velocity, as a complex number, and what is known of it."""
-
-    def __init__(self, deviation: float) -> None:
-        self.deviation = deviation
-        self.value = 0.0 + 0.0j
-        self.variance = deviation * deviation
-
-
-class Navigator:
-    """Kalman filter for position and the slow error of the velocity that carries it on.
-
-    North and east are the real and the imaginary part of one complex number, for their errors are alike and
-    independent: so two states are enough, z (m) and the error e (m/s), which walks at random. With bottom
-    lock z' = exp(i psi) (u + i v + e), and e turns with the vehicle: a crooked compass, a wrong scale.
-    Without, z' = exp(i psi) (ur + i vr) + e, and e is the current. Variances are those of one axis: P_z and
-    that of e are real, P_ze, between them, is complex.
+def navigator_of(config: NavigatorConfig, fixes: Fixes, draws: Draws) -> Navigator:
+    """Return the configuration of a navigator.
 
     Args:
-        config: what it believes.
+        config: what it assumes of its instruments.
+        fixes: the position fixes that it gets.
+        draws: of the run.
     """
+    track = draws.ring(math.ceil(TRACK_TIME / draws.step) + 3, 3)
+    return Navigator(numbers_of(config), fixes.latency, fixes.ring, track)
 
-    def __init__(self, config: NavigatorConfig) -> None:
-        self.config = config
-        self.reset(0.0, 0.0)
 
-    def reset(self, x: float, y: float) -> None:
-        """Start from a position (m, north, east), known to `config.start`."""
-        c = self.config
-        self._z, self._shown = complex(x, y), 0.0 + 0.0j
-        self._P_z, self._P_ze = c.start * c.start, 0.0 + 0.0j
-        self._bottom, self._water = _Error(c.bottom_error), _Error(c.water_error)
-        self._source = self._bottom
-        self._track: deque[tuple[float, complex]] = deque([(0.0, 0.0 + 0.0j)])
-        self._time = 0.0
-        self._velocity = 0.0 + 0.0j
-        self._in_a_row = self.refused = 0
+def navigator_at(config: Navigator, x: float, y: float) -> NavigatorState:
+    """Return the state of a navigator that starts from a position (m, north, east), known to `start`."""
+    c = config.assumed
+    P_bottom, P_water = c.bottom_error * c.bottom_error, c.water_error * c.water_error
+    return NavigatorState(
+        complex(x, y), 0j, c.start * c.start, 0j, 0j, P_bottom, 0j, P_water, False, 0j, 0j, 0, 0
+    )
 
-    def update(self, measured: Measurements, dt: float) -> NavigatorOutput:
-        """One step: carry on, weigh the fixes that came.
 
-        Args:
-            measured: the instruments' measurements.
-            dt: seconds since the last update.
-        """
-        turn = cmath.exp(1j * measured.psi)
-        self._carry_on(measured, turn, dt)
-        for fix in measured.fixes:
-            self._weigh(fix)
-        u, v = measured.bottom or (math.nan, math.nan)
-        shown = self._z + self._shown
-        navigation = Navigation(shown.real, shown.imag, measured.psi, measured.r)
-        return NavigatorOutput(navigation, u, v, math.sqrt(self._P_z), self.refused)
+@pure
+def navigate(
+    config: Navigator, state: NavigatorState, measured: Measurements, now: Now, dt: float
+) -> tuple[NavigatorState, Navigation]:
+    """Carry on by dead reckoning, weigh the fixes that came; return the pose that is shown as well.
 
-    def _carry_on(self, measured: Measurements, turn: complex, dt: float) -> None:
-        c = self.config
-        through = turn * complex(*measured.water)
-        source = self._water if measured.bottom is None else self._bottom
-        if source is not self._source:
-            self._source, self._P_ze = source, 0.0 + 0.0j
-            self._water.variance = c.water_error**2
-        if measured.bottom is None:
-            axes, velocity = 1.0 + 0.0j, through
+    A Kalman filter for the position and the slow error of the velocity that carries it on. North and east are
+    the real and the imaginary part of one complex number, for their errors are alike and independent: so two
+    states are enough, z (m) and the error e (m/s), which walks at random. With bottom lock
+    z' = exp(i psi) (u + i v + e), and e turns with the vehicle: a crooked compass, a wrong scale. Without,
+    z' = exp(i psi) (ur + i vr) + e, and e is the current. Variances are those of one axis: P_z and that of e
+    are real, P_ze, between them, is complex.
+    """
+    state = _carry_on(config, state, measured, now, dt)
+    for k in range(measured.first, measured.after):
+        at, kept = slot(config.fixes, k), now.memory.kept
+        age = config.latency + max(now.time - kept[at], 0.0)
+        state = _weigh(config, state, complex(kept[at + 1], kept[at + 2]), age, now)
+    shown = state.z + state.shown
+    return state, Navigation(shown.real, shown.imag, measured.psi, measured.r)
+
+
+@pure
+def _carry_on(
+    config: Navigator, state: NavigatorState, measured: Measurements, now: Now, dt: float
+) -> NavigatorState:
+    c = config.assumed
+    z, shown, P_z, P_ze, bottom, P_bottom, water, P_water, on_water, last, way, in_a_row, refused = state
+    psi, _, (ur, vr), _, u, v, lock, _, _ = measured
+    turn = complex(math.cos(psi), math.sin(psi))
+    through = turn * complex(ur, vr)
+    if on_water == lock:
+        P_ze, P_water = 0j, c.water_error**2
+    axes, velocity, error, variance, deviation = 1.0 + 0j, through, water, P_water, c.water_error
+    if lock:
+        axes, velocity, error, variance, deviation = (
+            turn,
+            turn * complex(u, v),
+            bottom,
+            P_bottom,
+            c.bottom_error,
+        )
+        water += (velocity + turn * bottom - through - water) * -math.expm1(-dt / c.current_time)
+    # Trapezoidal: the velocity is the mean of its two ends.
+    velocity += axes * error
+    step = 0.5 * (velocity + last) * dt
+    P_z += 2.0 * dt * (axes * P_ze.conjugate()).real + dt * dt * variance
+    P_z += c.walk * c.walk * dt
+    P_ze += axes * dt * variance
+    variance += 2.0 * deviation**2 * dt / c.error_time
+    if lock:
+        P_bottom = variance
+    else:
+        P_water = variance
+    shown *= math.exp(-dt / c.blend) if c.blend > 0.0 else 0.0
+    way += step
+    at, kept = slot(config.track, now.k), now.memory.kept
+    kept[at], kept[at + 1], kept[at + 2] = now.time, way.real, way.imag
+    return NavigatorState(
+        z + step,
+        shown,
+        P_z,
+        P_ze,
+        bottom,
+        P_bottom,
+        water,
+        P_water,
+        not lock,
+        velocity,
+        way,
+        in_a_row,
+        refused,
+    )
+
+
+@pure
+def _weigh(config: Navigator, state: NavigatorState, fix: complex, age: float, now: Now) -> NavigatorState:
+    """Take a fix (north + i east, m) that was true `age` seconds ago, or refuse it."""
+    c = config.assumed
+    z, shown, P_z, P_ze, bottom, P_bottom, water, P_water, on_water, velocity, way, in_a_row, refused = state
+    innovation = fix - (z - _way_since(config.track, way, age, now))
+    S = P_z + c.fix * c.fix
+    if abs(innovation) ** 2 > c.gate * c.gate * S:
+        refused, in_a_row = refused + 1, in_a_row + 1
+        if in_a_row >= c.patience:
+            P_z *= 2.0
+    else:
+        in_a_row = 0
+        correction, error = P_z / S * innovation, P_ze.conjugate() / S * innovation
+        known = abs(P_ze) ** 2 / S
+        if on_water:
+            water, P_water = water + error, P_water - known
         else:
-            axes, velocity = turn, turn * complex(*measured.bottom)
-            current = velocity + turn * source.value - through
-            self._water.value += (current - self._water.value) * -math.expm1(-dt / c.current_time)
-        # Trapezoidal: the velocity is the mean of its two ends.
-        now = velocity + axes * source.value
-        step = 0.5 * (now + self._velocity) * dt
-        self._velocity = now
-        self._P_z += 2.0 * dt * (axes * self._P_ze.conjugate()).real + dt * dt * source.variance
-        self._P_z += c.walk * c.walk * dt
-        self._P_ze += axes * dt * source.variance
-        source.variance += 2.0 * source.deviation**2 * dt / c.error_time
-        self._z += step
-        self._shown *= math.exp(-dt / c.blend) if c.blend else 0.0
-        self._time += dt
-        self._track.append((self._time, self._track[-1][1] + step))
-        while len(self._track) > 2 and self._track[1][0] < self._time - 30.0:
-            self._track.popleft()
+            bottom, P_bottom = bottom + error, P_bottom - known
+        P_ze *= 1.0 - P_z / S
+        P_z *= 1.0 - P_z / S
+        z += correction
+        if c.blend > 0.0:
+            shown -= correction
+    return NavigatorState(
+        z, shown, P_z, P_ze, bottom, P_bottom, water, P_water, on_water, velocity, way, in_a_row, refused
+    )
 
-    def _weigh(self, fix: Fix) -> None:
-        c = self.config
-        innovation = complex(fix.x, fix.y) - (self._z - self._way_since(fix.age))
-        S = self._P_z + c.fix * c.fix
-        if abs(innovation) ** 2 > c.gate * c.gate * S:
-            self.refused += 1
-            self._in_a_row += 1
-            if self._in_a_row >= c.patience:
-                self._P_z *= 2.0
-            return
-        self._in_a_row = 0
-        source = self._source
-        correction = self._P_z / S * innovation
-        source.value += self._P_ze.conjugate() / S * innovation
-        source.variance -= abs(self._P_ze) ** 2 / S
-        self._P_ze *= 1.0 - self._P_z / S
-        self._P_z *= 1.0 - self._P_z / S
-        self._z += correction
-        if c.blend:
-            self._shown -= correction
 
-    def _way_since(self, age: float) -> complex:
-        """How far dead reckoning has come since then, m."""
-        then, newest = self._time - age, self._track[-1][1]
-        for k in range(len(self._track) - 1, -1, -1):
-            at, way = self._track[k]
-            if at <= then:
-                if k + 1 == len(self._track):
-                    return newest - way
-                later, further = self._track[k + 1]
-                return newest - way - (further - way) * (then - at) / (later - at)
-        return newest - self._track[0][1]
+@pure
+def _way_since(track: Ring, newest: complex, age: float, now: Now) -> complex:
+    """Return how far dead reckoning has come since `age` seconds ago, north + i east, m."""
+    then, kept = now.time - age, now.memory.kept
+    later, further = now.time, newest
+    for k in range(now.k, -1, -1):
+        at = slot(track, k)
+        time, way = float(kept[at]), complex(kept[at + 1], kept[at + 2])
+        if time <= then:
+            if k == now.k:
+                return newest - way
+            return newest - way - (further - way) * (then - time) / (later - time)
+        later, further = time, way
+        if time < now.time - TRACK_TIME:
+            break
+    return newest - further

@@ -1,27 +1,16 @@
-"""What a measurement has besides the truth: white noise, a constant offset, a slow drift, gaps, lateness.
-
-Every law draws from a generator of its own, made from a seed: two runs are equal to the last bit, a reset
-begins the same run again, and switching one error off leaves all others as they were.
-"""
+"""What a measurement has besides the truth: white noise, a constant offset, a slow drift, gaps, lateness."""
 
 from __future__ import annotations
 
 import math
-from collections import deque
-from collections.abc import Sequence
-from typing import Generic, TypeVar
+from typing import NamedTuple
 
-import numpy as np
-
+from auv_msgs_py.pure import pure
 from auv_msgs_py.settings import setting, settings
-
-T = TypeVar("T")
-
-#: The seed of the run, and the place of the law in it.
-Seed = Sequence[int]
+from auv_sim.plant.draws import Draws, Memory, Ring, Row, Seed, draw, slot
 
 #: Times are compared with this tolerance, s: they are sums of steps.
-_SAME = 1e-9
+SAME = 1e-9
 
 
 @settings
@@ -34,70 +23,6 @@ class NoiseConfig:
     drift_time: float = setting(60.0, "time in which the drift forgets itself", unit="s", gt=0.0)
 
 
-class GaussMarkov:
-    """First-order Gauss-Markov process, discretised exactly for any step: Fossen's model of a current.
-
-    V' = -V/T + w, with w such that V has the given standard deviation at all times, the first included.
-
-    Args:
-        deviation: standard deviation.
-        time: time constant T, s.
-        seed: of its generator.
-        limit: the value is kept within +- this.
-    """
-
-    def __init__(self, deviation: float, time: float, seed: Seed, limit: float = math.inf) -> None:
-        self.deviation, self.time, self.limit, self._seed = deviation, time, limit, tuple(seed)
-        self.reset()
-
-    def reset(self) -> None:
-        """Begin the same run again."""
-        self._generator = np.random.default_rng(self._seed)
-        self._decay: tuple[float, float, float] = (-1.0, 1.0, 0.0)
-        self.value = self._within(self.deviation * float(self._generator.standard_normal()))
-
-    def update(self, dt: float) -> float:
-        """The value `dt` seconds later."""
-        if self.deviation and dt > 0.0:
-            known, keep, fresh = self._decay
-            if dt != known:
-                keep = math.exp(-dt / self.time)
-                fresh = self.deviation * math.sqrt(-math.expm1(-2.0 * dt / self.time))
-                self._decay = dt, keep, fresh
-            self.value = self._within(keep * self.value + fresh * float(self._generator.standard_normal()))
-        return self.value
-
-    def _within(self, value: float) -> float:
-        return min(max(value, -self.limit), self.limit)
-
-
-class Noise:
-    """The error of one measured number.
-
-    Args:
-        config: how large.
-        seed: of its generators.
-    """
-
-    def __init__(self, config: NoiseConfig, seed: Seed) -> None:
-        self.config, self._seed = config, tuple(seed)
-        self._drift = GaussMarkov(config.drift, config.drift_time, (*self._seed, 1))
-        self.reset()
-
-    def reset(self) -> None:
-        """Begin the same run again: the same offset, the same noise."""
-        self._generator = np.random.default_rng((*self._seed, 0))
-        self.bias = self.config.bias * float(self._generator.standard_normal())
-        self._drift.reset()
-
-    def update(self, dt: float) -> float:
-        """The error of the measurement `dt` seconds after the last one."""
-        error = self.bias + self._drift.update(dt)
-        if self.config.white:
-            error += self.config.white * float(self._generator.standard_normal())
-        return error
-
-
 @settings
 class DropoutConfig:
     """Gaps that come and go at random; both times are means of exponential distributions."""
@@ -106,84 +31,163 @@ class DropoutConfig:
     length: float = setting(1.0, "mean length of a gap", unit="s", gt=0.0)
 
 
-class Dropouts:
-    """Whether a sensor is silent.
+class GaussMarkov(NamedTuple):
+    """Configuration of a first-order Gauss-Markov process, Fossen's model of a current.
+
+    Attributes:
+        deviation: standard deviation.
+        time: time constant T, s.
+        limit: the value is kept within +- this.
+        step, keep, fresh: the discrete process for the usual step (s): what it keeps of its value, and the
+            standard deviation of what it adds.
+        row: normal numbers.
+    """
+
+    deviation: float
+    time: float
+    limit: float
+    step: float
+    keep: float
+    fresh: float
+    row: Row
+
+
+def gauss_markov_of(
+    deviation: float, time: float, seed: Seed, draws: Draws, limit: float = math.inf, rate: float = 0.0
+) -> tuple[GaussMarkov, float]:
+    """Return the configuration of a process and its first value.
 
     Args:
-        config: how often and how long.
+        deviation, time, limit: as in `GaussMarkov`.
         seed: of its generator.
+        draws: of the run.
+        rate: how often it is asked, 1/s; 0: at every step.
     """
-
-    def __init__(self, config: DropoutConfig, seed: Seed) -> None:
-        self.config, self._seed = config, tuple(seed)
-        self.reset()
-
-    def reset(self) -> None:
-        """Begin the same run again, with the sensor speaking."""
-        self._generator = np.random.default_rng(self._seed)
-        self.silent = False
-        self._left = self._lasts()
-
-    def update(self, dt: float) -> bool:
-        """Whether it is silent `dt` seconds later."""
-        self._left -= dt
-        while self._left <= 0.0:
-            self.silent = not self.silent
-            self._left += self._lasts()
-        return self.silent
-
-    def _lasts(self) -> float:
-        if not self.config.every:
-            return math.inf
-        mean = self.config.length if self.silent else self.config.every
-        return mean * float(self._generator.standard_exponential())
+    generator = draws.generator(seed)
+    first = deviation * float(generator.standard_normal())
+    row = draws.normals(generator, rate) if deviation else draws.none()
+    step = draws.step
+    config = GaussMarkov(deviation, time, limit, step, *discrete(deviation, time, step), row)
+    return config, min(max(first, -limit), limit)
 
 
-class Sampler:
-    """When a sensor of a given rate measures.
+@pure
+def discrete(deviation: float, time: float, dt: float) -> tuple[float, float]:
+    """Return the share of its value that a process keeps over `dt` seconds, and the deviation of the rest."""
+    return math.exp(-dt / time), deviation * math.sqrt(-math.expm1(-2.0 * dt / time))
+
+
+@pure
+def gauss_markov(config: GaussMarkov, value: float, memory: Memory, dt: float) -> float:
+    """Return the value `dt` seconds later: V' = -V/T + w, discretised exactly."""
+    deviation, time, limit, step, keep, fresh, row = config
+    if not (deviation > 0.0 and dt > 0.0):
+        return value
+    if dt != step:
+        keep, fresh = discrete(deviation, time, dt)
+    return min(max(keep * value + fresh * draw(memory, row), -limit), limit)
+
+
+class Noise(NamedTuple):
+    """Configuration of the error of one measured number in one run: its offset, white noise and drift."""
+
+    bias: float
+    white: float
+    row: Row
+    drift: GaussMarkov
+
+
+def noise_of(config: NoiseConfig, seed: Seed, draws: Draws, rate: float = 0.0) -> tuple[Noise, float]:
+    """Return the configuration of an error and the first value of its drift.
 
     Args:
-        rate: measurements a second; 0 for one at every step.
+        config: how large it is.
+        seed: of its generators.
+        draws: of the run.
+        rate: measurements a second; 0: at every step.
     """
-
-    def __init__(self, rate: float) -> None:
-        self._period = 1.0 / rate if rate else 0.0
-        self.reset()
-
-    def reset(self) -> None:
-        """The next update is the first measurement."""
-        self._until = 0.0
-
-    def update(self, dt: float) -> bool:
-        """Whether it measures `dt` seconds later."""
-        self._until -= dt
-        if self._until > _SAME:
-            return False
-        # The beat is kept; a step longer than the period is one measurement all the same.
-        self._until = max(self._until + self._period, 0.0)
-        return True
+    generator = draws.generator((*seed, 0))
+    bias = config.bias * float(generator.standard_normal())
+    row = draws.normals(generator, rate) if config.white else draws.none()
+    drift, first = gauss_markov_of(config.drift, config.drift_time, (*seed, 1), draws, rate=rate)
+    return Noise(bias, config.white, row, drift), first
 
 
-class Delay(Generic[T]):
-    """Hands on what was measured `latency` seconds ago; at the beginning, the oldest there is.
+@pure
+def noise(config: Noise, drift: float, memory: Memory, dt: float) -> tuple[float, float]:
+    """Return the drift and the error of the measurement `dt` seconds after the last one."""
+    bias, white, row, process = config
+    drift = gauss_markov(process, drift, memory, dt)
+    error = bias + drift
+    if white > 0.0:
+        error += white * draw(memory, row)
+    return drift, error
+
+
+class Dropouts(NamedTuple):
+    """Configuration of a sensor's gaps: mean time to the next one and mean length, s."""
+
+    every: float
+    length: float
+    row: Row
+
+
+def dropouts_of(config: DropoutConfig, seed: Seed, draws: Draws) -> tuple[Dropouts, float]:
+    """Return the configuration of a sensor's gaps, and the time until the first, s."""
+    if not config.every:
+        return Dropouts(config.every, config.length, draws.none()), math.inf
+    generator = draws.generator(seed)
+    left = config.every * float(generator.standard_exponential())
+    row = draws.exponentials(generator, 0.5 * (config.every + config.length))
+    return Dropouts(config.every, config.length, row), left
+
+
+@pure
+def dropouts(config: Dropouts, silent: bool, left: float, memory: Memory, dt: float) -> tuple[bool, float]:
+    """Return whether a sensor is silent `dt` seconds later, and for how long this remains so, s."""
+    left -= dt
+    while left <= 0.0:
+        silent = not silent
+        left += (config.length if silent else config.every) * draw(memory, config.row)
+    return silent, left
+
+
+def period_of(rate: float) -> float:
+    """Return the period of a sensor's rate (1/s), s; 0 for one that measures at every step."""
+    return 1.0 / rate if rate else 0.0
+
+
+@pure
+def sampler(period: float, until: float, dt: float) -> tuple[float, bool]:
+    """Return when a sensor measures next, in s, and whether it measures `dt` seconds later.
+
+    The beat is kept; a step longer than the period is one measurement all the same.
 
     Args:
-        latency: s; rounded up to whole steps.
+        period: s; 0 for a measurement at every step.
+        until: 0 at first.
+        dt: s.
     """
+    until -= dt
+    if until > SAME:
+        return until, False
+    return max(until + period, 0.0), True
 
-    def __init__(self, latency: float) -> None:
-        self._latency = latency
-        self.reset()
 
-    def reset(self) -> None:
-        """Forget what is on its way."""
-        self._now = 0.0
-        self._on_its_way: deque[tuple[float, T]] = deque()
+class Delay(NamedTuple):
+    """Configuration of a delay: how many steps it takes, and the ring of what is on its way."""
 
-    def update(self, value: T, dt: float) -> T:
-        """Take in the value `dt` seconds later, hand out the one that arrives then."""
-        self._now += dt
-        self._on_its_way.append((self._now, value))
-        while len(self._on_its_way) > 1 and self._on_its_way[1][0] <= self._now - self._latency + _SAME:
-            self._on_its_way.popleft()
-        return self._on_its_way[0][1]
+    steps: int
+    ring: Ring
+
+
+def delay_of(latency: float, draws: Draws, width: int = 1) -> Delay:
+    """Return the delay of a latency (s, rounded up to whole steps) for entries of `width` numbers."""
+    steps = max(math.ceil((latency - SAME) / draws.step), 0)
+    return Delay(steps, draws.ring(steps + 1, width))
+
+
+@pure
+def delayed(delay: Delay, k: int) -> int:
+    """Return where in `Memory.kept` the entry lies that arrives at step `k`; at first, the oldest one."""
+    return slot(delay.ring, max(k - delay.steps, 0))

@@ -1,21 +1,19 @@
 """The simulated vehicle as its driver sees it: commands in, its own navigation out.
 
-Without a sea the navigation is ideal and the water moves as it is told. With one, instruments measure, the
-navigator fuses, the servo has play, and only `true_navigation` knows where the vehicle really is.
+Without a sea the navigation is ideal and only the current given moves the water. With one, instruments
+measure, the navigator fuses, the servo has play, and only the truth is true.
 """
 
 from __future__ import annotations
 
 import math
+from typing import Any
 
-import numpy as np
-
-from auv_msgs_py.types import NO_CURRENT, Command, Current, Navigation, WaterVelocity
+from auv_msgs_py.pure import dispatched, pure
+from auv_msgs_py.types import NO_CURRENT, STOP, Command, Current, Navigation, WaterVelocity
 from auv_path_following.vehicle import Vehicle
-from auv_sim.plant.actuator import FlawedServoState, flawed_servo_of
-from auv_sim.plant.currents import WaterCurrent
-from auv_sim.plant.navigator import Navigator, NavigatorOutput
-from auv_sim.plant.noise import Noise
+from auv_sim.plant.at_sea import Seen, VehicleAtSea, at_sea_of, measure_at_sea, step_at_sea
+from auv_sim.plant.draws import Draws
 from auv_sim.plant.remus import (
     Afloat,
     Plant,
@@ -28,10 +26,31 @@ from auv_sim.plant.remus import (
     plant_step,
 )
 from auv_sim.plant.sea import Sea
-from auv_sim.plant.sensors import Measurements, Sensors, Truth
 
-#: Shortest time between two commands at sea, s.
-_SHORTEST_STEP = 0.001
+#: After so many steps random numbers are drawn anew.
+_BLOCK = 1000
+
+
+@pure
+def measure(config: Plant, state: Afloat, inputs: PlantInputs, dt: float) -> tuple[Afloat, Seen]:
+    """Return ideal measurements; velocity over ground is not among them."""
+    hull = state.hull
+    water = WaterVelocity(hull.ur, hull.vr)
+    seen = Seen(navigation_of(hull), water, True, math.nan, math.nan, hull, state.servo.angle, inputs.current)
+    return state, seen
+
+
+@pure
+def step(config: Plant, state: Afloat, inputs: PlantInputs, dt: float) -> tuple[Afloat, Seen]:
+    """Let `dt` seconds pass under a held command and current, then measure."""
+    state, _ = plant_step(config, state, inputs, dt)
+    return measure(config, state, inputs, dt)
+
+
+#: The first measurement of a vehicle, and one step of it: (configuration, state, `PlantInputs` with the
+#: constant current, dt) -> (state, `Seen`). A sea costs only those who fly in one.
+vehicle_measure = dispatched({Plant: measure, VehicleAtSea: measure_at_sea})
+vehicle_step = dispatched({Plant: step, VehicleAtSea: step_at_sea})
 
 
 class SimulatedVehicle:
@@ -43,6 +62,7 @@ class SimulatedVehicle:
         sea: what is not ideal; None: nothing.
         seed: of everything that is random in it.
         current: constant current, m/s, NED, on top of the sea's own; may be changed at any time.
+        step: time that passes at each `advance` at sea, s.
     """
 
     def __init__(
@@ -52,48 +72,75 @@ class SimulatedVehicle:
         sea: Sea | None = None,
         seed: int = 0,
         current: Current = NO_CURRENT,
+        step: float = 0.05,
     ) -> None:
-        self._config, self._initial = plant_of(vehicle), plant_at(initial)
-        if sea is not None:
-            servo = flawed_servo_of(vehicle.rudder, sea.rudder, _SHORTEST_STEP)
-            self._config = self._config._replace(servo=servo)
-            self._initial = Afloat(self._initial.hull, FlawedServoState())
+        self._vehicle, self._initial, self._sea, self._seed = vehicle, initial, sea, seed
+        self._step = step
         self.constant_current = current
-        self._at_sea = _AtSea(sea, seed) if sea else None
         self.reset()
 
     def reset(self) -> None:
         """Begin the same run again."""
-        self.state = self._initial
-        if self._at_sea is not None:
-            self._at_sea.reset(self.motion, self.constant_current)
+        self._left = _BLOCK
+        self._config: Any
+        self.state: Any
+        self._seen: Seen
+        if self._sea is None:
+            self._config, self.state = plant_of(self._vehicle), plant_at(self._initial)
+        else:
+            # One more for the first measurement.
+            self._draws = Draws(self._step, _BLOCK + 1)
+            self._config, self.state = at_sea_of(
+                self._vehicle, self._initial, self._sea, self._seed, self._draws
+            )
+        inputs = PlantInputs(STOP, self.constant_current)
+        self.state, self._seen = vehicle_measure(self._config, self.state, inputs, 0.0)
+
+    def advance(self, command: Command, dt: float) -> None:
+        """Let `dt` seconds pass under a held command, then measure.
+
+        Raises:
+            ValueError: at sea, not the step that random numbers and rings were laid out for.
+        """
+        if self._sea is not None:
+            if dt != self._step:
+                raise ValueError(
+                    f"dt: found {dt:g} s, expected the step of this run at sea, {self._step:g} s"
+                )
+            if self._left == 0:
+                self._draws.refill(self._config.memory)
+                self._left = _BLOCK
+            self._left -= 1
+        inputs = PlantInputs(command, self.constant_current)
+        self.state, self._seen = vehicle_step(self._config, self.state, inputs, dt)
+
+    def place(self, motion: PlantState) -> None:
+        """Move the hull; servo, instruments and navigator keep their state."""
+        afloat = Afloat(motion, self._afloat.servo)
+        self.state = afloat if self._sea is None else self.state._replace(afloat=afloat)
+        if self._sea is None:
+            self.state, self._seen = vehicle_measure(
+                self._config, afloat, PlantInputs(STOP, self.constant_current), 0.0
+            )
+
+    @property
+    def _afloat(self) -> Afloat:
+        return self.state if self._sea is None else self.state.afloat  # type: ignore[no-any-return]
 
     @property
     def motion(self) -> PlantState:
         """True pose and velocity through the water."""
-        return self.state.hull  # type: ignore[no-any-return]
-
-    def place(self, motion: PlantState) -> None:
-        """Move the hull; servo, instruments and navigator keep their state."""
-        self.state = Afloat(motion, self.state.servo)
+        return self._afloat.hull  # type: ignore[no-any-return]
 
     @property
     def rudder(self) -> float:
         """The rudder angle that its servo measures, rad."""
-        return self.state.servo.angle  # type: ignore[no-any-return]
-
-    def advance(self, command: Command, dt: float) -> None:
-        """Let `dt` seconds pass under a held command, then measure."""
-        if self._at_sea is None:
-            inputs = PlantInputs(command, self.constant_current)
-            self.state, _ = plant_step(self._config, self.state, inputs, dt)
-        else:
-            self.state = self._at_sea.advance(self._config, self.state, command, dt, self.constant_current)
+        return self._afloat.servo.angle  # type: ignore[no-any-return]
 
     @property
     def navigation(self) -> Navigation:
         """Navigation as the vehicle reports it."""
-        return navigation_of(self.motion) if self._at_sea is None else self._at_sea.output.navigation
+        return self._seen.navigation
 
     @property
     def truth(self) -> tuple[Navigation, float, float]:
@@ -110,65 +157,25 @@ class SimulatedVehicle:
     @property
     def water_velocity(self) -> WaterVelocity:
         """Velocity through the water as its log reports it, m/s, FRD."""
-        if self._at_sea is not None:
-            return self._at_sea.measured.water
-        motion = self.motion
-        return WaterVelocity(motion.ur, motion.vr)
+        return self._seen.water
 
     @property
     def water_lock(self) -> bool:
-        """Whether that was measured; else it is the last that was."""
-        return self._at_sea is None or self._at_sea.measured.water_lock
+        """Whether that was measured; otherwise it is the last one that was."""
+        return self._seen.water_lock
 
     @property
     def current(self) -> Current:
         """The true current where the vehicle is, m/s, NED."""
-        own = self._at_sea.current if self._at_sea else NO_CURRENT
-        return _sum(self.constant_current, own) if self._at_sea else self.constant_current
+        constant = self.constant_current
+        if self._sea is None:
+            return constant
+        own = self.state.own
+        return Current(constant.Vx + own.Vx, constant.Vy + own.Vy)
 
     @property
     def ground_velocity(self) -> tuple[float, float]:
         """(u, v) over ground in the body frame, m/s, as measured; NaN without bottom lock."""
-        if self._at_sea is None:
+        if self._sea is None:
             return ground_velocity(self.motion, self.constant_current)
-        return self._at_sea.output.u, self._at_sea.output.v
-
-
-class _AtSea:
-    """What is random about a vehicle."""
-
-    current: Current
-    measured: Measurements
-    output: NavigatorOutput
-
-    def __init__(self, sea: Sea, seed: int) -> None:
-        self._start, self._seed = sea.navigator.start, (seed, 3)
-        self._water = WaterCurrent(sea.current, (seed, 0))
-        self._propeller = Noise(sea.thrust, (seed, 1))
-        self._sensors = Sensors(sea.sensors, (seed, 2))
-        self._navigator = Navigator(sea.navigator)
-
-    def reset(self, motion: PlantState, constant: Current) -> None:
-        for part in (self._water, self._propeller, self._sensors):
-            part.reset()
-        off = np.random.default_rng(self._seed).standard_normal(2) * self._start
-        self._navigator.reset(motion.x + float(off[0]), motion.y + float(off[1]))
-        self._sense(motion, constant, 0.0)
-
-    def advance(self, plant: Plant, state: Afloat, command: Command, dt: float, constant: Current) -> Afloat:
-        efficiency = max(1.0 + self._propeller.update(dt), 0.0)
-        inputs = PlantInputs(command, _sum(constant, self.current), efficiency)
-        state, motion = plant_step(plant, state, inputs, dt)
-        self._sense(motion, constant, dt)
-        return state
-
-    def _sense(self, motion: PlantState, constant: Current, dt: float) -> None:
-        x, y, psi, ur, vr, r = motion
-        self.current = self._water.update(x, y, dt)
-        u, v = ground_velocity(motion, _sum(constant, self.current))
-        self.measured = self._sensors.update(Truth(x, y, psi, r, ur, vr, u, v), dt)
-        self.output = self._navigator.update(self.measured, dt)
-
-
-def _sum(one: Current, other: Current) -> Current:
-    return Current(one.Vx + other.Vx, one.Vy + other.Vy)
+        return self._seen.u, self._seen.v
