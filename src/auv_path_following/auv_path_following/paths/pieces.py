@@ -19,6 +19,8 @@ DEGREE = TERMS - 3
 _NARROWEST = 2.0**-20
 _NODES = chebyshev.chebpts1(DEGREE + 1)
 _CHECKS = np.linspace(-1.0, 1.0, 41)
+#: Where a piece is sampled: the nodes of the fit, its middle, and the checks.
+_SAMPLES = np.concatenate((_NODES, [0.0], _CHECKS))
 #: What two integrations divide a power by.
 _TWICE = (np.arange(DEGREE + 1.0) + 1.0) * (np.arange(DEGREE + 1.0) + 2.0)
 #: Powers of u at the checks and both derivatives of them, shape (3, TERMS, checks).
@@ -41,8 +43,7 @@ def fitted_row(segment: Segment) -> list[float]:
     Raises:
         ConfigurationError: the segment has a kink inside, so that no polynomial follows it.
     """
-    grid = segment.evaluate(np.linspace(0.0, 1.0, 129))
-    scale = np.array([np.max(np.abs(signal)) for signal in grid])
+    scale = np.abs(_sampled(segment, 0.5, 0.5)).max(axis=1)
     # A derivative that is zero throughout comes with rounding of the size of the others.
     allowed = TOLERANCE * np.maximum(scale, 1e-3 * scale.max())[:, None]
     row = [FITTED]
@@ -50,9 +51,10 @@ def fitted_row(segment: Segment) -> list[float]:
     while stack:
         a, b = stack.pop()
         middle, half = 0.5 * (a + b), 0.5 * (b - a)
-        powers = _fit(segment, middle, half)
+        samples = _sampled(segment, middle, half)
+        powers = _fit(samples, half)
         signals = (powers @ _AT_CHECKS / half ** np.arange(3.0)[:, None, None]).reshape(6, -1)
-        if np.all(np.abs(signals - np.array(segment.evaluate(middle + half * _CHECKS))) <= allowed):
+        if np.all(np.abs(signals - samples[:, DEGREE + 2 :]) <= allowed):
             row += [a, 1.0 / half, *powers[:, ::-1].ravel().tolist()]
         elif b - a < _NARROWEST:
             raise ConfigurationError(segment.kind, f"a kink at t = {a:.6g}", "a curve that is smooth inside")
@@ -61,12 +63,16 @@ def fitted_row(segment: Segment) -> list[float]:
     return row
 
 
-def _fit(segment: Segment, middle: float, half: float) -> Array:
+def _sampled(segment: Segment, middle: float, half: float) -> Array:
+    """Return the six signals of a `PathPoint` at `_SAMPLES`, shape (6, samples)."""
+    return np.array(segment.evaluate(middle + half * _SAMPLES))
+
+
+def _fit(samples: Array, half: float) -> Array:
     """Return the coefficients of x and y in u = (t - middle) / half, shape (2, TERMS), lowest power first."""
-    at_nodes, centre = segment.evaluate(middle + half * _NODES), segment.evaluate(middle)
-    second = np.array([at_nodes.ddx, at_nodes.ddy]) * half * half
+    at_nodes, centre = samples[4:, : DEGREE + 1], samples[:, DEGREE + 1]
     powers = np.empty((2, TERMS))
-    powers[:, 0] = centre.x, centre.y
-    powers[:, 1] = centre.dx * half, centre.dy * half
-    powers[:, 2:] = second @ _SERIES.T @ _TO_POWERS.T / _TWICE
+    powers[:, 0] = centre[:2]
+    powers[:, 1] = centre[2:4] * half
+    powers[:, 2:] = at_nodes * half * half @ _SERIES.T @ _TO_POWERS.T / _TWICE
     return powers
