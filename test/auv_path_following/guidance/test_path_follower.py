@@ -14,7 +14,7 @@ from auv_path_following.guidance.acceptance import Cornering
 from auv_path_following.guidance.adaptive_lookahead import AdaptiveLookaheadConfig
 from auv_path_following.guidance.ailos import AilosConfig
 from auv_path_following.guidance.approach import Agility, ApproachConfig
-from auv_path_following.guidance.follow import LONGEST_STEP
+from auv_path_following.guidance.follow import LONGEST_STEP, FollowerInputs, follow
 from auv_path_following.guidance.ilos import IlosConfig
 from auv_path_following.guidance.los import LosConfig
 from auv_path_following.guidance.path_follower import PathFollower, PathFollowerConfig
@@ -209,6 +209,37 @@ def test_new_gains_keep_the_place_on_the_path_and_reset_does_not():
     assert pytest.approx(drawn) == output.U_P
     follower.reset()
     assert follower.look(Navigation(0.0, 0.0, 0.0, 0.0)).s == 0.0
+
+
+def test_the_laws_memory_is_kept_for_new_gains_and_lost_after_a_hold_and_with_another_law():
+    aside, wide = Navigation(5.0, 3.0, 0.0, 0.0), IlosConfig(lookahead=9.0)
+    follower = PathFollower(line(), config(law="ilos"))
+    for _ in range(3):
+        follower.update(aside, AHEAD, NO_CURRENT, DT)
+    integral = follower.state.law.integral
+    assert integral > 0.0
+    follower.configure(config(law="ilos", ilos=wide))
+    assert follower.state.law.integral == integral
+    follower.rejoin(aside)
+    assert follower.state.law.integral == 0.0
+    follower.update(aside, AHEAD, NO_CURRENT, DT)
+    for law in ("los", "ilos"):
+        follower.configure(config(law=law))
+    assert follower.state.law.integral == 0.0
+
+
+def test_a_step_changes_nothing_but_its_result():
+    """From one state the same step gives the same result again, with an approach planned in it too."""
+    agility = Agility(speed=2.0, turn_rate=0.3, cornering=Cornering(rate=0.4, lead=1.0))
+    follower = PathFollower(corner(), config("all"), agility)
+    outputs = []
+    for navigation, output in glide(follower, -30.0, 20.0):
+        inputs = FollowerInputs(navigation, AHEAD, NO_CURRENT)
+        once, twice = (follow(follower.config, follower.path.rows, follower.state, inputs, DT) for _ in "ab")
+        assert once == twice
+        outputs.append(output)
+    assert outputs[0].approach > 0.0
+    assert outputs[-1].finished
 
 
 def test_the_end_of_the_path_is_final():

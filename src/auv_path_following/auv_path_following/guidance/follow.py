@@ -118,7 +118,9 @@ def follow(
         inputs: measurements and estimate.
         dt: seconds since the last step (0 on the first one); of a gap `LONGEST_STEP` at most counts.
     """
-    (navigation, water, current), dt = inputs, min(dt, LONGEST_STEP)
+    navigation, water, current = inputs
+    if dt > LONGEST_STEP:
+        dt = LONGEST_STEP
     if not config.compensate_current:
         current = NO_CURRENT
     progress, psi = state.progress, navigation.psi
@@ -142,7 +144,7 @@ def follow(
     kappa = curvature(dx, dy, ddx, ddy)
     # At the end of the path there is nothing more to turn to.
     psi_d, r_d = (psi, 0.0) if finished else (wrap(out.psi_d), kappa * U_P)  # Eq. (9)
-    r_d = min(max(r_d, -config.turn_rate), config.turn_rate)
+    r_d = saturated(r_d, config.turn_rate)
     progress = settled(config.progress, progress, P, legs, joined, math.hypot(xe, ye), navigation)
     approach = approach_to_go(legs, progress.approach, i, t)
     if legs > 0:

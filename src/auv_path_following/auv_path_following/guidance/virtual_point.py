@@ -44,14 +44,15 @@ def path_errors(navigation: Navigation, x_p: float, y_p: float, chi_p: float) ->
 
 
 @pure
-def saturated(xe: float, limit: float) -> float:
-    """Return xe (m) held within +-limit, for Eq. (22): up to the limit it is xe itself.
+def saturated(value: float, limit: float) -> float:
+    """Return a value held within +-limit: up to the limit it is the value itself.
 
-    Without a bound a vehicle far from P would drive it at any speed, and r_d = kappa U_P with it. Theorem 1
-    still holds: with psi = psi_d, Eq. (32) becomes xe' = -k sat(xe) + r_p ye. The terms with r_p cancel in
-    V1' as before, and -k xe sat(xe) is negative for every xe other than 0.
+    Eq. (22) takes xe so: without a bound a vehicle far from P would drive it at any speed, and
+    r_d = kappa U_P with it. Theorem 1 still holds: with psi = psi_d, Eq. (32) becomes
+    xe' = -k sat(xe) + r_p ye. The terms with r_p cancel in V1' as before, and -k xe sat(xe) is negative for
+    every xe other than 0.
     """
-    return min(max(xe, -limit), limit)
+    return limit if value > limit else -limit if value < -limit else value
 
 
 @pure
@@ -102,7 +103,9 @@ def moved(path: PathRows, P: VirtualPoint, dt: float) -> Place:
     Departs from Eq. (43), which sets P to the start of the next subpath: the rest of the step's way is
     carried over as length, over as many subpaths as it takes. The time is linear in the subpaths passed.
     """
-    t = max(P.t + P.t_rate * dt, 0.0)
+    t = P.t + P.t_rate * dt
+    if t < 0.0:
+        t = 0.0
     if t < 1.0 or P.finished:
         return P.i, t, P.finished, 0.0
     return passed_on(path, P.i, (t - 1.0) * P.metres_per_t)
