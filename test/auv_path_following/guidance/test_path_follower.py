@@ -14,7 +14,6 @@ from auv_path_following.guidance.acceptance import Cornering
 from auv_path_following.guidance.adaptive_lookahead import AdaptiveLookaheadConfig
 from auv_path_following.guidance.ailos import AilosConfig
 from auv_path_following.guidance.approach import Agility, ApproachConfig
-from auv_path_following.guidance.follow import LONGEST_STEP, FollowerInputs, follow
 from auv_path_following.guidance.ilos import IlosConfig
 from auv_path_following.guidance.los import LosConfig
 from auv_path_following.guidance.path_follower import PathFollower, PathFollowerConfig
@@ -162,23 +161,6 @@ def test_after_an_early_switch_p_waits_for_the_vehicle_without_feed_forward():
     assert output.r_d == pytest.approx(output.U_P / 30.0)
 
 
-@pytest.mark.parametrize("speed", [0.0, 0.1, 0.19])
-def test_below_the_least_speed_drift_and_alpha_are_not_used(speed):
-    follower = PathFollower(line(), config(minimum_speed=0.2))
-    output = follower.update(
-        Navigation(0.0, 2.0, 0.0, 0.0), WaterVelocity(0.0, speed), Current(0.5, 0.5), 0.0
-    )
-    assert (output.beta_r, output.alpha, output.theta_n) == (0.0, 0.0, 0.0)
-    assert output.psi_d == pytest.approx(-math.atan(2.0 / 6.0))
-
-
-def test_above_the_least_speed_they_are():
-    follower = PathFollower(line(), config(minimum_speed=0.2))
-    output = follower.update(Navigation(0.0, 0.0, 0.0, 0.0), WaterVelocity(0.2, 0.05), Current(0.0, 0.1), 0.0)
-    assert output.beta_r == pytest.approx(math.atan2(0.05, 0.2))
-    assert output.theta_n == pytest.approx(0.1 / math.hypot(0.2, 0.05))
-
-
 def test_looking_moves_nothing_and_asks_for_the_present_heading():
     follower = PathFollower(line(), config())
     follower.update(Navigation(0.0, 0.0, 0.0, 0.0), AHEAD, NO_CURRENT, 0.0)
@@ -226,20 +208,6 @@ def test_the_laws_memory_is_kept_for_new_gains_and_lost_after_a_hold_and_with_an
     for law in ("los", "ilos"):
         follower.configure(config(law=law))
     assert follower.state.law.integral == 0.0
-
-
-def test_a_step_changes_nothing_but_its_result():
-    """From one state the same step gives the same result again, with an approach planned in it too."""
-    agility = Agility(speed=2.0, turn_rate=0.3, cornering=Cornering(rate=0.4, lead=1.0))
-    follower = PathFollower(corner(), config("all"), agility)
-    outputs = []
-    for navigation, output in glide(follower, -30.0, 20.0):
-        inputs = FollowerInputs(navigation, AHEAD, NO_CURRENT)
-        once, twice = (follow(follower.config, follower.path.rows, follower.state, inputs, DT) for _ in "ab")
-        assert once == twice
-        outputs.append(output)
-    assert outputs[0].approach > 0.0
-    assert outputs[-1].finished
 
 
 def test_the_end_of_the_path_is_final():
@@ -322,10 +290,3 @@ def test_far_from_the_path_the_references_stay_what_a_hull_can_turn():
     for _, output in glide(PathFollower(path, bare, agility), 300.0, 400.0, seconds=60.0):
         assert abs(output.r_d) <= 0.3
         assert abs(output.U_P) <= SPEED + 6.0 + 1e-9
-
-
-def test_a_long_gap_counts_as_a_short_one():
-    follower = PathFollower(line(), config())
-    follower.update(Navigation(0.0, 0.0, 0.0, 0.0), AHEAD, NO_CURRENT, 0.0)
-    output = follower.update(Navigation(0.0, 0.0, 0.0, 0.0), AHEAD, NO_CURRENT, 75.0)
-    assert output.x_p == pytest.approx(SPEED * LONGEST_STEP)
