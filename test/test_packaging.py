@@ -196,7 +196,10 @@ def test_the_manifest_names_what_the_tests_import(name: str) -> None:
         *PACKAGES,
         "node_bench",
         "bag_watch",
+        "golden_tracks",
         "hulls",
+        "laws",
+        "one_of_each",
         "conftest",
         "mutation",
     }

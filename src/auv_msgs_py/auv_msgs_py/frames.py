@@ -12,6 +12,7 @@ from typing import Any
 
 from auv_msgs_py.elementary import functions_of
 from auv_msgs_py.errors import MessageRefused
+from auv_msgs_py.pure import pure
 from auv_msgs_py.settings import setting, settings
 
 
@@ -20,6 +21,7 @@ def swap_axes(x: Any, y: Any) -> tuple[Any, Any]:
     return y, x
 
 
+@pure
 def flip_yaw(yaw: Any) -> Any:
     """yaw_enu (0 at east, counter-clockwise) -> psi (0 at north, clockwise) and back, rad."""
     return math.pi / 2.0 - yaw

@@ -1,22 +1,27 @@
 """The whole suite wired without ROS: the reference for the graph, and the tool for fast studies.
 
-The nodes drive the same objects in the same order with the same times, so the two trajectories agree to
-rounding. What the graph adds is only the way over the wire.
+The nodes run the same steps in the same order with the same times, so the two trajectories agree to
+rounding. The graph only adds the way over the wire.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from auv_msgs_py import topics
 from auv_msgs_py.frames import flip_yaw, quaternion_of_yaw, yaw_of_quaternion
-from auv_msgs_py.types import NO_CURRENT, Current, Reference
-from auv_path_following.control.autopilot import AutopilotConfig, HeadingAutopilot
-from auv_path_following.guidance.approach import agility_of
-from auv_path_following.guidance.current_observer import CurrentObserver, CurrentObserverConfig
-from auv_path_following.guidance.path_follower import PathFollower, PathFollowerConfig
+from auv_msgs_py.pure import numbers_of
+from auv_msgs_py.types import NO_CURRENT, Current
+from auv_path_following.control import autopilot
+from auv_path_following.control.autopilot import AutopilotConfig
+from auv_path_following.guidance import guide
+from auv_path_following.guidance.approach import agility_of, empty_approach
+from auv_path_following.guidance.current_observer import CurrentObserverConfig
+from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.paths.composite import CompositePath
+from auv_path_following.pilot import Pilot, PilotInputs, PilotState, first_state, pilot
 from auv_path_following.vehicle import Vehicle
 from auv_sim.analysis.run import Run
 from auv_sim.parameters import CRUISE
@@ -81,6 +86,25 @@ def _as_on_the_wire(psi: float) -> float:
     return float(flip_yaw(yaw_of_quaternion(0.0, 0.0, z, w)))
 
 
+def pilot_of(scenario: Scenario) -> Pilot:
+    """Return the pilot of a scenario: no limits, no holds, and over the wire's last bits only at sea.
+
+    Raises:
+        ConfigurationError: laws or gains that need what the vehicle's file does not have.
+    """
+    c = scenario
+    hull = c.controller_vehicle or c.vehicle
+    guidance = guide.prepare(c.guidance, agility_of(hull, c.thrust), c.thrust)
+    steering = autopilot.prepare(c.autopilot, hull)
+    return Pilot(numbers_of(c.observer), guidance, steering, math.inf, c.sea is not None)
+
+
+def begun(config: Pilot) -> PilotState:
+    """Return the state of a pilot whose mission has just been started."""
+    state = first_state(config, empty_approach())
+    return state._replace(guide=guide.start(config.guide, state.guide))
+
+
 def fly(scenario: Scenario, progress: Callable[[float], None] | None = None) -> Run:
     """Fly until the end of the path or the time limit.
 
@@ -94,29 +118,23 @@ def fly(scenario: Scenario, progress: Callable[[float], None] | None = None) -> 
     c = scenario
     step_ns = round(c.step * 1e9)
     dt = step_ns * 1e-9
-    plant = SimulatedVehicle(c.vehicle, c.initial or start_of(c.path), c.sea, c.seed, c.current, dt)
-    observer = CurrentObserver(c.observer)
-    hull = c.controller_vehicle or c.vehicle
-    follower = PathFollower(c.path, c.guidance, agility_of(hull, c.thrust))
-    autopilot = HeadingAutopilot(hull, c.autopilot)
+    vehicle = SimulatedVehicle(c.vehicle, c.initial or start_of(c.path), c.sea, c.seed, c.current, dt)
+    config, path = pilot_of(c), c.path.rows
+    state = begun(config)
     rows: list[tuple[float, ...]] = []
     for k in range(int(c.time_limit / c.step) + 1):
         stamp = topics.FIRST_STAMP_NS + k * step_ns
-        since = dt if k else 0.0
-        navigation, water = plant.navigation, plant.water_velocity
+        navigation, water = vehicle.navigation, vehicle.water_velocity
         if c.sea is not None:
             navigation = navigation._replace(psi=_as_on_the_wire(navigation.psi))
-        estimate = observer.update(navigation, water, since).current
-        g = follower.update(navigation, water, estimate, since)
-        thrust = 0.0 if g.finished else c.thrust
-        psi_d = g.psi_d if c.sea is None else flip_yaw(flip_yaw(g.psi_d))
-        command = autopilot.update(navigation, Reference(psi_d, g.r_d, thrust), since).command
-        current = plant.current
-        truth = plant.truth[0][:3] if c.sea is not None else ()
+        measured = PilotInputs(navigation, water, True, False, 0.0, k * dt)
+        state, (estimate, g, _, command) = pilot(config, path, state, measured, dt if k else 0.0)
+        current = vehicle.current
+        truth = vehicle.truth[0][:3] if c.sea is not None else ()
         rows.append(
             (
                 stamp * 1e-9, navigation.x, navigation.y, navigation.psi, navigation.r, water.ur, water.vr,
-                plant.rudder, command.rudder, command.thrust, g.psi_d, g.r_d,
+                vehicle.rudder, command.rudder, command.thrust, g.psi_d, g.r_d,
                 g.xe, g.ye, g.psi_e, g.s, estimate.Vx, estimate.Vy, current.Vx, current.Vy,
                 *truth,
             )
@@ -125,6 +143,6 @@ def fly(scenario: Scenario, progress: Callable[[float], None] | None = None) -> 
             break
         if progress is not None and k % 20 == 0:
             progress(g.s)
-        plant.advance(command, dt)
+        vehicle.advance(command, dt)
     names = _COLUMNS if c.sea is None else (*_COLUMNS, *_TRUTH)
     return Run.from_columns(dict(zip(names, zip(*rows, strict=True), strict=True)))

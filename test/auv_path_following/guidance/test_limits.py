@@ -9,10 +9,37 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from auv_msgs_py.types import Navigation
-from auv_path_following.guidance.limits import Limits, LimitsConfig, inside
+from auv_path_following.guidance.limits import (
+    LimitsConfig,
+    LimitsInputs,
+    LimitsState,
+    NoLimits,
+    inside,
+    limits_step,
+    prepare,
+)
+from auv_path_following.guidance.mission_state import NO_REASON, words
 
 SQUARE = ((0.0, 0.0), (100.0, 0.0), (100.0, 50.0), (0.0, 50.0))
 DT = 0.1
+
+
+class Limits:
+    """Limits of one mission, with the reason as text."""
+
+    def __init__(self, config=None, geofence=()):
+        self.config, self.state = prepare(config or LimitsConfig(), geofence), LimitsState()
+
+    def reset(self):
+        self.state = LimitsState()
+
+    def broken(self, navigation, xe, ye, to_go, dt, holds=False, rests=False):
+        inputs = LimitsInputs(navigation, xe, ye, to_go, holds, rests)
+        self.state, reason = limits_step(self.config, self.state, inputs, dt)
+        return "" if reason == NO_REASON else words(reason)
+
+    def wait(self, dt):
+        return self.broken(at(0.0, 0.0), 0.0, 0.0, 0.0, dt, holds=True)
 
 
 def at(x, y):
@@ -31,6 +58,7 @@ def first_broken(limits, track, off_path=lambda _: 0.0, to_go=lambda _: 0.0):
 
 
 def test_without_limits_nothing_ends():
+    assert prepare(LimitsConfig()) == NoLimits()
     assert first_broken(Limits(), lambda t: (1e6 * t, 0.0), lambda t: 1e6) is None
 
 
@@ -93,7 +121,7 @@ def test_a_hold_does_not_count_as_slow():
     limits = Limits(SLOW)
     for k in range(250):
         assert limits.broken(at(0.19 * k, 0.0), 0.0, 0.0, 0.0, DT) == ""
-    assert limits.broken(at(50.0, 0.0), 0.0, 0.0, 0.0, 60.0) == ""  # nothing was heard for a minute
+    assert limits.broken(at(50.0, 0.0), 0.0, 0.0, 0.0, 60.0) == ""  # no measurement for a minute
     for _ in range(290):
         assert limits.broken(at(50.0, 0.0), 0.0, 0.0, 0.0, DT) == ""
 
@@ -106,7 +134,7 @@ def still(_):
 
 
 def test_a_vehicle_that_moves_but_does_not_follow_is_found_within_its_window():
-    """It follows for 100 s and then goes round and round: P waits, going to and fro."""
+    """It follows for 100 s and then goes round and round: P swings back and forth."""
 
     def to_go(t):
         return 500.0 - 1.9 * min(t, 100.0) + (2.0 * math.sin(t - 100.0) if t > 100.0 else 0.0)
@@ -127,7 +155,7 @@ def test_the_way_to_the_path_is_not_too_slow_along_it():
 
 @settings(deadline=None)
 @given(st.floats(0.31, 5.0), st.floats(0.0, 20.0))
-def test_whoever_keeps_the_speed_along_the_path_goes_on(speed, wait):
+def test_a_vehicle_that_keeps_its_speed_along_the_path_goes_on(speed, wait):
     """Also one that waits at a corner for less than the window allows."""
 
     def to_go(t):
@@ -144,7 +172,7 @@ def test_speeds_are_right_also_where_a_window_has_few_measurements(rate, window)
         config = LimitsConfig(**{limit: 0.3, f"{limit}_window": window})
         for speed, found in ((0.29, True), (0.31, False)):
             limits = Limits(config)
-            limits._has_followed = True
+            limits.state = limits.state._replace(has_followed=True)
             steps = range(int(rate * 20.0 * window))
             reasons = [
                 limits.broken(at(speed * k / rate, 0.0), 0.0, 0.0, 900.0 - speed * k / rate, 1.0 / rate)
@@ -171,7 +199,7 @@ def test_a_hold_does_not_count_as_slow_along_the_path():
     limits = Limits(BEHIND)
     for k in range(300):
         assert limits.broken(at(0.0, 0.0), 0.0, 0.0, 500.0 - 0.19 * k, DT) == ""
-    limits.rest()
+    limits.broken(at(0.0, 0.0), 0.0, 0.0, 443.0, 0.0, rests=True)
     t, _ = first_broken(limits, still, to_go=lambda _: 443.0)
     assert t == pytest.approx(30.0, abs=1.0)
 

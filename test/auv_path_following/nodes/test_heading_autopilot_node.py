@@ -139,7 +139,7 @@ def test_a_pose_that_froze_is_believed_again_when_a_mission_is_started(bench: Be
     for words, believed in stops:
         for word in words:
             bench.send(topics.MISSION_STATE, String(data=word))
-        bench.until(lambda: node._mission.at(time.monotonic()) == "running")
+        bench.until(lambda: node._references.mission.at(time.monotonic()) == "running")
         bench.spin(0.2)
         assert answered(2.5 + 0.1 * believed) is believed
 
@@ -153,7 +153,7 @@ def test_a_mission_state_that_is_repeated_is_no_start(bench: Bench) -> None:
         bench.reference(math.pi / 2 + 0.3, 0.0, 6.0)
         bench.until(lambda k=k: len(bench.values(topics.RUDDER_CMD)) > k)
         if k == 6:
-            bench.until(lambda: node._mission.at(time.monotonic()) == "running")
+            bench.until(lambda: node._references.mission.at(time.monotonic()) == "running")
             bench.send(topics.MISSION_STATE, String(data="running"))
             bench.spin(0.2)
     before, after = bench.values(topics.RUDDER_CMD)[-2:]

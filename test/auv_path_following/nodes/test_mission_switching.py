@@ -27,8 +27,8 @@ def test_its_parameters_show_what_counts(
     node = bench.start(GuidanceNode, **wishes)
     names = ("guidance.switching.mode", "guidance.switching.radius")
     assert tuple(node.get_parameter(name).value for name in names) == expected
-    switching = node.follower.progress.circle.config
-    assert (switching.mode, switching.radius) == expected
+    circles = node.config.follower.progress.circles
+    assert (("off", "g0", "all")[circles.mode], circles.radius) == expected
 
 
 def test_a_speed_becomes_the_vehicles_thrust(bench: Bench, mission: str) -> None:

@@ -3,25 +3,33 @@
 from __future__ import annotations
 
 import dataclasses
-import itertools
 import math
-from collections import deque
 from collections.abc import Sequence
-from typing import Generic, TypeVar
+from typing import Any, NamedTuple
 
+from auv_msgs_py.pure import dispatched, numbers, numbers_of, pure
 from auv_msgs_py.settings import setting, settings
 from auv_msgs_py.types import Navigation
+from auv_path_following.guidance.mission_state import (
+    DURATION,
+    GEOFENCE,
+    GROUND_SPEED,
+    NO_REASON,
+    PATH_DISTANCE,
+    PATH_SPEED,
+    Reason,
+)
 
 Point = tuple[float, float]
-T = TypeVar("T")
 
-#: Into so many chords a window is divided: a circle is no standstill, noise no way.
+#: Chords per window: summing chords counts a circle as progress but not jitter.
 _CHORDS = 6
 
 
+@numbers
 @settings
 class LimitsConfig:
-    """What ends a mission. 0 is no limit; of parameters and mission file the stricter counts."""
+    """Limits that end a mission. 0 is no limit; of parameters and mission file the stricter counts."""
 
     path_distance: float = setting(
         0.0, "largest distance from the virtual point, once the vehicle was within it; 0: any", unit="m",
@@ -33,18 +41,18 @@ class LimitsConfig:
         ge=0.0, live=True,
     )  # fmt: skip
     ground_speed_window: float = setting(
-        30.0, "over so much time the speed over ground is taken", unit="s", ge=2.0, le=3600.0, live=True
+        30.0, "time over which the speed over ground is taken", unit="s", ge=2.0, le=3600.0, live=True
     )
     path_speed: float = setting(
         0.0,
-        "lowest speed of the virtual point along the path, once it has come as far as that in one window;"
+        "lowest speed of the virtual point along the path, once it has advanced that far within one window;"
         " 0: any. Below it the vehicle moves, but does not follow",
         unit="m/s",
         ge=0.0,
         live=True,
     )
     path_speed_window: float = setting(
-        60.0, "over so much time the speed along the path is taken", unit="s", ge=2.0, le=3600.0, live=True
+        60.0, "time over which the speed along the path is taken", unit="s", ge=2.0, le=3600.0, live=True
     )
 
     def stricter(self, other: LimitsConfig) -> LimitsConfig:
@@ -66,120 +74,179 @@ def _stricter(one: float, other: float) -> float:
     return min(one, other) if one and other else one or other
 
 
-class _Marks(Generic[T]):
-    """A quantity, and the time, at the corners of the chords into which the last seconds are divided."""
+class Marks(NamedTuple):
+    """A place at the corners of the chords into which the last seconds are divided; the newest last.
 
-    def __init__(self) -> None:
-        self.rest()
+    Attributes:
+        corners: so far, at most `_CHORDS` + 1.
+        time: since the first one, s.
+        times, xs, ys: of the corners, s and m.
+    """
 
-    def rest(self) -> None:
-        """Nothing is known of the time before."""
-        self._marks: deque[tuple[float, T]] = deque(maxlen=_CHORDS + 1)
-        self._time = 0.0
-
-    def take(self, value: T, dt: float, window: float) -> tuple[float, list[T]]:
-        """The time between the first and the last corner, and all of them, the oldest first.
-
-        Whenever a chord has ended and the window is full; else (0, none).
-        """
-        self._time += dt
-        if self._marks and self._time - self._marks[-1][0] < window / _CHORDS:
-            return 0.0, []
-        if dt > window:  # nothing was heard for so long
-            self.rest()
-        self._marks.append((self._time, value))
-        if len(self._marks) <= _CHORDS:
-            return 0.0, []
-        return self._time - self._marks[0][0], [value for _, value in self._marks]
+    corners: int
+    time: float
+    times: tuple[float, ...]
+    xs: tuple[float, ...]
+    ys: tuple[float, ...]
 
 
-class Limits:
-    """Asked once per step of a running mission; constant in time.
+_NONE = (0.0,) * (_CHORDS + 1)
+_NO_MARKS = Marks(0, 0.0, _NONE, _NONE, _NONE)
+
+
+@pure
+def marked(marks: Marks, x: float, y: float, dt: float, window: float) -> tuple[Marks, bool]:
+    """Add a place, `dt` s after the last; return the corners, and whether a full window's chord has ended."""
+    count, time, times, xs, ys = marks
+    time += dt
+    if count > 0 and time - times[-1] < window / _CHORDS:
+        return Marks(count, time, times, xs, ys), False
+    if dt > window:  # nothing was measured for a whole window
+        count, time = 0, 0.0
+    count = min(count + 1, _CHORDS + 1)
+    corners = Marks(count, time, (*times[1:], time), (*xs[1:], x), (*ys[1:], y))
+    return corners, count > _CHORDS
+
+
+class Limits(NamedTuple):
+    """Configuration: the limits, and the corners (north, east), m, of the area that must not be left."""
+
+    values: LimitsConfig
+    geofence: Any
+
+
+class NoLimits(NamedTuple):
+    """Configuration of a flight without limits."""
+
+
+class LimitsState(NamedTuple):
+    """State of the limits of one mission.
+
+    Attributes:
+        elapsed: s.
+        has_been_near: whether the vehicle has been within `path_distance`.
+        most_to_go: largest distance to go so far, m.
+        has_followed: whether the virtual point has advanced as far as `path_speed` says in one window.
+        places, to_go: marks of the position, and of the distance to go.
+    """
+
+    elapsed: float = 0.0
+    has_been_near: bool = False
+    most_to_go: float = -math.inf
+    has_followed: bool = False
+    places: Marks = _NO_MARKS
+    to_go: Marks = _NO_MARKS
+
+
+#: The state when a mission begins.
+BEGINNING = LimitsState()
+
+
+class LimitsInputs(NamedTuple):
+    """Measured pose (NED), its place as seen from the virtual point (m), path to go (m).
+
+    `holds`: the mission holds, only its time counts. `rests`: the vehicle was stopped until now, speeds are
+    measured anew.
+    """
+
+    navigation: Navigation
+    xe: float
+    ye: float
+    to_go: float
+    holds: bool
+    rests: bool
+
+
+def prepare(config: LimitsConfig, geofence: Sequence[Point] = ()) -> Limits | NoLimits:
+    """Return the configuration of the limits.
 
     Args:
         config: the limits.
-        geofence: corners (north, east), m, of the area that must not be left; empty for no geofence.
+        geofence: corners (north, east), m; empty for no geofence.
     """
-
-    def __init__(self, config: LimitsConfig | None = None, geofence: Sequence[Point] = ()) -> None:
-        self.config = config or LimitsConfig()
-        self.geofence = tuple(geofence)
-        self._places: _Marks[Point] = _Marks()
-        self._to_go: _Marks[float] = _Marks()
-        self.reset()
-
-    def reset(self) -> None:
-        """A mission begins."""
-        self.elapsed = 0.0
-        self._been_near = False
-        self._most_to_go = -math.inf
-        self._has_followed = False
-        self.rest()
-
-    def rest(self) -> None:
-        """The vehicle was stopped: its speeds are measured anew."""
-        self._places.rest()
-        self._to_go.rest()
-
-    def wait(self, dt: float) -> str:
-        """Time passes in a mission that holds; the reason why it must end, or an empty text."""
-        self.elapsed += dt
-        longest = self.config.duration
-        if not longest or self.elapsed <= longest:
-            return ""
-        return f"limit duration: {self.elapsed:.1f} s, at most {longest:g} s"
-
-    def broken(self, navigation: Navigation, xe: float, ye: float, to_go: float, dt: float) -> str:
-        """The reason why the mission must end, or an empty text.
-
-        Args:
-            navigation: where the vehicle is, NED.
-            xe, ye: its place as seen from the virtual point, m.
-            to_go: path from the virtual point to the end, m.
-            dt: seconds since the last call.
-        """
-        c, x, y = self.config, navigation.x, navigation.y
-        if too_long := self.wait(dt):
-            return too_long
-        if c.path_distance:
-            off_path = math.hypot(xe, ye)
-            if off_path <= c.path_distance:
-                self._been_near = True
-            elif self._been_near:
-                return f"limit path_distance: {off_path:.1f} m from the path, at most {c.path_distance:g} m"
-        if self.geofence and not inside(self.geofence, x, y):
-            return f"limit geofence: left at north {x:.1f} m, east {y:.1f} m"
-        return self._too_slow_over_ground(x, y, dt) or self._too_slow_along(to_go, dt)
-
-    def _too_slow_over_ground(self, x: float, y: float, dt: float) -> str:
-        least, window = self.config.ground_speed, self.config.ground_speed_window
-        if not least:
-            return ""
-        time, marks = self._places.take((x, y), dt, window)
-        way = sum(math.dist(a, b) for a, b in itertools.pairwise(marks))
-        return _too_slow("ground_speed", way, time, least) if marks else ""
-
-    def _too_slow_along(self, to_go: float, dt: float) -> str:
-        least, window = self.config.path_speed, self.config.path_speed_window
-        if not least:
-            return ""
-        self._most_to_go = max(self._most_to_go, to_go)
-        if not self._has_followed:
-            self._has_followed = self._most_to_go - to_go >= least * window
-            return ""
-        time, marks = self._to_go.take(to_go, dt, window)
-        return _too_slow("path_speed", marks[0] - marks[-1], time, least) if marks else ""
+    c = config
+    if not (c.path_distance or c.duration or c.ground_speed or c.path_speed or geofence):
+        return NoLimits()
+    return Limits(numbers_of(config), tuple((float(x), float(y)) for x, y in geofence))
 
 
-def _too_slow(limit: str, way: float, time: float, least: float) -> str:
-    speed = way / time
-    return f"limit {limit}: {speed:.2f} m/s over {time:.1f} s, at least {least:g} m/s" * (speed < least)
+@pure
+def no_limits(
+    config: NoLimits, state: LimitsState, inputs: LimitsInputs, dt: float
+) -> tuple[LimitsState, Reason]:
+    """Never end a mission."""
+    return state, NO_REASON
 
 
-def inside(polygon: Sequence[Point], x: float, y: float) -> bool:
-    """Whether a point is in a polygon (corners in order, closed by itself): even-odd rule."""
+@pure
+def limits(config: Limits, state: LimitsState, inputs: LimitsInputs, dt: float) -> tuple[LimitsState, Reason]:
+    """Return the reason why a mission must end, or `NO_REASON`. Constant in time."""
+    c = config.values
+    elapsed, has_been_near, most_to_go, has_followed, places, to_go_marks = state
+    elapsed += dt
+    reason = NO_REASON
+    x, y = inputs.navigation.x, inputs.navigation.y
+    if inputs.rests:
+        places, to_go_marks = _NO_MARKS, _NO_MARKS
+    if c.duration > 0.0 and elapsed > c.duration:
+        reason = Reason(DURATION, elapsed, 0.0, c.duration)
+    elif not inputs.holds:
+        off_path = math.hypot(inputs.xe, inputs.ye)
+        is_near = off_path <= c.path_distance
+        if c.path_distance > 0.0 and has_been_near and not is_near:
+            reason = Reason(PATH_DISTANCE, off_path, 0.0, c.path_distance)
+        elif len(config.geofence) > 0 and not inside(config.geofence, x, y):
+            reason = Reason(GEOFENCE, x, y, 0.0)
+        else:
+            places, reason = _over_ground(c, places, x, y, dt)
+            if c.path_speed > 0.0 and not inputs.rests:
+                most_to_go = max(most_to_go, inputs.to_go)
+                if has_followed and reason.cause == NO_REASON.cause:
+                    to_go_marks, reason = _along(c, to_go_marks, inputs.to_go, dt)
+                advanced = most_to_go - inputs.to_go >= c.path_speed * c.path_speed_window
+                has_followed = has_followed or advanced
+        has_been_near = has_been_near or (is_near and c.path_distance > 0.0)
+    return LimitsState(elapsed, has_been_near, most_to_go, has_followed, places, to_go_marks), reason
+
+
+@pure
+def _over_ground(c: LimitsConfig, marks: Marks, x: float, y: float, dt: float) -> tuple[Marks, Reason]:
+    """Judge the speed over ground."""
+    if c.ground_speed > 0.0:
+        marks, is_full = marked(marks, x, y, dt, c.ground_speed_window)
+        if is_full:
+            way = 0.0
+            for k in range(_CHORDS):
+                way += math.hypot(marks.xs[k + 1] - marks.xs[k], marks.ys[k + 1] - marks.ys[k])
+            time = marks.times[-1] - marks.times[0]
+            if way / time < c.ground_speed:
+                return marks, Reason(GROUND_SPEED, way / time, time, c.ground_speed)
+    return marks, NO_REASON
+
+
+@pure
+def _along(c: LimitsConfig, marks: Marks, to_go: float, dt: float) -> tuple[Marks, Reason]:
+    """Judge the speed along the path."""
+    marks, is_full = marked(marks, to_go, 0.0, dt, c.path_speed_window)
+    if is_full:
+        time = marks.times[-1] - marks.times[0]
+        speed = (marks.xs[0] - marks.xs[-1]) / time
+        if speed < c.path_speed:
+            return marks, Reason(PATH_SPEED, speed, time, c.path_speed)
+    return marks, NO_REASON
+
+
+limits_step = dispatched({NoLimits: no_limits, Limits: limits})
+
+
+@pure
+def inside(polygon: Any, x: float, y: float) -> bool:
+    """Return whether a point is in a polygon (corners in order, implicitly closed): even-odd rule."""
     result = False
-    for (ax, ay), (bx, by) in zip(polygon, (*polygon[1:], polygon[0]), strict=True):
+    bx, by = polygon[len(polygon) - 1][0], polygon[len(polygon) - 1][1]
+    for k in range(len(polygon)):
+        ax, ay = polygon[k][0], polygon[k][1]
         if (ay > y) != (by > y) and x < ax + (y - ay) / (by - ay) * (bx - ax):
             result = not result
+        bx, by = ax, ay
     return result

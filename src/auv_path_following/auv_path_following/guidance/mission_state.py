@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import enum
+import math
+from typing import NamedTuple
 
+from auv_msgs_py.pure import pure
 from auv_msgs_py.settings import setting, settings
 
 
@@ -15,6 +18,57 @@ class State(enum.StrEnum):
     HOLDING = "holding"
     COMPLETE = "complete"
     ABORTED = "aborted"
+
+
+#: The states as numbers, for pure steps: their places among the words.
+IDLE, RUNNING, HOLDING, COMPLETE, ABORTED = range(5)
+STATES = tuple(State)
+
+# Causes of a state, for pure steps.
+(
+    WAITS, STARTED, NAVIGATION_BACK, END_OF_PATH, NAVIGATION_LOST, HELD_TOO_LONG, ABORT_CALLED,
+    DURATION, PATH_DISTANCE, GEOFENCE, GROUND_SPEED, PATH_SPEED,
+) = range(12)  # fmt: skip
+
+_WORDS = {
+    WAITS: "waiting for the start service",
+    STARTED: "started",
+    NAVIGATION_BACK: "navigation is back",
+    END_OF_PATH: "the end of the path was reached",
+    NAVIGATION_LOST: "no usable navigation for {bound:g} s",
+    HELD_TOO_LONG: "held for more than {bound:g} s: no usable navigation for {found:g} s",
+    ABORT_CALLED: "abort was called",
+    DURATION: "limit duration: {found:.1f} s, at most {bound:g} s",
+    PATH_DISTANCE: "limit path_distance: {found:.1f} m from the path, at most {bound:g} m",
+    GEOFENCE: "limit geofence: left at north {found:.1f} m, east {over:.1f} m",
+    GROUND_SPEED: "limit ground_speed: {found:.2f} m/s over {over:.1f} s, at least {bound:g} m/s",
+    PATH_SPEED: "limit path_speed: {found:.2f} m/s over {over:.1f} s, at least {bound:g} m/s",
+}
+
+
+class Reason(NamedTuple):
+    """Why a mission is in its state: one of the causes, and the numbers of its wording."""
+
+    cause: int = WAITS
+    found: float = 0.0
+    over: float = 0.0
+    bound: float = 0.0
+
+
+#: No reason to end a mission.
+NO_REASON = Reason(WAITS, 0.0, 0.0, 0.0)
+
+
+def words(reason: Reason, detail: str = "") -> str:
+    """Return a reason as text.
+
+    Args:
+        reason: the reason.
+        detail: what is known of lost navigation.
+    """
+    text = _WORDS[reason.cause].format(found=reason.found, over=reason.over, bound=reason.bound)
+    of_navigation = reason.cause in (NAVIGATION_LOST, HELD_TOO_LONG)
+    return f"{text} ({detail})" if detail and of_navigation else text
 
 
 @settings
@@ -34,62 +88,67 @@ class HoldingConfig:
     )
 
 
-class MissionState:
-    """The only place where the state changes; every change has a reason for people."""
+class Mission(NamedTuple):
+    """State and reason; while holding, `since` when (ROS time, s), else NaN."""
 
-    def __init__(self, config: HoldingConfig | None = None) -> None:
-        self.config = config or HoldingConfig()
-        self.state = State.IDLE
-        self.reason = "waiting for the start service"
-        self._since: float | None = None
+    state: int = IDLE
+    reason: Reason = NO_REASON
+    since: float = math.nan
 
-    @property
-    def running(self) -> bool:
-        """Whether the vehicle may be driven."""
-        return self.state is State.RUNNING
 
-    @property
-    def under_way(self) -> bool:
-        """Whether a mission was started and has not ended."""
-        return self.state in (State.RUNNING, State.HOLDING)
+@pure
+def is_under_way(mission: Mission) -> bool:
+    """Return whether a mission was started and has not ended."""
+    return mission.state == RUNNING or mission.state == HOLDING
 
-    def start(self) -> bool:
-        """Begin (anew) from idle, complete or aborted; False when a mission is under way already."""
-        if self.under_way:
-            return False
-        self._to(State.RUNNING, "started")
-        return True
 
-    def abort(self, reason: str) -> None:
-        """End the mission, begun or not; the first reason stays, and a completed one stays complete."""
-        if self.state not in (State.COMPLETE, State.ABORTED):
-            self._to(State.ABORTED, reason)
+@pure
+def started(mission: Mission) -> Mission:
+    """Begin (anew) from idle, complete or aborted; a mission that is under way is unchanged."""
+    if is_under_way(mission):
+        return mission
+    return Mission(RUNNING, Reason(STARTED, 0.0, 0.0, 0.0), math.nan)
 
-    def complete(self) -> None:
-        """The end of the path was reached."""
-        if self.state is State.RUNNING:
-            self._to(State.COMPLETE, "the end of the path was reached")
 
-    def navigation_lost(self, reason: str, now: float) -> None:
-        """Nothing usable came for `hold_after` seconds; `now` is ROS time, s."""
-        if self.state is State.RUNNING:
-            self._to(State.HOLDING, reason)
-            self._since = now
+@pure
+def aborted(mission: Mission, reason: Reason) -> Mission:
+    """End a mission, begun or not; the first reason stays, and a completed one stays complete."""
+    if mission.state == COMPLETE or mission.state == ABORTED:
+        return mission
+    return Mission(ABORTED, reason, math.nan)
 
-    def navigation_back(self) -> None:
-        """Usable navigation came: go on from where the mission held."""
-        if self.state is State.HOLDING:
-            self._to(State.RUNNING, "navigation is back")
 
-    def tick(self, now: float) -> None:
-        """Let time pass; `now` is ROS time, s. Holding for too long aborts."""
-        if self.state is not State.HOLDING or self._since is None:
-            return
-        if now < self._since:  # the clock went back
-            self._since = now
-        elif now - self._since > self.config.abort_after:
-            self.abort(f"held for more than {self.config.abort_after:g} s: {self.reason}")
+@pure
+def completed(mission: Mission) -> Mission:
+    """Complete a running mission: the end of the path was reached."""
+    if mission.state != RUNNING:
+        return mission
+    return Mission(COMPLETE, Reason(END_OF_PATH, 0.0, 0.0, 0.0), math.nan)
 
-    def _to(self, state: State, reason: str) -> None:
-        self.state, self.reason = state, reason
-        self._since = None
+
+@pure
+def navigation_lost(mission: Mission, hold_after: float, now: float) -> Mission:
+    """Hold a running mission: no usable navigation for `hold_after` s; `now` is ROS time, s."""
+    if mission.state != RUNNING:
+        return mission
+    return Mission(HOLDING, Reason(NAVIGATION_LOST, 0.0, 0.0, hold_after), now)
+
+
+@pure
+def navigation_back(mission: Mission) -> Mission:
+    """Resume a mission that holds."""
+    if mission.state != HOLDING:
+        return mission
+    return Mission(RUNNING, Reason(NAVIGATION_BACK, 0.0, 0.0, 0.0), math.nan)
+
+
+@pure
+def waited(mission: Mission, abort_after: float, now: float) -> Mission:
+    """Let time pass; holding for longer than `abort_after` s aborts. `now` is ROS time, s."""
+    if mission.state != HOLDING:
+        return mission
+    if now < mission.since:  # the clock went back
+        return Mission(HOLDING, mission.reason, now)
+    if now - mission.since > abort_after:
+        return Mission(ABORTED, Reason(HELD_TOO_LONG, mission.reason.bound, 0.0, abort_after), math.nan)
+    return mission

@@ -12,6 +12,7 @@ from auv_path_following.guidance.approach import Agility, ApproachConfig, empty_
 from auv_path_following.guidance.follow import (
     FollowerConfig,
     FollowerInputs,
+    FollowerState,
     GuidanceOutput,
     first_state,
     follow,
@@ -81,6 +82,13 @@ def prepare(config: PathFollowerConfig, agility: Agility | None = None) -> Follo
     )
 
 
+def distance_to_go(path: CompositePath, state: FollowerState) -> float:
+    """Return the length from P to the end of the path, what is left of an approach included, m."""
+    P, legs, approach = state.progress[:3]
+    i, t = (0, 0.0) if legs > 0 else (P.i, P.t)
+    return approach_to_go(legs, approach, P.i, P.t) + path.distance_to_go(i, t)
+
+
 class PathFollower:
     """Guidance along one path: configuration and state.
 
@@ -121,9 +129,7 @@ class PathFollower:
     @property
     def distance_to_go(self) -> float:
         """From P to the end of the path, what is left of an approach included, m."""
-        P, legs, approach = self.state.progress[:3]
-        i, t = (0, 0.0) if legs > 0 else (P.i, P.t)
-        return approach_to_go(legs, approach, P.i, P.t) + self.path.distance_to_go(i, t)
+        return distance_to_go(self.path, self.state)
 
     def rejoin(self, navigation: Navigation) -> None:
         """Go on after a hold, from where the vehicle is now: `rejoin`."""

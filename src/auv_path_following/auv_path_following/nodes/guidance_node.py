@@ -1,7 +1,8 @@
-"""ailos_guidance: follows the mission's path with virtual point, subpath switching and AILOS."""
+"""ailos_guidance: follows the mission's path with virtual point, subpath switching and a guidance law."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -10,16 +11,28 @@ from std_srvs.srv import Trigger
 
 from auv_msgs_py import topics
 from auv_msgs_py.runtime import SuiteNode, run_nodes
+from auv_msgs_py.types import WaterVelocity
 from auv_path_following import vehicle
-from auv_path_following.guidance.approach import ApproachWatch, agility_of
-from auv_path_following.guidance.follow import GuidanceOutput
-from auv_path_following.guidance.limits import Limits
-from auv_path_following.guidance.mission_state import MissionState, State
-from auv_path_following.guidance.path_follower import PathFollower
-from auv_path_following.nodes.guidance_output import GuidanceMessages, StateMessages, whole_path
+from auv_path_following.guidance import limits, path_follower
+from auv_path_following.guidance import mission_state as states
+from auv_path_following.guidance.approach import ApproachWatch, agility_of, empty_approach
+from auv_path_following.guidance.guide import (
+    Guide,
+    GuideInputs,
+    at_the_beginning,
+    first_state,
+    guide,
+    prepare,
+    reconfigured,
+    start,
+)
+from auv_path_following.guidance.mission_state import Reason, State
+from auv_path_following.nodes.guidance_output import GuidanceMessages, MissionReport, whole_path
 from auv_path_following.nodes.navigation_input import Inputs, NavigationInput
 from auv_path_following.parameters import GuidanceParameters
 from auv_path_following.paths import mission_file
+
+_UNKNOWN = WaterVelocity(0.0, 0.0)
 
 
 class GuidanceNode(SuiteNode):
@@ -29,82 +42,80 @@ class GuidanceNode(SuiteNode):
         super().__init__(topics.GUIDANCE, GuidanceParameters, **arguments)
         hull = vehicle.load(self.parameters.vehicle)
         self.mission = mission_file.load(self.parameters.mission, hull)
-        agility = agility_of(hull, self.mission.thrust)
-        self.follower = PathFollower(self.mission.path, self.parameters.guidance, agility)
-        self.state = MissionState(self.parameters.holding)
-        self.limits = Limits(self.parameters.limits.stricter(self.mission.limits), self.mission.geofence)
-        self._told: State | None = None
-        self._output: GuidanceOutput | None = None
-        self._last_usable: float | None = None
-        self._rejoining = self._clock_went_back = self._begins = False
+        self._path, self._rows = self.mission.path, self.mission.path.rows
+        self._agility = agility_of(hull, self.mission.thrust)
+        self.config = self._prepared()
+        self.state = first_state(self.config, empty_approach())
         self._approach = ApproachWatch()
-        #: Time without usable navigation, by the odometry's stamps, s.
-        self._blind = 0.0
+        self._last_usable: float | None = None
+        self._clock_went_back = False
         self._messages = GuidanceMessages(self)
-        self._mission_state = StateMessages(self)
-        self._path = self.advertise(topics.PATH)
+        self._report = MissionReport(self)
+        path = self.advertise(topics.PATH)
         self.close_gate()
         self._input = NavigationInput(self, self._step, self._restart, with_current=True)
         self.create_service(Trigger, topics.START_SERVICE, self._on_start)
         self.create_service(Trigger, topics.ABORT_SERVICE, self._on_abort)
         if not self.parameters.lockstep:
             self.every(0.1, self._watch)
-        self._path.publish(whole_path(self.mission.path, self.get_clock().now().nanoseconds))
+        path.publish(whole_path(self._path, self.get_clock().now().nanoseconds))
         for notice in self.mission.notices:
             self.get_logger().info(notice)
-        self._take_wishes()
-        self._tell()
+        self._take_mission_switching()
+        self._report.tell(self.state.mission)
 
-    def _take_wishes(self) -> None:
-        """The mission's switching becomes the parameters', where everybody can see and change it."""
-        wished = self.parameters.with_wishes_of(self.mission).guidance.switching
-        if wished != self.parameters.guidance.switching:
+    def _prepared(self) -> Guide:
+        p = self.parameters
+        bounds = limits.prepare(p.limits.stricter(self.mission.limits), self.mission.geofence)
+        hold_after = math.inf if p.lockstep else p.holding.hold_after
+        return prepare(p.guidance, self._agility, self.mission.thrust, hold_after, bounds)
+
+    def _take_mission_switching(self) -> None:
+        """Make the mission's switching the parameters', where it can be seen and changed."""
+        switching = self.parameters.with_wishes_of(self.mission).guidance.switching
+        if switching != self.parameters.guidance.switching:
             self.set_parameters(
                 [
-                    Parameter("guidance.switching.mode", value=wished.mode),
-                    Parameter("guidance.switching.radius", value=wished.radius),
+                    Parameter("guidance.switching.mode", value=switching.mode),
+                    Parameter("guidance.switching.radius", value=switching.radius),
                 ]
             )
 
     def configure(self) -> None:
-        self.follower.configure(self.parameters.guidance)
-        self.state.config = self.parameters.holding
-        self.limits.config = self.parameters.limits.stricter(self.mission.limits)
+        self.config = self._prepared()
+        self.state = reconfigured(self.config, self.state)
         self._input.odometry.configure()
 
     def waiting_for(self) -> str:
         return self.gate_waits_for() or ", ".join(self._input.missing)
 
     def report(self) -> dict[str, Any]:
-        values = {"mission_state": self.state.state.value, "reason": self.state.reason}
-        if self._output is not None:
-            values |= {"s": f"{self._output.s:.3f}", "ye [m]": f"{self._output.ye:.3f}"}
-            values["phase"] = self._approach.phase
+        values = self._report.values()
+        if (output := self._messages.output) is not None:
+            values |= {"s": f"{output.s:.3f}", "ye [m]": f"{output.ye:.3f}", "phase": self._approach.phase}
         return values
 
     def _on_start(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        response.success = self.state.start()
+        before, self.state = self.state, start(self.config, self.state)
+        response.success = self.state is not before
         if response.success:
             self._begin()
             self._input.odometry.believe_anew()
-        response.message = self.state.reason if response.success else f"already {self.state.state.value}"
-        self._tell()
+        self._report.tell(self.state.mission)
+        response.message = self._report.reason if response.success else f"already {self._report.word}"
         return response
 
     def _on_abort(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        self.state.abort("abort was called")
-        response.success = self.state.state is State.ABORTED
-        response.message = self.state.reason
-        self._tell()
+        aborted = states.aborted(self.state.mission, Reason(states.ABORT_CALLED))
+        self.state = self.state._replace(mission=aborted)
+        self._report.tell(aborted)
+        response.success, response.message = self._report.word == State.ABORTED, self._report.reason
         return response
 
     def _begin(self) -> None:
-        """At the beginning of the path, and only when asked to start or when time itself began again."""
-        self.follower.reset()
-        self.limits.reset()
-        self._last_usable, self._rejoining, self._clock_went_back = None, False, False
-        self._approach, self._blind = ApproachWatch(), 0.0
-        self._begins = True
+        """At the beginning of the path: after a start, or when time itself began again."""
+        self.state = at_the_beginning(self.config, self.state.mission, empty_approach())
+        self._last_usable, self._clock_went_back, self._approach = None, False, ApproachWatch()
 
     def _restart(self) -> None:
         """The odometry's stamps went back. If the clock did not, only the vehicle's clock was set: go on."""
@@ -113,82 +124,46 @@ class GuidanceNode(SuiteNode):
         self._clock_went_back = False
 
     def _watch(self) -> None:
-        now = self.now()
+        """Hold a mission that gets no usable navigation, and end one that holds for too long."""
+        now, mission = self.now(), self.state.mission
         if self._last_usable is None or now < self._last_usable:
             self._clock_went_back = self._last_usable is not None
             self._last_usable = now
-        self._hold_after(now - self._last_usable)
-        self.state.tick(now)
-        self._tell()
-
-    def _hold_after(self, blind: float) -> None:
-        """Hold if there has been no usable navigation for `blind` seconds, and that is too long."""
-        if blind > self.state.config.hold_after:
-            why = self.health.last_refusal
-            reason = f"no usable navigation for {self.state.config.hold_after:g} s"
-            self.state.navigation_lost(f"{reason} ({why})" if why else reason, self.now())
-
-    def _look_for_gap(self, dt: float, usable: bool) -> None:
-        """Hold after a gap between stamps as after one in time: which is noticed first must not matter."""
-        self._blind += dt
-        if not self.parameters.lockstep:
-            self._hold_after(self._blind)
-            self._tell()
-        if usable:
-            self._blind = 0.0
+        if now - self._last_usable > self.config.hold_after:
+            mission = states.navigation_lost(mission, self.config.hold_after, now)
+        mission = states.waited(mission, self.parameters.holding.abort_after, now)
+        self.state = self.state._replace(mission=mission)
+        self._report.tell(mission)
 
     def _step(self, inputs: Inputs) -> None:
-        navigation, water = inputs.navigation, inputs.water
-        begins, self._begins = self._begins, False
-        dt = 0.0 if begins else inputs.dt
-        self._rejoining = (self._rejoining or inputs.moved) and not begins
-        self._look_for_gap(dt, water is not None)
-        late = water is None and inputs.water_age > self.parameters.water_velocity_timeout
+        p, has_water, now = self.parameters, inputs.water is not None, self.now()
+        late = not has_water and inputs.water_age > p.water_velocity_timeout
         self.health.warn("water", f"no fresh {topics.WATER_VELOCITY.name}" if late else "")
-        if water is not None:
-            self._last_usable = self.now()
-            self._rejoining = self._rejoining or self.state.state is State.HOLDING
-            self.state.navigation_back()
-        late = self.state.running and inputs.current_age > self.parameters.current_timeout
-        self.health.warn("current", f"no fresh {topics.CURRENT_ESTIMATE.name}" if late else "")
-        if self.state.running and water is not None:
-            if self._rejoining:
-                self.follower.rejoin(navigation)
-                self.limits.rest()
-            output = self.follower.update(navigation, water, inputs.current, 0.0 if self._rejoining else dt)
-            self._rejoining = False
-            if news := self._approach.update(output.approach, dt):
+        if has_water:
+            self._last_usable = now
+        water = inputs.water or _UNKNOWN
+        measured = GuideInputs(
+            inputs.navigation, water, has_water, inputs.moved, inputs.current, self._to_go(), now
+        )
+        self.state, out = guide(self.config, self._rows, self.state, measured, inputs.dt)
+        if out.has_resumed:
+            self._report.resumed(self.config.hold_after)
+        if out.thrust > 0.0:
+            late = inputs.current_age > p.current_timeout
+            self.health.warn("current", f"no fresh {topics.CURRENT_ESTIMATE.name}" if late else "")
+            if news := self._approach.update(out.guidance.approach, inputs.dt):
                 self.get_logger().info(news)
-            self.health.warn("approach", self._approach.complaint(self.parameters.guidance.approach.overdue))
-            to_go = self.follower.distance_to_go
-            broken = self.limits.broken(navigation, output.xe, output.ye, to_go, dt)
-            if output.finished:
-                self.state.complete()
-        else:
-            output = self.follower.look(navigation)
-            to_go = self.follower.distance_to_go
-            broken = self.limits.wait(dt) if self.state.under_way else ""
-        if broken and self.state.under_way:
-            self.state.abort(broken)
-        self._output = output
-        self._messages.fill(output, to_go, self.mission.thrust if self.state.running else 0.0, inputs.stamp)
+            self.health.warn("approach", self._approach.complaint(p.guidance.approach.overdue))
+        self._messages.fill(out.guidance, out.thrust, self._to_go(), inputs.stamp)
         self.answer(self._publish)
+
+    def _to_go(self) -> float:
+        return path_follower.distance_to_go(self._path, self.state.follower)
 
     def _publish(self) -> None:
         self._messages.publish()
-        self._tell()
-        self._mission_state.answered(self.state.running)
-
-    def _tell(self) -> None:
-        """Publish the state when it has changed."""
-        if self.state.state is self._told:
-            return
-        self._told = self.state.state
-        stopped = self._told in (State.HOLDING, State.ABORTED)
-        self.health.error("mission", "")
-        self.health.error("mission", f"{self._told.value}: {self.state.reason}" if stopped else "", log=False)
-        self._mission_state.tell(self._told.value)
-        self.get_logger().info(f"{self._told.value}: {self.state.reason}")
+        self._report.tell(self.state.mission)
+        self._report.answered(self.state.mission.state == states.RUNNING)
 
 
 def main(args: Sequence[str] | None = None) -> int:

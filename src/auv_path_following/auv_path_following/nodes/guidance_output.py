@@ -14,6 +14,15 @@ from auv_msgs_py.mission_word import PERIOD, TIMES
 from auv_msgs_py.runtime import SuiteNode
 from auv_msgs_py.wire import Float64, PoseStamped, Vector3Stamped
 from auv_path_following.guidance.follow import GuidanceOutput
+from auv_path_following.guidance.mission_state import (
+    HOLDING,
+    NAVIGATION_LOST,
+    STATES,
+    Mission,
+    Reason,
+    State,
+    words,
+)
 from auv_path_following.paths.composite import CompositePath
 
 #: Distance between the poses of `path`, m.
@@ -33,53 +42,77 @@ def whole_path(path: CompositePath, stamp: int) -> Any:
     return path_message([(point.x, point.y, point.chi) for point in points], stamp)
 
 
-class StateMessages:
-    """Publish the mission's state as `mission_word` says: a new one twice, any once every `PERIOD`.
+class MissionReport:
+    """Publishes the mission's state as `mission_word` says: a new one twice, any once every `PERIOD`.
 
     Free running by wall time, because a state must come when the ROS clock stands still. In lockstep by
     mission time and as part of an answer, so that a run has the same messages each time.
 
     Args:
-        node: whose publisher it is.
+        node: whose publisher, log and diagnostics they are.
     """
 
     def __init__(self, node: SuiteNode) -> None:
         self._node = node
         self._publisher = node.advertise(topics.MISSION_STATE)
         self._lockstep = bool(node.parameters.lockstep)
-        self._word = ""
-        self._said = 0.0
+        self.word: State | None = None
+        self.reason = self._detail = ""
+        self._published = 0.0
         if not self._lockstep:
             node.create_timer(PERIOD, self._publish, clock=Clock(clock_type=ClockType.STEADY_TIME))
 
-    def tell(self, word: str) -> None:
-        """Publish a new state."""
-        self._word = word
+    def values(self) -> dict[str, str]:
+        """State and reason, for the diagnostics."""
+        return {"mission_state": str(self.word or ""), "reason": self.reason}
+
+    def tell(self, mission: Mission) -> None:
+        """Publish the state where it has changed."""
+        word = STATES[mission.state]
+        if word is self.word:
+            return
+        health = self._node.health
+        if word is State.HOLDING:
+            self._detail = health.last_refusal
+        self.word, self.reason = word, words(mission.reason, self._detail)
+        stopped = word in (State.HOLDING, State.ABORTED)
+        health.error("mission", "")
+        health.error("mission", f"{word.value}: {self.reason}" if stopped else "", log=False)
         for _ in range(TIMES):
             self._publish()
+        self._node.get_logger().info(f"{word.value}: {self.reason}")
+
+    def resumed(self, hold_after: float) -> None:
+        """Publish that the mission held, if only a gap between two measurements shows it."""
+        if self.word is State.RUNNING:
+            self.tell(Mission(HOLDING, Reason(NAVIGATION_LOST, 0.0, 0.0, hold_after)))
 
     def answered(self, running: bool) -> None:
-        """An odometry was answered.
+        """Publish the state as part of the answer to an odometry, where it is due.
 
         In lockstep an answer without thrust is always followed by the state: the simulator waits for it.
         """
-        if self._lockstep and (not running or abs(self._node.now() - self._said) >= PERIOD):
+        if self._lockstep and (not running or abs(self._node.now() - self._published) >= PERIOD):
             self._publish()
 
     def _publish(self) -> None:
-        self._said = self._node.now()
-        if self._word:
-            self._publisher.publish(String(data=self._word))
+        self._published = self._node.now()
+        if self.word is not None:
+            self._publisher.publish(String(data=self.word.value))
 
 
 class GuidanceMessages:
-    """Filled and published again and again; what the autopilot waits for goes first.
+    """Messages that are filled and published again and again; those that the autopilot waits for go first.
 
     Args:
         node: whose publishers they are.
+
+    Attributes:
+        output: what they were filled with last.
     """
 
     def __init__(self, node: SuiteNode) -> None:
+        self.output: GuidanceOutput | None = None
         self._floats = {
             topic: (node.advertise(topic), Float64())
             for topic in (
@@ -91,21 +124,21 @@ class GuidanceMessages:
         self._path_error, self._error = node.advertise(topics.PATH_ERROR), Vector3Stamped()
         self._error.header.frame_id = PATH_FRAME
 
-    def fill(self, output: GuidanceOutput, distance_to_go: float, thrust: float, stamp: int) -> None:
+    def fill(self, output: GuidanceOutput, thrust: float, to_go: float, stamp: int) -> None:
         """Take a result in NED.
 
         Args:
             output: the result.
-            distance_to_go: from P to the end of the path, m.
             thrust: desired thrust, N.
+            to_go: path to the end, m.
             stamp: of the odometry that it answers, ns.
         """
-        floats = self._floats
+        self.output, floats = output, self._floats
         floats[topics.DESIRED_YAW][1].data = flip_yaw(output.psi_d)
         floats[topics.DESIRED_YAW_RATE][1].data = -output.r_d
         floats[topics.DESIRED_THRUST][1].data = thrust
         floats[topics.PATH_PARAMETER][1].data = output.s
-        floats[topics.DISTANCE_TO_GO][1].data = distance_to_go
+        floats[topics.DISTANCE_TO_GO][1].data = to_go
         fill_pose(self._pose, output.x_p, output.y_p, output.chi_p, stamp)
         set_stamp(self._error.header.stamp, stamp)
         vector = self._error.vector

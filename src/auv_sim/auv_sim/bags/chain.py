@@ -1,7 +1,7 @@
-"""The control chain without ROS and without a plant: recorded sensors in, commands out.
+"""The pilot without ROS and without a plant: recorded sensors in, commands out.
 
-The objects are those of the nodes, in the nodes' order, with the conversions of the wire in between: an angle
-that has travelled as yaw_enu is not the same number as before, in its last bit.
+It has the conversions of the wire in between: an angle that was sent as yaw_enu is not the same number as
+before, in its last bit.
 """
 
 from __future__ import annotations
@@ -19,13 +19,16 @@ from auv_msgs_py import topics
 from auv_msgs_py.conversions import nanoseconds, navigation_from, water_velocity_from
 from auv_msgs_py.errors import ConfigurationError, MessageRefused
 from auv_msgs_py.frames import FrameTable, flip_yaw
+from auv_msgs_py.pure import numbers_of
 from auv_msgs_py.stamps import StampGuard, Verdict
-from auv_msgs_py.types import Reference, WaterVelocity
-from auv_path_following.control.autopilot import HeadingAutopilot
-from auv_path_following.guidance.approach import agility_of
-from auv_path_following.guidance.current_observer import CurrentObserver
-from auv_path_following.guidance.path_follower import PathFollower
+from auv_msgs_py.types import WaterVelocity
+from auv_path_following.control import autopilot
+from auv_path_following.guidance import guide
+from auv_path_following.guidance import mission_state as states
+from auv_path_following.guidance.approach import agility_of, empty_approach
+from auv_path_following.guidance.guide import GuideState, at_the_beginning
 from auv_path_following.paths.mission_file import Mission
+from auv_path_following.pilot import Pilot, PilotInputs, first_state, pilot
 from auv_path_following.vehicle import Vehicle
 from auv_sim.recording.bag import Bag, RecordedTopic
 from auv_sim.recording.deserialize import deserializer
@@ -112,32 +115,31 @@ def answers(
 
 
 class _Chain:
-    """Observer, guidance and autopilot."""
+    """The pilot, with the mission's phases as they were recorded."""
 
     def __init__(self, parameters: dict[str, Any], mission: Mission, vehicle: Vehicle) -> None:
         guidance = parameters[topics.GUIDANCE].with_wishes_of(mission)
-        self._mission = mission
+        steering = parameters[topics.AUTOPILOT]
+        # In lockstep a node's watchdogs rest, and so do these bounds.
+        hold_after = math.inf if guidance.lockstep else guidance.holding.hold_after
+        gap = math.inf if guidance.lockstep else steering.odometry_timeout
+        self._config = Pilot(
+            numbers_of(parameters[topics.OBSERVER].observer),
+            guide.prepare(guidance.guidance, agility_of(vehicle, mission.thrust), mission.thrust, hold_after),
+            autopilot.prepare(steering.autopilot, vehicle),
+            gap,
+            True,
+        )
+        self._rows = mission.path.rows
         self._frames = FrameTable(guidance.frames)
         self._guard = StampGuard(ordered=guidance.lockstep)
-        self._observer = CurrentObserver(parameters[topics.OBSERVER].observer)
-        agility = agility_of(vehicle, mission.thrust)
-        self._follower = PathFollower(mission.path, guidance.guidance, agility)
-        self._autopilot = HeadingAutopilot(vehicle, parameters[topics.AUTOPILOT].autopilot)
-        self._complete = False
-        # In lockstep a node's watchdogs rest, and so do these bounds.
-        self._longest_gap = math.inf if guidance.lockstep else guidance.holding.hold_after
-        self._autopilots_gap = (
-            math.inf if guidance.lockstep else parameters[topics.AUTOPILOT].odometry_timeout
-        )
-        self._blind, self._held = 0.0, False
+        self._state = first_state(self._config, empty_approach())
 
-    def step(self, step: _Step, mission: _Phase) -> Answer | None:
-        """The answer; None to an odometry that the nodes refuse too."""
-        begins = mission.begins
-        if begins:
-            self._follower.reset()
-            self._complete = False
-            self._blind, self._held = 0.0, False
+    def step(self, step: _Step, phase: _Phase) -> Answer | None:
+        """Return the answer; None to an odometry that the nodes refuse too."""
+        if phase.begins:
+            running = states.Mission(states.RUNNING)
+            self._guide(at_the_beginning(self._config.guide, running, empty_approach()))
         try:
             navigation = navigation_from(step.odometry, self._frames, topics.ODOM.name)
             water = self._water(step.water)
@@ -146,38 +148,38 @@ class _Chain:
         verdict, dt = self._guard.judge(step.stamp)
         if verdict is Verdict.REFUSE:
             return None
+        mission = self._state.guide.mission
         if verdict is Verdict.RESTART:
-            self._observer.reset()
-            self._follower.reset()
-            self._autopilot.reset()
-        self._observer.update(navigation, water, dt)
-        since = 0.0 if begins else dt
-        self._blind += since
-        self._held = self._held or mission.resumes or self._blind > self._longest_gap
-        if dt > self._autopilots_gap:
-            self._autopilot.reset()
-        running = mission.runs and not self._complete
-        if running and water is not None:
-            if self._held and not begins:
-                self._follower.rejoin(navigation)
-                since = 0.0
-            self._blind, self._held = 0.0, False
-            output = self._follower.update(navigation, water, self._observer.current, since)
-            self._complete = output.finished
-            running = not output.finished
-        else:
-            output = self._follower.look(navigation)
-        psi_d, r_d = (output.psi_d, output.r_d) if running else (navigation.psi, 0.0)
-        thrust = self._mission.thrust if running else 0.0
-        yaw, rate = flip_yaw(psi_d), -r_d
-        reference = Reference(flip_yaw(yaw), -rate, thrust)
-        command = self._autopilot.update(navigation, reference, dt).command
-        return Answer(command.rudder, command.thrust, yaw, rate, thrust, output.s)
+            self._state = first_state(self._config, empty_approach())
+        self._guide(self._state.guide._replace(mission=_in_phase(mission, phase)))
+        measured = PilotInputs(
+            navigation, water or _UNKNOWN, water is not None, False, 0.0, step.stamp * 1e-9
+        )
+        self._state, out = pilot(self._config, self._rows, self._state, measured, dt)
+        (rudder, thrust), guided = out.command, out.guidance
+        yaw = flip_yaw(guided.psi_d)
+        return Answer(rudder, thrust, yaw, -guided.r_d, out.reference.thrust, guided.s)
+
+    def _guide(self, state: GuideState) -> None:
+        self._state = self._state._replace(guide=state)
 
     def _water(self, message: Any | None) -> WaterVelocity | None:
         if message is None:
             return None
         return water_velocity_from(message, self._frames, topics.WATER_VELOCITY.name)
+
+
+_UNKNOWN = WaterVelocity(0.0, 0.0)
+
+
+def _in_phase(mission: states.Mission, phase: _Phase) -> states.Mission:
+    """Return the state as recorded; a mission that holds or is complete changes of its own accord only."""
+    if phase.resumes:
+        return states.Mission(states.HOLDING)
+    if phase.runs:
+        changes = mission.state in (states.HOLDING, states.COMPLETE)
+        return mission if changes else states.Mission(states.RUNNING)
+    return mission if mission.state == states.COMPLETE else states.Mission()
 
 
 def _steps(bag: Bag, namespace: str | None, lockstep: bool, timeout: float) -> Iterator[_Step]:

@@ -47,7 +47,18 @@ def compiled(function: F) -> F:
     """The function as machine code that leaves the interpreter to other threads, kept from run to run."""
     if numba is None:
         return function
-    return numba.njit(nogil=True, cache=True, **_OPTIONS)(function)  # type: ignore[no-any-return]
+    return numba.njit(nogil=True, cache=True, error_model="numpy")(function)  # type: ignore[no-any-return]
+
+
+def overloads(function: Callable[..., Any]) -> Callable[[F], F]:
+    """Decorate what makes the compiled form of a function, given the types of its arguments."""
+
+    def decorate(maker: F) -> F:
+        if numba is not None:
+            overload(function, jit_options=_OPTIONS, strict=False)(maker)
+        return maker
+
+    return decorate
 
 
 _taken_over: set[int] = set()
@@ -64,7 +75,7 @@ def take_over_pure() -> None:
     for step, steps in DISPATCHED:
         if id(step) not in _taken_over:
             _taken_over.add(id(step))
-            overload(step, jit_options=_OPTIONS, strict=False)(_chooser(steps))
+            overloads(step)(_chooser(steps))
 
 
 def _chooser(steps: Mapping[type[Any], Step]) -> Callable[..., Any]:

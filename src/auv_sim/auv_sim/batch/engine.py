@@ -1,12 +1,11 @@
-"""Flies many scenarios of `closed_loop` and keeps their figures: the same laws, many times as fast.
+"""Flies many scenarios of `closed_loop` and keeps their figures: the same pilot, many times as fast.
 
     flights = fly([Scenario(...), Scenario(...), ...])
     print(flights.completed.mean(), flights.rms_distance.max())
 
-A scenario may have its own path, vehicle, gains, current and start. What a flight gives depends on its own
+A scenario may have its own path, vehicle, gains, current and start. The figures of a flight depend on its own
 scenario only, to the last bit: not on the others, their order or the number of threads. One at sea
-(`Scenario.sea`) is flown by `closed_loop` itself, with instruments and navigator, at that one's speed:
-docs/performance.md tells them apart.
+(`Scenario.sea`) is flown by `closed_loop` itself, with instruments and navigator, at its speed.
 """
 
 from __future__ import annotations
@@ -22,35 +21,33 @@ from auv_msgs_py import topics
 from auv_path_following import vehicle
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.line import Line
-from auv_path_following.paths.rows import PathRows
 from auv_sim import closed_loop
-from auv_sim.analysis.flown_share import Cells, cells_of, share_of
+from auv_sim.analysis.flown_share import cells_of
 from auv_sim.analysis.run import Run
 from auv_sim.batch import tally
 from auv_sim.batch.compiled import COMPILED
-from auv_sim.batch.distance import Outlines, outlines_of, rows_of
-from auv_sim.batch.flight import TRACK_COLUMNS, End, fly_one
+from auv_sim.batch.distance import outlines_of, rows_of
+from auv_sim.batch.flight import TRACK_COLUMNS, Course, Flight, fly_many, fly_one, scratch_of
 from auv_sim.batch.flights import Flights, figures_of
 from auv_sim.batch.judge import judged
-from auv_sim.batch.scenarios import flight_of
+from auv_sim.batch.scenarios import Preparation, flight_of
 from auv_sim.closed_loop import Scenario, start_of
-from auv_sim.plant.remus import PlantState, plant_at
 
 _TRACK = ("x", "y", "psi", "r", "ur", "vr", "rudder", "rudder_cmd", "thrust_cmd", "psi_d", "r_d",
           "xe", "ye", "psi_e", "s", "Vx_est", "Vy_est")  # fmt: skip
+#: Flights of one compiled call.
+_CHUNK = 64
+
+Done = Callable[[int], None]
 
 
-def fly(
-    scenarios: Sequence[Scenario],
-    threads: int = 1,
-    done: Callable[[int], None] | None = None,
-) -> Flights:
+def fly(scenarios: Sequence[Scenario], threads: int = 1, done: Done | None = None) -> Flights:
     """Fly them all.
 
     Args:
         scenarios: what to fly.
         threads: how many fly at the same time; more than one helps where `compiled.COMPILED`.
-        done: called with the number of odometries after each flight, from any thread.
+        done: called with the number of odometries of each flight, some time after it, from any thread.
 
     Returns:
         One row for each scenario, in their order.
@@ -58,33 +55,86 @@ def fly(
     Raises:
         ConfigurationError: a scenario that cannot be flown.
     """
-    # Mistakes come before the first flight. What several scenarios share is turned into numbers once.
-    flights: dict[int, Any] = {}
-    courses: dict[int, _Course] = {}
-    for scenario in scenarios:
-        if id(scenario) not in flights:
-            flights[id(scenario)] = flight_of(scenario)
-        if scenario.sea is None and id(scenario.path) not in courses:
-            courses[id(scenario.path)] = _Course.of(scenario.path)
+    # Mistakes are found before the first flight.
+    chunks = list(_chunks(scenarios, -(-len(scenarios) // (4 * threads))))
 
-    def one(scenario: Scenario) -> dict[str, Any]:
-        if scenario.sea is None:
-            flight = flights[id(scenario)]
-            course = courses[id(scenario.path)]
-            end, whole, subpaths, flown, _ = _flown(flight, scenario, course, 0)
-            figures = figures_of(end, whole, subpaths, share_of(course.cells, flown).share, flight.dt)
-        else:
-            figures = judged(closed_loop.fly(scenario), scenario)
-        if done is not None:
-            done(figures["steps"])
-        return figures
+    def one(chunk: _Chunk) -> tuple[Sequence[int], dict[str, Any]]:
+        figures = chunk.fly(scenarios)
+        for steps in figures["steps"] if done is not None else ():
+            done(int(steps))  # type: ignore[misc]
+        return chunk.places, figures
 
     if threads > 1 and COMPILED:
         with ThreadPoolExecutor(threads) as pool:
-            rows = list(pool.map(one, scenarios))
+            parts = list(pool.map(one, chunks))
     else:
-        rows = [one(scenario) for scenario in scenarios]
-    return Flights.from_rows(rows)
+        parts = [one(chunk) for chunk in chunks]
+    return Flights.joined(parts, len(scenarios))
+
+
+class _Chunk(NamedTuple):
+    """Some flights of one course that one compiled call flies; or one at sea.
+
+    Attributes:
+        places: among the scenarios.
+        example: a flight of their layout; None: at sea.
+        course: the path.
+        configs, which: rows of numbers, and the row of each flight.
+    """
+
+    places: Sequence[int]
+    example: Flight | None
+    course: Course | None
+    configs: Any
+    which: Any
+
+    def fly(self, scenarios: Sequence[Scenario]) -> dict[str, Any]:
+        """Return the figures by the names of `Flights`, one row for each flight."""
+        flown = [scenarios[place] for place in self.places]
+        if self.example is None or self.course is None:
+            return {
+                name: np.array([value]) for name, value in judged(closed_loop.fly(flown[0]), flown[0]).items()
+            }
+        n, m = len(flown), self.course.path.n
+        starts = np.array([scenario.initial or start_of(scenario.path) for scenario in flown], np.float64)
+        currents = np.array([scenario.current for scenario in flown], np.float64)
+        whole, ends = np.empty((n, tally.FLIGHT_TALLIES)), np.empty((n, tally.ENDS))
+        subpaths = np.empty((n, m, tally.SUBPATH_TALLIES))
+        with np.errstate(all="ignore"):  # a state that runs away is a result
+            fly_many(
+                self.example, self.configs, self.which, starts, currents, self.course,
+                scratch_of(self.course), whole, subpaths, ends, 0, n,
+            )  # fmt: skip
+        dt = np.array([round(scenario.step * 1e9) * 1e-9 for scenario in flown])
+        return figures_of(ends, whole, subpaths, dt)
+
+
+def _chunks(scenarios: Sequence[Scenario], largest: int) -> list[_Chunk]:
+    """Divide scenarios by course and layout; each shared part is turned into numbers once."""
+    preparation = Preparation()
+    groups: dict[Any, list[tuple[int, int]]] = {}
+    for place, scenario in enumerate(scenarios):
+        row, layout = preparation.row_of(scenario)
+        key = (layout, id(scenario.path)) if scenario.sea is None else place
+        groups.setdefault(key, []).append((place, row))
+    courses: dict[int, Course] = {}
+    chunks = []
+    size = max(1, min(largest, _CHUNK))
+    for members in groups.values():
+        scenario = scenarios[members[0][0]]
+        example = course = None
+        if scenario.sea is None:
+            path = scenario.path
+            if id(path) not in courses:
+                courses[id(path)] = course_of(path)
+            course, example = courses[id(path)], preparation.flights[members[0][1]]
+        different = sorted({row for _, row in members})
+        configs = preparation.rows(different) if example is not None else None
+        which = np.searchsorted(different, [row for _, row in members])
+        for first in range(0, len(members), size):
+            places = [place for place, _ in members[first : first + size]]
+            chunks.append(_Chunk(places, example, course, configs, which[first : first + size]))
+    return chunks
 
 
 def compile_once() -> None:
@@ -109,33 +159,25 @@ def track(scenario: Scenario, every: int = 1) -> Run:
     flight = flight_of(scenario)
     if scenario.sea is not None:
         return closed_loop.fly(scenario).select(slice(None, None, every))
-    *_, rows = _flown(flight, scenario, _Course.of(scenario.path), every)
+    course = course_of(scenario.path)
+    start = np.array(scenario.initial or start_of(scenario.path), np.float64)
+    whole, end = np.empty(tally.FLIGHT_TALLIES), np.empty(tally.ENDS)
+    subpaths = np.empty((course.path.n, tally.SUBPATH_TALLIES))
+    kept = np.empty((math.ceil(flight.steps / every), TRACK_COLUMNS))
+    with np.errstate(all="ignore"):  # a state that runs away is a result
+        fly_one(
+            flight, start, np.array(scenario.current, np.float64), course, scratch_of(course),
+            whole, subpaths, end, kept, every,
+        )  # fmt: skip
+    rows = kept[: math.ceil(end[tally.ODOMETRIES] / every)]
     step_ns = round(scenario.step * 1e9)
     t = [(topics.FIRST_STAMP_NS + int(k) * step_ns) * 1e-9 for k in rows[:, 0]]
-    columns = {"t": t} | {name: rows[:, j] for j, name in enumerate(_TRACK, 1)}
-    true = {"Vx_true": np.full(len(t), flight.Vx), "Vy_true": np.full(len(t), flight.Vy)}
+    columns: dict[str, Any] = {"t": t} | {name: rows[:, j] for j, name in enumerate(_TRACK, 1)}
+    Vx, Vy = map(float, scenario.current)
+    true = {"Vx_true": np.full(len(t), Vx), "Vy_true": np.full(len(t), Vy)}
     return Run.from_columns(columns | true)
 
 
-class _Course(NamedTuple):
-    """A path as compiled code reads it."""
-
-    curve: PathRows
-    outlines: Outlines
-    cells: Cells
-
-    @classmethod
-    def of(cls, path: CompositePath) -> _Course:
-        return cls(rows_of(path), outlines_of(path), cells_of(path))
-
-
-def _flown(flight: Any, scenario: Scenario, course: _Course, every: int) -> tuple[End, Any, Any, Any, Any]:
-    start = PlantState(*map(float, scenario.initial or start_of(scenario.path)))
-    whole = np.empty(tally.FLIGHT_TALLIES)
-    subpaths = np.empty((len(course.curve.subpath), tally.SUBPATH_TALLIES))
-    flown = np.empty(len(course.cells.cells), np.bool_)
-    rows = math.ceil(flight.steps / every) if every else 0
-    kept = np.empty((rows, TRACK_COLUMNS))
-    with np.errstate(all="ignore"):  # a state that runs away is a result
-        end = fly_one(flight, *course, plant_at(start), whole, subpaths, flown, kept, every)
-    return end, whole, subpaths, flown, kept[: math.ceil(end.rows / every)] if every else kept
+def course_of(path: CompositePath) -> Course:
+    """Return a path as compiled code reads it."""
+    return Course(rows_of(path), outlines_of(path), cells_of(path))

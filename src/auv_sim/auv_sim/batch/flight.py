@@ -1,26 +1,26 @@
-"""One whole flight in compiled code: `closed_loop.fly` over plain numbers."""
+"""Whole flights in compiled code: the pilot and the plant of `closed_loop.fly`, many flights a call."""
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from auv_msgs_py.types import NO_CURRENT, Current, Reference, WaterVelocity
-from auv_path_following.control.autopilot import AutopilotInputs, first_state, steer
-from auv_path_following.guidance.approach import LEGS
-from auv_path_following.guidance.current_observer import ObserverInputs, ObserverState, observe
-from auv_path_following.guidance.follow import FollowerInputs, follow
-from auv_path_following.guidance.follow import first_state as first_follower_state
-from auv_path_following.paths.rows import COLUMNS, PathRows
+from auv_msgs_py.types import Current, WaterVelocity
+from auv_path_following import pilot as piloting
+from auv_path_following.guidance import guide
+from auv_path_following.guidance.approach import empty_approach
+from auv_path_following.paths.rows import PathRows
+from auv_path_following.pilot import Pilot, PilotInputs, PilotState, pilot
 from auv_sim.analysis.flown_share import Cells
 from auv_sim.batch import tally
 from auv_sim.batch.compiled import compiled, take_over_pure
 from auv_sim.batch.distance import Outlines, distance_to
 from auv_sim.batch.flown_cells import pass_cells
-from auv_sim.batch.numbers import Flight
+from auv_sim.batch.rows import unpack
+from auv_sim.plant.actuator import ServoState
 from auv_sim.plant.remus import Afloat, PlantInputs, PlantState, navigation_of, plant_step
 
 take_over_pure()
@@ -32,102 +32,137 @@ Flags = npt.NDArray[np.bool_]
 TRACK_COLUMNS = 18
 
 
-class End(NamedTuple):
-    """How a flight ended.
+class Flight(NamedTuple):
+    """Everything that decides a flight but its path, its start and its current.
 
     Attributes:
-        rows: odometries.
-        s: of Eq. (1).
-        finite: whether the state stayed finite.
-        state: the last one.
+        pilot: observer, guidance, autopilot.
+        plant: the vehicle that is simulated.
+        dt: between two odometries, s.
+        steps: at most this many odometries.
     """
 
-    rows: int
-    s: float
-    finite: bool
-    state: PlantState
+    pilot: Pilot
+    plant: Any
+    dt: float
+    steps: int
+
+
+class Course(NamedTuple):
+    """A path as compiled code reads it: rows, outlines for distances, and cells for the flown share."""
+
+    path: PathRows
+    outlines: Outlines
+    cells: Cells
+
+
+class Scratch(NamedTuple):
+    """Tables that a flight writes: rows of its approach, and the cells that it flew, shape (cells,)."""
+
+    approach: Array
+    flown: Flags
+
+
+def scratch_of(course: Course) -> Scratch:
+    """Return tables for flights of a course."""
+    return Scratch(np.array(empty_approach()), np.zeros(len(course.cells.cells), np.bool_))
+
+
+@compiled
+def fly_many(
+    example: Flight, configs: Array, which: Array, starts: Array, currents: Array,
+    course: Course, scratch: Scratch, whole: Array, subpaths: Array, ends: Array, first: int, end: int,
+) -> None:  # fmt: skip
+    """Fly flights `first` to `end` - 1 of one course.
+
+    Args:
+        example: a flight of the same layout.
+        configs: shape (k, numbers), `rows.flat` of different flights.
+        which: shape (n,), the row of each flight in `configs`.
+        starts: shape (n, 6), first states of the hulls.
+        currents: shape (n, 2), NED, m/s.
+        course: the path.
+        scratch: used by each flight in turn.
+        whole, subpaths, ends: written; shapes (n, FLIGHT_TALLIES), (n, m, SUBPATH_TALLIES), (n, ENDS).
+        first, end: range of flights.
+    """
+    none = np.empty((0, TRACK_COLUMNS))
+    for k in range(first, end):
+        flight = unpack(example, configs[which[k]])
+        fly_one(flight, starts[k], currents[k], course, scratch, whole[k], subpaths[k], ends[k], none, 0)
 
 
 @compiled
 def fly_one(
-    c: Flight,
-    curve: PathRows,
-    outlines: Outlines,
-    cells: Cells,
-    afloat: Afloat,
-    whole: Array,
-    subpaths: Array,
-    flown: Flags,
-    track: Array,
-    every: int,
-) -> End:
+    c: Flight, start: Array, current_of: Array, course: Course, scratch: Scratch,
+    whole: Array, subpaths: Array, end: Array, track: Array, every: int,
+) -> None:  # fmt: skip
     """Fly until the end of the path, the last step, or a state that is not finite.
 
     Args:
-        c, curve, outlines, cells: what is flown; the path as rows, as outlines and as cells.
-        afloat: the plant's first state.
-        whole, subpaths: tallies, shape (FLIGHT_TALLIES,) and (n, SUBPATH_TALLIES); written.
-        flown: shape (cells,), which cells were flown; written.
+        c, course: what is flown.
+        start: shape (6,), first state of the hull.
+        current_of: shape (2,), NED, m/s.
+        scratch: written.
+        whole, subpaths, end: tallies, shapes (FLIGHT_TALLIES,), (m, SUBPATH_TALLIES) and (ENDS,); written.
         track: shape (rows, TRACK_COLUMNS), every `every`-th odometry; written; `every` 0 for none.
     """
-    current = Current(c.Vx, c.Vy)
-    observer = ObserverState(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, NO_CURRENT)
-    follower = first_follower_state(c.guidance, np.zeros((LEGS, COLUMNS)))
-    pilot = first_state(c.autopilot)
-    commanded = 0.0
-    i, clear = -1, 0.0
+    path, outlines, cells = course
+    current = Current(current_of[0], current_of[1])
+    state = PlantState(start[0], start[1], start[2], start[3], start[4], start[5])
+    afloat = Afloat(state, ServoState(0.0))
+    flown = scratch.flown
     flown[:] = False
     tally.begin(whole, subpaths)
+    flying = piloting.first_state(c.pilot, scratch.approach)
+    flying = PilotState(flying.observer, guide.start(c.pilot.guide, flying.guide), flying.autopilot)
+    commanded = 0.0
+    i, clear, s, finite = -1, 0.0, 0.0, True
+    odometries = c.steps
+    last = state
     for k in range(c.steps):
         since = c.dt if k > 0 else 0.0
         state, rudder = afloat.hull, afloat.servo.angle
-        navigation = navigation_of(state)
+        last = state
         water = WaterVelocity(state.ur, state.vr)
-        observer, seen = observe(c.observer, observer, ObserverInputs(navigation, water, True), since)
-        estimate = seen.current
-        follower, guided = follow(
-            c.guidance, curve, follower, FollowerInputs(navigation, water, estimate), since
-        )
-        finished = guided.finished
-        reference = Reference(guided.psi_d, guided.r_d, 0.0 if finished else c.thrust)
-        pilot, steered = steer(c.autopilot, pilot, AutopilotInputs(navigation, reference), since)
-        psi_e = steered.psi_e
-        command, thrust = steered.command
-        s = guided.s
+        measured = PilotInputs(navigation_of(state), water, True, False, 0.0, k * c.dt)
+        flying, out = pilot(c.pilot, path, flying, measured, since)
+        guided, estimate, (command, thrust) = out.guidance, out.current, out.command
+        finished, s = guided.finished, guided.s
         if guided.i != i:
             i, clear = guided.i, 0.0
-        distance = distance_to(curve, outlines, i, state.x, state.y)
+        distance = distance_to(path, outlines, i, state.x, state.y)
         if distance > clear:
-            clear = _clearance(curve, outlines, i, state.x, state.y)
+            clear = _clearance(path, outlines, i, state.x, state.y)
             distance = min(distance, clear)
         finite = math.isfinite(command) and math.isfinite(state.x + state.y + state.psi + state.ur + state.vr)
         if finite:
-            tally.count(
-                whole, subpaths, i, s, k * c.dt, distance, psi_e, estimate.Vx - c.Vx, estimate.Vy - c.Vy
-            )
+            off = estimate.Vx - current.Vx, estimate.Vy - current.Vy
+            tally.count(whole, subpaths, i, s, k * c.dt, distance, guided.psi_e, off[0], off[1])
         if every > 0 and k % every == 0:
             row = track[k // every]
             row[0], row[1], row[2], row[3] = k, state.x, state.y, state.psi
             row[4], row[5], row[6], row[7] = state.r, state.ur, state.vr, rudder
             row[8], row[9] = command, thrust
             row[10], row[11] = guided.psi_d, guided.r_d
-            row[12], row[13], row[14] = guided.xe, guided.ye, psi_e
+            row[12], row[13], row[14] = guided.xe, guided.ye, guided.psi_e
             row[15], row[16], row[17] = s, estimate.Vx, estimate.Vy
         if finished or not finite:
-            return End(k + 1, s, finite, state)
+            odometries = k + 1
+            break
         if k > 0:
-            tally.count_command(
-                whole, (command - commanded) / c.dt, abs(command) >= c.autopilot.max_angle - 1e-12
-            )
+            is_at_stop = abs(command) >= c.pilot.autopilot.max_angle - 1e-12
+            tally.count_command(whole, (command - commanded) / c.dt, is_at_stop)
         commanded = command
-        afloat, motion = plant_step(c.plant, afloat, PlantInputs(steered.command, current, 1.0), c.dt)
-        dx, dy = motion.x - state.x, motion.y - state.y
-        covered = math.sqrt(dx * dx + dy * dy)
+        afloat, after = plant_step(c.plant, afloat, PlantInputs(out.command, current, 1.0), c.dt)
+        covered = math.sqrt((after.x - state.x) ** 2 + (after.y - state.y) ** 2)
         clear -= covered
-        if k + 1 < c.steps:
+        if k + 1 < c.steps:  # motion after the last odometry is not attributed to a subpath
             tally.count_step(subpaths, i, c.dt, abs(afloat.servo.angle - rudder), covered)
-            pass_cells(cells, flown, s, state.x, state.y, motion.x, motion.y)
-    return End(c.steps, s, finite, state)  # the way after the last odometry is nobody's
+            pass_cells(cells, flown, s, state.x, state.y, after.x, after.y)
+    end[tally.ODOMETRIES], end[tally.S], end[tally.FINITE] = odometries, s, 1.0 if finite else 0.0
+    end[tally.SHARE] = np.mean(flown)
+    end[tally.LAST_X], end[tally.LAST_Y] = last.x, last.y
 
 
 @compiled
@@ -135,7 +170,7 @@ def _clearance(curve: PathRows, outlines: Outlines, i: int, x: float, y: float) 
     """Closest distance to the subpaths before and after subpath i, m.
 
     The distance of a track counts them, too (`CompositePath.distance`), but they are seldom nearer: less the
-    way covered since, this says for how long nobody needs to look.
+    way covered since, this is how far the vehicle can go before the next look.
     """
     closest = math.inf
     if i > 0:

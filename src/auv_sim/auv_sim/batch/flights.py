@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -12,7 +11,6 @@ import numpy as np
 import numpy.typing as npt
 
 from auv_sim.batch import tally
-from auv_sim.batch.flight import End
 
 Column = npt.NDArray[np.float64]
 
@@ -38,7 +36,7 @@ UNITS = {
 
 @dataclass(frozen=True, eq=False)
 class Flights:
-    """One row for each flight. Every column has shape (n,); NaN where a flight never came so far.
+    """One row for each flight. Every column has shape (n,); NaN where a flight ended before.
 
     Distances are to the path and in m, as in `analysis.metrics`; `subpath_*` have shape (n, most subpaths).
 
@@ -56,7 +54,7 @@ class Flights:
         distance_covered: m.
         rudder_travel: deg; rudder_travel_per_metre: deg/m.
         rms_rudder_rate, largest_rudder_rate: of the command, deg/s.
-        saturated: share of the commands that stood at the stop.
+        saturated: share of the commands at the stop.
         current_estimate_error: the largest after the observer has settled, m/s.
         last_x, last_y: where it ended, NED, m.
         subpath_rms_distance, subpath_largest_distance, subpath_duration: of each subpath (m, m, s).
@@ -91,68 +89,82 @@ class Flights:
         return len(self.steps)
 
     @classmethod
-    def from_rows(cls, rows: Sequence[dict[str, Any]]) -> Flights:
-        """From the figures of each flight, see `figures_of`."""
+    def joined(cls, parts: Sequence[tuple[Sequence[int], dict[str, Any]]], number: int) -> Flights:
+        """Return all flights in their order.
+
+        Args:
+            parts: places of some flights, and their figures by name, see `figures_of`.
+            number: of all flights.
+        """
         columns: dict[str, Any] = {}
         for field in dataclasses.fields(cls):
-            values = [row[field.name] for row in rows]
-            columns[field.name] = _ragged(values) if field.name in _OF_SUBPATHS else np.array(values)
+            blocks = [(places, np.asarray(figures[field.name])) for places, figures in parts]
+            kind = _KINDS.get(field.name, np.float64)
+            shape: tuple[int, ...] = (number,)
+            if field.name in _OF_SUBPATHS:
+                shape = (number, max((block.shape[1] for _, block in blocks), default=0))
+            column = np.full(shape, np.nan if kind is np.float64 else 0, kind)
+            for places, block in blocks:
+                if block.ndim == 2:
+                    column[np.asarray(places)[:, None], np.arange(block.shape[1])] = block
+                else:
+                    column[places] = block
+            columns[field.name] = column
         return cls(**columns)
 
 
 _OF_SUBPATHS = ("subpath_rms_distance", "subpath_largest_distance", "subpath_duration")
+_KINDS: dict[str, Any] = {"completed": np.bool_, "finite": np.bool_, "steps": np.int64}
 
 
-def figures_of(end: End, whole: Column, subpaths: Column, share: float, dt: float) -> dict[str, Any]:
-    """A flight's figures from its tallies and its flown share, by the names of `Flights`."""
-    n = len(subpaths)
-    rows = subpaths[:, tally.ROWS]
-    counted, late = float(rows.sum()), float(whole[tally.LATE_ROWS])
-    commands = float(whole[tally.COMMANDS])
-    covered = float(subpaths[:, tally.COVERED].sum())
-    travel = math.degrees(float(subpaths[:, tally.TRAVEL].sum()))
-    squares = float(subpaths[:, tally.SQUARES].sum())
+def figures_of(ends: Column, whole: Column, subpaths: Column, dt: Column) -> dict[str, Any]:
+    """Return the figures of n flights of m subpaths from their tallies, by the names of `Flights`.
+
+    Args:
+        ends: shape (n, ENDS), how each ended, see `tally`.
+        whole: shape (n, FLIGHT_TALLIES).
+        subpaths: shape (n, m, SUBPATH_TALLIES).
+        dt: shape (n,), between two odometries, s.
+    """
+    rows = subpaths[:, :, tally.ROWS]
+    counted, commands = rows.sum(axis=1), whole[:, tally.COMMANDS]
+    covered = subpaths[:, :, tally.COVERED].sum(axis=1)
+    travel = np.degrees(subpaths[:, :, tally.TRAVEL].sum(axis=1))
+    finite = ends[:, tally.FINITE] > 0.0
     with np.errstate(divide="ignore", invalid="ignore"):
-        subpath_rms = np.sqrt(subpaths[:, tally.SQUARES] / rows)
-    return {
-        "completed": bool(end.finite and end.s >= n),
-        "flown_share": share,
-        "finite": bool(end.finite),
-        "steps": int(end.rows),
-        "duration": (end.rows - 1) * dt,
-        "progress": float(end.s),
-        "rms_distance": _root(squares, counted),
-        "largest_distance": _known(float(subpaths[:, tally.LARGEST].max())),
-        "late_rms_distance": _root(float(whole[tally.LATE_SQUARES]), late),
-        "late_largest_distance": _known(float(whole[tally.LATE_LARGEST])),
-        "time_to_path": float(whole[tally.TIME_TO_PATH]),
-        "rms_heading_error": math.degrees(_root(float(subpaths[:, tally.HEADING_SQUARES].sum()), counted)),
-        "distance_covered": covered,
-        "rudder_travel": travel,
-        "rudder_travel_per_metre": travel / covered if covered > 0.0 else math.nan,
-        "rms_rudder_rate": math.degrees(_root(float(whole[tally.RATE_SQUARES]), commands)),
-        "largest_rudder_rate": math.degrees(float(whole[tally.RATE_LARGEST])),
-        "saturated": float(whole[tally.SATURATED]) / commands if commands > 0.0 else math.nan,
-        "current_estimate_error": _known(float(whole[tally.ESTIMATE_ERROR])),
-        "last_x": float(end.state.x),
-        "last_y": float(end.state.y),
-        "subpath_rms_distance": subpath_rms,
-        "subpath_largest_distance": np.where(rows > 0, subpaths[:, tally.LARGEST], np.nan),
-        "subpath_duration": np.where(rows > 0, subpaths[:, tally.DURATION], np.nan),
-    }
+        return {
+            "completed": finite & (ends[:, tally.S] >= subpaths.shape[1]),
+            "flown_share": ends[:, tally.SHARE],
+            "finite": finite,
+            "steps": ends[:, tally.ODOMETRIES].astype(np.int64),
+            "duration": (ends[:, tally.ODOMETRIES] - 1.0) * dt,
+            "progress": ends[:, tally.S],
+            "rms_distance": _root(subpaths[:, :, tally.SQUARES].sum(axis=1), counted),
+            "largest_distance": _known(subpaths[:, :, tally.LARGEST].max(axis=1)),
+            "late_rms_distance": _root(whole[:, tally.LATE_SQUARES], whole[:, tally.LATE_ROWS]),
+            "late_largest_distance": _known(whole[:, tally.LATE_LARGEST]),
+            "time_to_path": whole[:, tally.TIME_TO_PATH],
+            "rms_heading_error": np.degrees(
+                _root(subpaths[:, :, tally.HEADING_SQUARES].sum(axis=1), counted)
+            ),
+            "distance_covered": covered,
+            "rudder_travel": travel,
+            "rudder_travel_per_metre": np.where(covered > 0.0, travel / covered, np.nan),
+            "rms_rudder_rate": np.degrees(_root(whole[:, tally.RATE_SQUARES], commands)),
+            "largest_rudder_rate": np.degrees(whole[:, tally.RATE_LARGEST]),
+            "saturated": np.where(commands > 0.0, whole[:, tally.SATURATED] / commands, np.nan),
+            "current_estimate_error": _known(whole[:, tally.ESTIMATE_ERROR]),
+            "last_x": ends[:, tally.LAST_X],
+            "last_y": ends[:, tally.LAST_Y],
+            "subpath_rms_distance": np.sqrt(subpaths[:, :, tally.SQUARES] / rows),
+            "subpath_largest_distance": np.where(rows > 0, subpaths[:, :, tally.LARGEST], np.nan),
+            "subpath_duration": np.where(rows > 0, subpaths[:, :, tally.DURATION], np.nan),
+        }
 
 
-def _root(squares: float, count: float) -> float:
-    return math.sqrt(squares / count) if count > 0 else math.nan
+def _root(squares: Column, count: Column) -> Column:
+    return np.asarray(np.where(count > 0, np.sqrt(squares / count), np.nan))
 
 
-def _known(value: float) -> float:
-    return value if math.isfinite(value) else math.nan
-
-
-def _ragged(values: Sequence[Column]) -> Column:
-    widest = max((len(value) for value in values), default=0)
-    table = np.full((len(values), widest), np.nan)
-    for row, value in enumerate(values):
-        table[row, : len(value)] = value
-    return table
+def _known(values: Column) -> Column:
+    return np.where(np.isfinite(values), values, np.nan)

@@ -1,35 +1,64 @@
-"""From a scenario of `closed_loop` to the plain numbers of the batch engine."""
+"""From scenarios of `closed_loop` to rows of numbers of the batch engine."""
 
 from __future__ import annotations
 
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
 from auv_msgs_py.errors import ConfigurationError
-from auv_msgs_py.pure import numbers_of
-from auv_path_following.control import autopilot
-from auv_path_following.guidance import path_follower
-from auv_path_following.guidance.approach import agility_of
-from auv_sim.batch.numbers import Flight
-from auv_sim.closed_loop import Scenario
+from auv_sim.batch.flight import Flight
+from auv_sim.batch.rows import flat, layout_of
+from auv_sim.closed_loop import Scenario, pilot_of
 from auv_sim.plant.remus import plant_of
 
 
 def flight_of(scenario: Scenario) -> Flight:
-    """Return all that decides a flight but its path and its start.
+    """Return everything that decides a flight but its path, its start and its current.
 
     Raises:
         ConfigurationError: something that a flight cannot be made of: no hull, no thrust.
     """
-    c = scenario
-    assumed = c.controller_vehicle or c.vehicle
-    if not c.thrust > 0.0:
-        raise ConfigurationError("thrust", f"{c.thrust:g}", "a number greater than 0")
+    if not scenario.thrust > 0.0:
+        raise ConfigurationError("thrust", f"{scenario.thrust:g}", "a number greater than 0")
     return Flight(
-        plant=plant_of(c.vehicle),
-        guidance=path_follower.prepare(c.guidance, agility_of(assumed, c.thrust)),
-        observer=numbers_of(c.observer),
-        autopilot=autopilot.prepare(c.autopilot, assumed),
-        thrust=float(c.thrust),
-        Vx=float(c.current.Vx),
-        Vy=float(c.current.Vy),
-        dt=round(c.step * 1e9) * 1e-9,
-        steps=int(c.time_limit / c.step) + 1,
+        pilot=pilot_of(scenario),
+        plant=plant_of(scenario.vehicle),
+        dt=round(scenario.step * 1e9) * 1e-9,
+        steps=int(scenario.time_limit / scenario.step) + 1,
     )
+
+
+class Preparation:
+    """The flights of many scenarios; scenarios that share all settings share one.
+
+    Attributes:
+        flights: all different ones.
+    """
+
+    def __init__(self) -> None:
+        self.flights: list[Flight] = []
+        self._layouts: list[Any] = []
+        self._known: dict[tuple[Any, ...], int] = {}
+
+    def row_of(self, scenario: Scenario) -> tuple[int, Any]:
+        """Return the place of a scenario's flight in `flights`, and its layout.
+
+        Raises:
+            ConfigurationError: as `flight_of`.
+        """
+        c = scenario
+        settings = c.vehicle, c.controller_vehicle, c.guidance, c.observer, c.autopilot, c.sea
+        key = (*map(id, settings), c.thrust, c.step, c.time_limit)
+        row = self._known.get(key)
+        if row is None:
+            flight = flight_of(scenario)
+            row = self._known[key] = len(self.flights)
+            self.flights.append(flight)
+            self._layouts.append(layout_of(flight))
+        return row, self._layouts[row]
+
+    def rows(self, places: list[int]) -> npt.NDArray[np.float64]:
+        """Return the numbers of some flights of one layout, one row each."""
+        return np.array([flat(self.flights[place]) for place in places])

@@ -21,6 +21,9 @@ SUBPATH_TALLIES = 7
 LATE_ROWS, LATE_SQUARES, LATE_LARGEST, TIME_TO_PATH, ESTIMATE_ERROR = range(5)
 COMMANDS, RATE_SQUARES, RATE_LARGEST, SATURATED = range(5, 9)
 FLIGHT_TALLIES = 9
+# How it ended: odometries, s of Eq. (1), whether the state stayed finite, flown share, last position (m).
+ODOMETRIES, S, FINITE, SHARE, LAST_X, LAST_Y = range(6)
+ENDS = 6
 
 Array = npt.NDArray[np.float64]
 

@@ -1,0 +1,213 @@
+"""Guidance of one mission as a pure step: its state, holds, limits, and the follower, in their order."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from auv_msgs_py.pure import pure
+from auv_msgs_py.types import Current, Navigation, WaterVelocity
+from auv_path_following.guidance import follow as following
+from auv_path_following.guidance import path_follower
+from auv_path_following.guidance.approach import Agility
+from auv_path_following.guidance.follow import (
+    FollowerConfig,
+    FollowerInputs,
+    FollowerState,
+    GuidanceOutput,
+    follow,
+    look,
+    rejoin,
+)
+from auv_path_following.guidance.limits import (
+    BEGINNING,
+    Limits,
+    LimitsInputs,
+    LimitsState,
+    NoLimits,
+    limits_step,
+)
+from auv_path_following.guidance.mission_state import (
+    HOLDING,
+    IDLE,
+    NO_REASON,
+    RUNNING,
+    Mission,
+    aborted,
+    completed,
+    is_under_way,
+    navigation_back,
+    navigation_lost,
+    started,
+)
+from auv_path_following.guidance.path_follower import PathFollowerConfig
+from auv_path_following.paths.rows import PathRows
+
+
+class Guide(NamedTuple):
+    """Configuration.
+
+    Attributes:
+        follower: of virtual point, law and switching.
+        limits: configuration of `limits_step`.
+        hold_after: a mission holds after this long without usable navigation, s; infinite: never.
+        thrust: desired while the mission runs, N.
+    """
+
+    follower: FollowerConfig
+    limits: Any
+    hold_after: float
+    thrust: float
+
+
+def prepare(
+    config: PathFollowerConfig,
+    agility: Agility,
+    thrust: float,
+    hold_after: float = math.inf,
+    bounds: Limits | NoLimits | None = None,
+) -> Guide:
+    """Return the configuration of guidance.
+
+    Args:
+        config: laws and gains.
+        agility: of the hull.
+        thrust: of the mission, N.
+        hold_after: without usable navigation for this long the mission holds, s.
+        bounds: of `limits.prepare`; none if None.
+    """
+    return Guide(path_follower.prepare(config, agility), bounds or NoLimits(), hold_after, float(thrust))
+
+
+class GuideInputs(NamedTuple):
+    """One measurement.
+
+    Attributes:
+        navigation: pose and yaw rate, NED.
+        water: velocity through the water, FRD, m/s.
+        has_water: whether that is known now.
+        moved: the pose does not continue the last one.
+        current: estimate, NED, m/s.
+        to_go: path from the virtual point to the end, as of the last step, m; only limits need it.
+        now: ROS time, s.
+    """
+
+    navigation: Navigation
+    water: WaterVelocity
+    has_water: bool
+    moved: bool
+    current: Current
+    to_go: float
+    now: float
+
+
+class GuideState(NamedTuple):
+    """State.
+
+    Attributes:
+        mission: state and reason.
+        begins: the next measurement is the first of a mission.
+        rejoins: the follower rejoins the path at the next usable measurement.
+        blind: time without usable navigation, by stamps, s.
+        follower, limits: their states.
+    """
+
+    mission: Mission
+    begins: bool
+    rejoins: bool
+    blind: float
+    follower: FollowerState
+    limits: LimitsState
+
+
+class GuideOutput(NamedTuple):
+    """Result of guidance.
+
+    Attributes:
+        guidance: result of the follower.
+        thrust: desired, N: 0 exactly when no mission is running.
+        has_resumed: the mission held, because of a gap before this measurement if not before, and runs again.
+    """
+
+    guidance: GuidanceOutput
+    thrust: float
+    has_resumed: bool
+
+
+@pure
+def first_state(config: Guide, approach: Any) -> GuideState:
+    """Return the state of a mission that was not started yet; `approach` as of `approach.empty_approach`."""
+    return at_the_beginning(config, Mission(IDLE, NO_REASON, math.nan), approach)
+
+
+@pure
+def at_the_beginning(config: Guide, mission: Mission, approach: Any) -> GuideState:
+    """Return the state at the beginning of the path."""
+    follower = following.first_state(config.follower, approach)
+    return GuideState(mission, True, False, 0.0, follower, BEGINNING)
+
+
+@pure
+def start(config: Guide, state: GuideState) -> GuideState:
+    """Start a mission at the beginning of its path; one that is under way is unchanged."""
+    if is_under_way(state.mission):
+        return state
+    return at_the_beginning(config, started(state.mission), state.follower.progress.approach)
+
+
+def reconfigured(config: Guide, state: GuideState) -> GuideState:
+    """Return the state for a new configuration: the law's own begins anew if the law is another one."""
+    begins = config.follower.law_begins
+    if type(state.follower.law) is type(begins):
+        return state
+    return state._replace(follower=state.follower._replace(law=begins))
+
+
+@pure
+def guide(
+    config: Guide, path: PathRows, state: GuideState, inputs: GuideInputs, dt: float
+) -> tuple[GuideState, GuideOutput]:
+    """Answer one measurement.
+
+    Args:
+        config: what is flown, and how.
+        path: as rows.
+        state: of the mission.
+        inputs: the measurement.
+        dt: seconds since the last one.
+    """
+    mission, begins, rejoins, blind, follower, limits = state
+    navigation = inputs.navigation
+    if begins:
+        dt = 0.0
+    rejoins = (rejoins or inputs.moved) and not begins
+    # A gap between stamps holds a mission as one in time does: which is noticed first must not matter.
+    blind += dt
+    if blind > config.hold_after:
+        mission = navigation_lost(mission, config.hold_after, inputs.now)
+    has_resumed = inputs.has_water and mission.state == HOLDING
+    if inputs.has_water:
+        blind = 0.0
+        rejoins = rejoins or has_resumed
+        mission = navigation_back(mission)
+    is_followed = mission.state == RUNNING and inputs.has_water
+    if is_followed:
+        if rejoins:
+            follower = rejoin(config.follower, path, follower, navigation)
+        since = 0.0 if rejoins else dt
+        measured = FollowerInputs(navigation, inputs.water, inputs.current)
+        follower, output = follow(config.follower, path, follower, measured, since)
+        if output.finished:
+            mission = completed(mission)
+    else:
+        follower, output = look(path, follower, navigation)
+    if is_followed or is_under_way(mission):
+        has_rejoined = is_followed and rejoins
+        seen = LimitsInputs(navigation, output.xe, output.ye, inputs.to_go, not is_followed, has_rejoined)
+        limits, reason = limits_step(config.limits, limits, seen, dt)
+        if reason.cause != NO_REASON.cause and is_under_way(mission):
+            mission = aborted(mission, reason)
+    rejoins = rejoins and not is_followed
+    thrust = config.thrust if mission.state == RUNNING else 0.0
+    state = GuideState(mission, False, rejoins, blind, follower, limits)
+    return state, GuideOutput(output, thrust, has_resumed)

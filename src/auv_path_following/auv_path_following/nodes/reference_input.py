@@ -1,0 +1,97 @@
+"""The autopilot's references: heard, judged, and held against the mission's state."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from auv_msgs_py import topics
+from auv_msgs_py.conversions import finite
+from auv_msgs_py.errors import MessageRefused
+from auv_msgs_py.frames import flip_yaw
+from auv_msgs_py.mission_word import MissionWord
+from auv_msgs_py.runtime import SuiteNode
+from auv_msgs_py.topics import Topic
+from auv_msgs_py.types import Reference
+from auv_msgs_py.wire import Float64
+from auv_path_following.control.reference_watch import ReferenceWatch
+from auv_path_following.guidance.mission_state import State
+
+if TYPE_CHECKING:
+    from std_msgs.msg import String
+
+REFERENCES = (topics.DESIRED_YAW, topics.DESIRED_YAW_RATE, topics.DESIRED_THRUST)
+
+
+class ReferenceInput:
+    """Subscribes to the references and to the mission's state.
+
+    Args:
+        node: the autopilot.
+        thrust_max: N.
+        put: called with topic and value of each reference.
+        starts: called when a mission starts, free running only.
+        stopped: what a stop means, for the diagnostics.
+    """
+
+    def __init__(
+        self,
+        node: SuiteNode,
+        thrust_max: float,
+        put: Callable[[str, float], None],
+        starts: Callable[[], None],
+        stopped: str,
+    ) -> None:
+        self._node, self._put, self._starts, self._stopped = node, put, starts, stopped
+        # Beyond any request of guidance: more than a turn, a spin, a multiple of the largest thrust.
+        self._largest = dict(zip(REFERENCES, (6.5, 10.0, 10.0 * thrust_max), strict=True))
+        self._watch = ReferenceWatch()
+        self._missing = ""
+        self.mission = MissionWord(State)
+        for topic in REFERENCES:
+            node.listen(topic, self._on_reference(topic))
+        node.listen(topics.MISSION_STATE, self._on_mission_state)
+
+    def take(self, yaw: float | None, rate: float | None, thrust: float | None) -> None:
+        """Take in what guidance answered to one odometry; None for a reference that is missing."""
+        if yaw is not None and rate is not None and thrust is not None:
+            self._watch.put(Reference(flip_yaw(yaw), -rate, thrust), self._node.now())
+        else:
+            parts = zip(REFERENCES, (yaw, rate, thrust), strict=True)
+            self._missing = ", ".join(topic.name for topic, value in parts if value is None)
+
+    def obeyed(self) -> Reference | None:
+        """Return the reference to follow; None: stop."""
+        watch, p = self._watch, self._node.parameters
+        if p.lockstep:
+            return watch.newest
+        word = self.mission.at(time.monotonic())
+        reference = watch.allowed(self._node.now(), word, p.reference_timeout)
+        silent = f"guidance is silent (no {self._missing}): {self._stopped}" if watch.silent else ""
+        self._node.health.error("guidance", silent)
+        odd = watch.contradiction
+        text = f"{topics.DESIRED_THRUST.name} {odd}: {self._stopped}" if odd else ""
+        self._node.health.error("interlock", text)
+        return reference
+
+    def _on_reference(self, topic: Topic) -> Callable[[Float64], None]:
+        largest = self._largest[topic]
+
+        def callback(message: Float64) -> None:
+            value = finite(message.data, topic.name)
+            if abs(value) > largest:
+                raise MessageRefused(topic.name, f"{value:g}", f"from {-largest:g} to {largest:g}")
+            self._put(topic.name, value)
+
+        return callback
+
+    def _on_mission_state(self, message: String) -> None:
+        now = time.monotonic()
+        before = self.mission.at(now)
+        refused = self.mission.hear(message.data, now)
+        starts = message.data == State.RUNNING and before not in (State.RUNNING, State.HOLDING)
+        if starts and not self._node.parameters.lockstep:
+            self._starts()
+        if refused is not None:
+            raise refused
