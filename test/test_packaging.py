@@ -196,6 +196,7 @@ def test_the_manifest_names_what_the_tests_import(name: str) -> None:
         *PACKAGES,
         "node_bench",
         "bag_watch",
+        "golden_flights",
         "golden_tracks",
         "hulls",
         "laws",

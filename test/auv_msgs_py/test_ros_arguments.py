@@ -7,7 +7,8 @@ import os
 import pytest
 
 from auv_msgs_py.errors import ConfigurationError
-from auv_msgs_py.ros_arguments import check_parameter_files, ensure_log_directory, shared_names
+from auv_msgs_py.log_directory import ensure_log_directory
+from auv_msgs_py.ros_arguments import check_parameter_files, shared_names
 
 
 @pytest.fixture

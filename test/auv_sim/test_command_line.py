@@ -19,7 +19,7 @@ import pytest
 from rich.table import Table
 
 from auv_msgs_py.errors import ConfigurationError, MessageRefused, SuiteError
-from auv_sim import command_line, pages
+from auv_sim import command_line, pages, terminal
 
 ROOT = Path(__file__).resolve().parents[2]
 #: Script -> the module whose `main` it starts.
@@ -248,9 +248,9 @@ def test_a_printed_command_is_the_same_after_the_shell_has_read_it() -> None:
 def test_what_was_written_and_what_comes_next_are_told_as_they_are(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    out = command_line.console()
-    command_line.wrote(out, Path("runs/leg [/m] [bold]") / "bag", "every topic [m/s]")
-    command_line.go_on(out, "Look [red]further", "python3 scripts/bag.py report 'runs/leg [/m]'")
+    out = terminal.console()
+    terminal.wrote(out, Path("runs/leg [/m] [bold]") / "bag", "every topic [m/s]")
+    terminal.go_on(out, "Look [red]further", "python3 scripts/bag.py report 'runs/leg [/m]'")
     assert capsys.readouterr().out == (
         "  runs/leg [/m] [bold]/bag  every topic [m/s]\n"
         "\nLook [red]further:  python3 scripts/bag.py report 'runs/leg [/m]'\n"
@@ -260,7 +260,7 @@ def test_what_was_written_and_what_comes_next_are_told_as_they_are(
 def test_a_command_goes_on_when_its_reader_has_gone() -> None:
     code = (
         "import sys\n"
-        "from auv_sim.command_line import console, progress_bar\n"
+        "from auv_sim.terminal import console, progress_bar\n"
         "c = console()\n"
         "for k in range(2000): c.print('x' * 100)\n"
         "with progress_bar(c) as bar: bar.advance(bar.add_task('fly', total=1))\n"
@@ -277,7 +277,7 @@ def test_a_command_goes_on_when_its_reader_has_gone() -> None:
 
 def test_text_from_a_file_cannot_steer_the_terminal(capsys: pytest.CaptureFixture[str]) -> None:
     evil = "a\x1b]0;title\x07b\x1b[2J"
-    console = command_line.console(force_terminal=True)
+    console = terminal.console(force_terminal=True)
     console.print(f"[red]{evil}[/red]\nsecond")
     table = Table()
     table.add_column(evil)

@@ -39,10 +39,11 @@ class GraphLook:
         node: whose publisher and subscription are used; spin it.
         claim: what the process is going to publish; `process`, `since` and `token` are filled in here.
         own: full names of nodes of this process that are in the graph and publish /clock.
+        length: of the look, s of wall time.
     """
 
-    def __init__(self, node: Node, claim: Claim, own: tuple[str, ...] = ()) -> None:
-        self._node = node
+    def __init__(self, node: Node, claim: Claim, own: tuple[str, ...] = (), length: float = LOOK) -> None:
+        self._node, self._length = node, length
         self.claim = dataclasses.replace(
             claim,
             process=f"process {os.getpid()} on {socket.gethostname()}",
@@ -76,7 +77,7 @@ class GraphLook:
         """
         if self.claim.held:
             return True
-        over = ready and time.monotonic() - self._begin >= LOOK
+        over = ready and time.monotonic() - self._begin >= self._length
         self.check()
         self._check_graph(over)
         if over:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import os
-import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -13,18 +11,6 @@ from auv_msgs_py import params_file, yaml_file
 
 _FILE = "--params-file"
 _PARAMETER = ("-p", "--param")
-#: Where ROS puts its log files: the first of these that is set decides.
-_LOG_PLACES = ("ROS_LOG_DIR", "ROS_HOME", "HOME")
-
-
-def ensure_log_directory() -> None:
-    """Give ROS's log files a temporary directory where they have none: without one ROS does not start.
-
-    A service under systemd has no HOME, or one that it cannot write.
-    """
-    place = next(filter(None, map(os.environ.get, _LOG_PLACES)), None)
-    if place is None or (place == os.environ.get("HOME") and not os.access(place, os.W_OK)):
-        os.environ["ROS_LOG_DIR"] = tempfile.mkdtemp(prefix="auv-ros-log-")
 
 
 def parameter_files(arguments: Sequence[str]) -> list[Path]:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import gc
-import os
-import select
 import signal
 import sys
 import time
@@ -19,7 +17,9 @@ from rclpy.task import Future
 
 from auv_msgs_py.errors import SuiteError, printable
 from auv_msgs_py.graph_look import GraphLook
-from auv_msgs_py.ros_arguments import check_parameter_files, ensure_log_directory
+from auv_msgs_py.log_directory import ensure_log_directory
+from auv_msgs_py.ros_arguments import check_parameter_files
+from auv_msgs_py.start_gate import is_gated, pass_gate
 
 try:
     from rclpy.experimental import EventsExecutor
@@ -31,9 +31,6 @@ if TYPE_CHECKING:
 
 #: Exit code for input that cannot be used; 1 is for everything else that went wrong.
 EXIT_BAD_INPUT = 2
-#: Set in the environment of nodes that a launcher starts: the number of a pipe on which they report that they
-#: have loaded. They then wait for `OPEN` on their standard input.
-GATE, OPEN = "AUV_START_GATE", "open\n"
 #: How long nodes may go on after a stop was requested, s of wall time.
 _GRACE = 5.0
 
@@ -92,22 +89,6 @@ def _spin_some(executor: Any, nodes: Sequence[SuiteNode]) -> None:
     executor.spin_until_future_complete(attention, timeout_sec=0.1)
 
 
-def _let_in(stop: StopRequest) -> bool:
-    """Wait at the gate of a launcher that looks at the graph first; False: the nodes are not to be made.
-
-    Until then this process is not in the graph at all. Without a launcher the gate is open.
-    """
-    if GATE not in os.environ:
-        return True
-    pipe = int(os.environ[GATE])
-    os.write(pipe, b".")
-    os.close(pipe)
-    while not stop.requested:
-        if select.select([sys.stdin], [], [], 0.1)[0]:
-            return sys.stdin.readline() == OPEN
-    return False
-
-
 def _look_around(nodes: Sequence[SuiteNode], stop: StopRequest) -> Iterator[Node]:
     """Look at the graph for simulators that were started by hand, while nothing has been published yet.
 
@@ -119,7 +100,7 @@ def _look_around(nodes: Sequence[SuiteNode], stop: StopRequest) -> Iterator[Node
     """
     for node in nodes:
         claim = node.claim()
-        if claim is None or GATE in os.environ:
+        if claim is None or is_gated():
             continue
         name = node.get_fully_qualified_name()
         watcher = rclpy.create_node("_graph_look", use_global_arguments=False, start_parameter_services=False)
@@ -149,7 +130,7 @@ def run_nodes(factories: Sequence[Callable[[], SuiteNode]], args: Sequence[str] 
     nodes: list[SuiteNode] = []
     watchers: list[Node] = []
     try:
-        if not _let_in(stop):
+        if not pass_gate(lambda: stop.requested):
             return 0
         for factory in factories:
             nodes.append(factory())

@@ -9,18 +9,13 @@ import os
 import re
 import shlex
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NoReturn, ParamSpec
-
-from rich.console import Console, ConsoleOptions, RenderableType
-from rich.markup import escape
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-from rich.segment import Segment
+from typing import NoReturn, ParamSpec
 
 from auv_msgs_py.errors import ConfigurationError, MessageRefused, SuiteError, printable, printable_lines
-from auv_msgs_py.ros_arguments import ensure_log_directory
-from auv_sim.analysis.flown_share import LEAST_SHARE, LEAST_SHARE_AT_SEA
+from auv_msgs_py.log_directory import ensure_log_directory
+from auv_sim.analysis.least_share import LEAST_SHARE, LEAST_SHARE_AT_SEA
 
 P = ParamSpec("P")
 
@@ -165,23 +160,6 @@ def to_type(script: str, *words: object, **options: object) -> str:
     return shlex.join(line)
 
 
-class SafeConsole(Console):
-    """A console that shows text from files as it is safe, and does not mind when its reader has gone."""
-
-    def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterable[Segment]:
-        """Spell out control characters (terminal escapes from files); rich's own colours stay."""
-        for segment in super().render(renderable, options):
-            if segment.control or segment.text.isprintable():
-                yield segment
-            else:
-                yield segment._replace(text=printable_lines(segment.text))
-
-    def on_broken_pipe(self) -> None:
-        """Go on in silence: a mission flies to its end also under `| head -1`."""
-        self.quiet = True
-        discard_output()
-
-
 def discard_output() -> None:
     """Let standard output lead nowhere, once its reader has gone."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -190,23 +168,6 @@ def discard_output() -> None:
 def say(text: object, error: bool = False) -> None:
     """Print a line in which text from files is shown as it is safe."""
     print(printable_lines(str(text)), file=sys.stderr if error else sys.stdout, flush=True)
-
-
-def console(quiet: bool = False, **options: Any) -> Console:
-    """Where tables go: as wide as the terminal; in a pipe or a file wide enough for the widest table."""
-    free = not sys.stdout.isatty() and "COLUMNS" not in os.environ
-    options = {"width": 140 if free else None, "highlight": False} | options
-    return SafeConsole(quiet=quiet, **options)
-
-
-def wrote(console: Console, path: object, what: str) -> None:
-    """Tell what was written, and what it is for; a path may look like markup."""
-    console.print(f"  {escape(str(path))}  [dim]{escape(what)}[/dim]", soft_wrap=True, highlight=False)
-
-
-def go_on(console: Console, words: str, line: str) -> None:
-    """Tell the next command, as it can be copied, and what it is for."""
-    console.print(f"\n{words}:  {line}", soft_wrap=True, highlight=False, markup=False)
 
 
 def add_flown_option(parser: argparse.ArgumentParser, default: float | None) -> None:
@@ -224,12 +185,6 @@ def add_flown_option(parser: argparse.ArgumentParser, default: float | None) -> 
         metavar="SHARE",
         help=f"a mission of which a smaller share of the path was flown is incomplete (default: {usual})",
     )
-
-
-def progress_bar(console: Console, disable: bool = False) -> Progress:
-    """What is done, how many of how many, and for how long."""
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    return Progress(*columns, console=console, disable=disable)
 
 
 def make_directory(path: Path, option: str = "--out", new: bool = False) -> None:

@@ -17,8 +17,8 @@ from auv_sim import closed_loop
 from auv_sim.analysis.metrics import CornerSummary, summarise
 from auv_sim.analysis.run import Run
 from auv_sim.mission import cli, launcher, plan, results
-from auv_sim.mission.launcher import Outcome
 from auv_sim.mission.options import Options
+from auv_sim.mission.outcome import Outcome
 
 
 def test_figures_have_units_and_the_next_command_is_quoted(short_mission: Path, tmp_path: Path) -> None:

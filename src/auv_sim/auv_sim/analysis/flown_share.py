@@ -45,10 +45,6 @@ AHEAD: Final = 10.0
 BEHIND: Final = 30.0
 #: Least advance along the path per metre of track: a track across the path or against it flies nothing of it.
 LEAST_ADVANCE: Final = 0.1
-#: A mission of which a smaller share was flown is incomplete.
-LEAST_SHARE: Final = 0.99
-#: The same at sea, where the vehicle's own navigation may be off by more than `REACH`.
-LEAST_SHARE_AT_SEA: Final = 0.8
 #: Longest step of the table that leads from s to metres of path, m.
 _KNOT_SPACING = 2.0
 _CHUNK = 2048

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from auv_path_following.paths.composite import CompositePath, Joint
-from auv_sim.analysis.flown_share import CORNER_RADIUS, LEAST_SHARE, Stretch, flown_share, listed, percent
+from auv_sim.analysis.flown_share import CORNER_RADIUS, Stretch, flown_share, listed, percent
+from auv_sim.analysis.least_share import LEAST_SHARE
 from auv_sim.analysis.run import Column, Run
 
 #: The current estimate is judged from so long after the start, s.

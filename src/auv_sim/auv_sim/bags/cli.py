@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import argparse
 import importlib
-from collections.abc import Sequence
+import sys
+from collections.abc import Container, Sequence
 
 from auv_sim.command_line import Parser, command
 
@@ -20,13 +21,16 @@ VERBS = {
 }
 
 
-def parser() -> argparse.ArgumentParser:
-    """The command line, every verb with its own options."""
+def parser(verbs_with_options: Container[str] = VERBS) -> argparse.ArgumentParser:
+    """The command line. Verbs without their options are not imported, which would take long."""
     top = Parser(
         prog="bag.py", description="Look into recordings of missions and work with them.", allow_abbrev=False
     )
     verbs = top.add_subparsers(dest="verb", required=True, metavar="VERB", parser_class=Parser)
     for name, what in VERBS.items():
+        if name not in verbs_with_options:
+            verbs.add_parser(name, help=what)
+            continue
         module = importlib.import_module(f"auv_sim.bags.{name}")
         verb = verbs.add_parser(
             name, help=what, description=module.__doc__, allow_abbrev=False,
@@ -40,5 +44,6 @@ def parser() -> argparse.ArgumentParser:
 @command("bag.py")
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one verb; returns 0 done, 1 a difference was found, 2 bad input, 130 interrupted."""
-    arguments = parser().parse_args(argv)
+    words = sys.argv[1:] if argv is None else argv
+    arguments = parser(words[:1]).parse_args(words)
     return int(arguments.run(arguments))

@@ -18,9 +18,10 @@ from auv_sim.bags.arguments import add_choice
 from auv_sim.bags.compare_picture import draw
 from auv_sim.bags.flight import flight_of
 from auv_sim.bags.flown_settings import differences
-from auv_sim.command_line import console as terminal
-from auv_sim.command_line import go_on, target, to_type, wrote
+from auv_sim.command_line import target, to_type
 from auv_sim.recording.bag import read_bag
+from auv_sim.terminal import console as terminal
+from auv_sim.terminal import go_on, wrote
 
 #: Field of the summary, heading, digits.
 _FIGURES = (

@@ -19,11 +19,12 @@ from auv_sim.bags.arguments import add_choice
 from auv_sim.bags.events import Event, events_of
 from auv_sim.bags.flight import Flight, flight_of
 from auv_sim.bags.topic_facts import TopicFacts, facts_of
-from auv_sim.command_line import console as terminal
-from auv_sim.command_line import go_on, say, to_type
+from auv_sim.command_line import say, to_type
 from auv_sim.recording.bag import Bag, read_bag
 from auv_sim.recording.bag_files import storage_of
 from auv_sim.recording.metadata import METADATA_FILE
+from auv_sim.terminal import console as terminal
+from auv_sim.terminal import go_on
 
 #: Larger messages are images or point clouds of somebody else: their sizes are enough.
 _HEAVY = ("sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/CompressedImage")

@@ -9,10 +9,10 @@ import argparse
 from pathlib import Path
 
 from auv_msgs_py.errors import ConfigurationError
-from auv_sim.command_line import console as terminal
 from auv_sim.command_line import not_negative, positive, say
 from auv_sim.recording.bag import read_bag
 from auv_sim.recording.playback import Player, Selected, select
+from auv_sim.terminal import console as terminal
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

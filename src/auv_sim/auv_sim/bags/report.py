@@ -17,9 +17,10 @@ from auv_sim.bags.events import events_of
 from auv_sim.bags.flight import Flight, flight_of
 from auv_sim.bags.report_data import page_data
 from auv_sim.bags.report_pictures import pictures
-from auv_sim.command_line import console as terminal
-from auv_sim.command_line import go_on, say, to_type, wrote
+from auv_sim.command_line import say, to_type
 from auv_sim.recording.bag import Bag, read_bag
+from auv_sim.terminal import console as terminal
+from auv_sim.terminal import go_on, wrote
 
 PAGE = "report.html"
 #: What each file is for.

@@ -26,11 +26,11 @@ from auv_sim.bags.arguments import add_choice
 from auv_sim.bags.chain import Answers, answers
 from auv_sim.bags.flight import MISSION, PARAMS, configuration, known_hull
 from auv_sim.bags.flown_settings import dotted
-from auv_sim.command_line import console as terminal
 from auv_sim.command_line import target
 from auv_sim.parameters import SUITE
 from auv_sim.recording.bag import read_bag
 from auv_sim.recording.load import is_used
+from auv_sim.terminal import console as terminal
 
 _FURTHER = {topics.MISSION_STATE.name, topics.DESIRED_THRUST.name}
 _DEGREES = (topics.RUDDER_CMD.name, topics.DESIRED_YAW.name, topics.DESIRED_YAW_RATE.name)

@@ -15,17 +15,8 @@ from auv_msgs_py.result_files import write_text
 from auv_sim import pages
 from auv_sim.benchmark import graph, laws, machine, page, recording, sheets
 from auv_sim.benchmark.scale import FULL, QUICK, Scale
-from auv_sim.command_line import (
-    EXIT_DONE,
-    Parser,
-    command,
-    console,
-    go_on,
-    make_directory,
-    target,
-    to_type,
-    wrote,
-)
+from auv_sim.command_line import EXIT_DONE, Parser, command, make_directory, target, to_type
+from auv_sim.terminal import console, go_on, wrote
 
 Tick = Callable[[str], None]
 

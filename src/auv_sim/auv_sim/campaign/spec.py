@@ -9,7 +9,7 @@ import pydantic
 
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.paths.segment_specs import no_boolean, unfit
-from auv_sim.analysis.flown_share import LEAST_SHARE
+from auv_sim.analysis.least_share import LEAST_SHARE
 from auv_sim.batch.flights import Flights
 from auv_sim.campaign.distributions import Distribution
 

@@ -19,16 +19,9 @@ from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.runtime import StopRequest
 from auv_path_following import vehicle
 from auv_path_following.vehicle import Vehicle
-from auv_sim.command_line import (
-    EXIT_DONE,
-    EXIT_FAILED,
-    Parser,
-    command,
-    console,
-    positive,
-    ros_namespace,
-)
+from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, Parser, command, positive, ros_namespace
 from auv_sim.drivers.check_listener import VehicleListener
+from auv_sim.terminal import console
 from auv_sim.vehicle_check import report
 from auv_sim.vehicle_check.checks import check, mistakes
 from auv_sim.vehicle_check.samples import Recording

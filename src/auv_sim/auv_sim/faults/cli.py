@@ -22,17 +22,16 @@ from auv_sim.command_line import (
     EXIT_FAILED,
     Parser,
     command,
-    go_on,
     make_directory,
     positive,
-    progress_bar,
     ros_domain,
     target,
     to_type,
 )
-from auv_sim.command_line import console as terminal
 from auv_sim.faults.expectations import REPRESENTATIVE, TABLE, Expectation, chosen
 from auv_sim.mission.domains import free_domain
+from auv_sim.terminal import console as terminal
+from auv_sim.terminal import go_on, progress_bar
 
 SPEED = 4.0
 

@@ -34,10 +34,11 @@ from auv_sim.campaign.plan import StudyPlan
 from auv_sim.campaign.statistics import Estimate
 from auv_sim.campaign.store import RESULTS, Store
 from auv_sim.campaign.summary import TOLD, Summary, figure_label, summarise
-from auv_sim.command_line import EXIT_DONE, Parser, at_least_one, command, go_on, to_type, wrote
-from auv_sim.command_line import console as terminal
+from auv_sim.command_line import EXIT_DONE, Parser, at_least_one, command, to_type
 from auv_sim.mission import campaign_replay
 from auv_sim.pool import WorkerDied
+from auv_sim.terminal import console as terminal
+from auv_sim.terminal import go_on, wrote
 
 _POINTS = 40
 

@@ -21,10 +21,11 @@ from auv_sim.batch import engine
 from auv_sim.campaign.plan import StudyPlan
 from auv_sim.campaign.store import RESULTS, Store
 from auv_sim.closed_loop import Scenario, start_of
-from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, go_on, to_type, wrote
+from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, to_type
 from auv_sim.mission import cli
 from auv_sim.parameters import ConstantCurrent, InitialPose
 from auv_sim.recording.load import load
+from auv_sim.terminal import go_on, wrote
 
 
 def replay(store: Store, number: int, graph: bool, console: Console) -> int:

@@ -3,45 +3,24 @@
 from __future__ import annotations
 
 import argparse
-import shutil
-import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from rich.markup import escape
-
 from auv_msgs_py.errors import ConfigurationError
-from auv_msgs_py.graph_look import GraphTaken
 from auv_path_following import config_files
 from auv_sim.command_line import (
-    EXIT_DONE,
-    EXIT_FAILED,
-    EXIT_INTERRUPTED,
     Parser,
     add_flown_option,
     command,
     finite,
-    make_directory,
     positive,
     ros_domain,
     ros_namespace,
-    say,
     whole,
 )
-from auv_sim.command_line import console as terminal
-from auv_sim.drivers.mavlink_link import parse_address
-from auv_sim.mission import launcher, plan, results
-from auv_sim.mission.options import DEFAULT_MISSION, DEFAULT_PARAMS, DEFAULT_VEHICLE, Options
-from auv_sim.mission.progress import Progress
-from auv_sim.mission.vehicle_driver import DRIVERS
-
-_EXIT = {
-    "complete": EXIT_DONE,
-    "incomplete": EXIT_FAILED,
-    "aborted": EXIT_FAILED,
-    "interrupted": EXIT_INTERRUPTED,
-}
+from auv_sim.mission.adopted import Loader
+from auv_sim.mission.options import DEFAULT_MISSION, DEFAULT_PARAMS, DEFAULT_VEHICLE, DRIVERS, Options
 
 
 def parser() -> argparse.ArgumentParser:
@@ -134,7 +113,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     Returns:
         The exit code: 0 complete, 1 failed, aborted or incomplete, 2 bad input, 130 interrupted.
     """
-    return _fly(_options(argv))
+    options = _options(argv)
+    with Loader() as loader:
+        # While the loader loads for the nodes, this process loads for itself.
+        from auv_sim.mission.flight import fly
+
+        return fly(options, loader)
 
 
 def _options(argv: Sequence[str] | None) -> Options:
@@ -145,6 +129,8 @@ def _options(argv: Sequence[str] | None) -> Options:
     if options.vehicle_address is not None:
         if options.vehicle_driver is None:
             raise ConfigurationError("--vehicle-address", "no --vehicle-driver", "both")
+        from auv_sim.drivers.mavlink_link import parse_address
+
         parse_address(options.vehicle_address, "--vehicle-address")
     if options.no_sim and options.vehicle_driver is not None:
         raise ConfigurationError("--vehicle-driver", "together with --no-sim", "one of them")
@@ -166,52 +152,3 @@ def _options(argv: Sequence[str] | None) -> Options:
             "--use-sim-time", "without --no-sim", "both (the simulator always has its own clock)"
         )
     return options
-
-
-def _fly(options: Options) -> int:
-    directory = _run_directory(options)
-    resolved = plan.make(options, directory)
-    domain = launcher.domain_of(resolved)
-    console = terminal(options.quiet)
-    make_directory(directory, new=True)
-    path = resolved.mission.path
-    timing = "lockstep" if resolved.lockstep else "free running"
-    console.print(
-        f"[bold]{escape(resolved.mission.name)}[/bold]: {path.n} subpaths, {path.length:.1f} m,"
-        f" {escape(resolved.vehicle.name)}, {timing}, ROS domain {domain},"
-        f" namespace {options.namespace}",
-        highlight=False,
-    )
-    for level, verdicts in (("refused", resolved.verdicts.refusals), ("warning", resolved.verdicts.warnings)):
-        for verdict in verdicts:
-            console.print(f"[yellow]{level}[/yellow] {escape(str(verdict))}", highlight=False, soft_wrap=True)
-    for notice in resolved.verdicts.notices:
-        console.print(f"[cyan]notice[/cyan] {escape(notice)}", highlight=False, soft_wrap=True)
-    try:
-        with Progress(path, console, options.quiet) as progress:
-            outcome = launcher.fly(resolved, directory, domain, progress)
-    except GraphTaken:
-        shutil.rmtree(directory)  # nothing was flown, and the same command is to work again
-        raise
-    if outcome.state != "complete":
-        say(f"mission {outcome.state}: {outcome.reason}", error=True)
-    outcome, summary = results.conclude(resolved, directory, outcome)
-    if summary is not None:
-        results.show(resolved, directory, outcome, summary, console)
-    if outcome.state == "incomplete":
-        say(f"mission incomplete: {outcome.reason}", error=True)
-    return _EXIT[outcome.state]
-
-
-def _run_directory(options: Options) -> Path:
-    if options.out is not None:
-        if options.out.exists():
-            raise ConfigurationError("--out", f"{options.out}, which exists", "a new directory")
-        return options.out.absolute()
-    name = Path(options.mission).stem
-    base = Path.cwd() / "runs" / f"{name}-{time.strftime('%Y%m%d-%H%M%S')}"
-    directory, number = base, 1
-    while directory.exists():
-        number += 1
-        directory = base.with_name(f"{base.name}-{number}")
-    return directory

@@ -8,7 +8,6 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 
 from auv_msgs_py import topics
-from auv_msgs_py.runtime import run_nodes
 
 #: Node name -> module:class.
 NODES = {
@@ -23,6 +22,8 @@ NODES = {
 
 def main(argv: Sequence[str], nodes: Mapping[str, str] = NODES) -> int:
     """Run the nodes named in the one argument, a JSON object of node name -> its ROS arguments."""
+    from auv_msgs_py.runtime import run_nodes  # the launcher needs the table without rclpy
+
     wanted: dict[str, list[str]] = json.loads(argv[0])
     factories = []
     for name, ros_arguments in wanted.items():

@@ -6,15 +6,17 @@ import argparse
 import json
 import os
 import time
-from dataclasses import dataclass
 from pathlib import Path
 
 from auv_msgs_py import topics
-from auv_msgs_py.errors import ConfigurationError, SuiteError
+from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.runtime import StopRequest
 from auv_sim.command_line import ros_domain
+from auv_sim.mission import discovery
+from auv_sim.mission.adopted import Loader
 from auv_sim.mission.composed import NODES
 from auv_sim.mission.domains import free_domain
+from auv_sim.mission.outcome import MissionFailed, Outcome
 from auv_sim.mission.placement import Processor
 from auv_sim.mission.plan import Plan
 from auv_sim.mission.processes import Child, Children
@@ -29,28 +31,6 @@ _VEHICLE_BOUND = 120.0
 #: simulator names a node that does not answer well before; this is for what it cannot see.
 _STALL_BOUND = 60.0
 _COMPOSED = "composed"
-
-
-class MissionFailed(SuiteError):
-    """The mission ended otherwise than by reaching the end of the path."""
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """How the mission ended.
-
-    Attributes:
-        state: complete, aborted or interrupted; `results.conclude` makes incomplete of a complete mission of
-            which too little was flown.
-        reason: for people; empty when complete.
-        wall_time: seconds between start and end of the mission.
-        mission_time: the same in the mission's own time.
-    """
-
-    state: str
-    reason: str
-    wall_time: float
-    mission_time: float
 
 
 def domain_of(plan: Plan) -> int:
@@ -71,14 +51,22 @@ def domain_of(plan: Plan) -> int:
     return free_domain()
 
 
-def fly(plan: Plan, directory: Path, domain: int, progress: Progress) -> Outcome:
-    """Run the mission of `plan`, in ROS domain `domain`, with logs and the bag under `directory`.
+def fly(plan: Plan, directory: Path, domain: int, progress: Progress, loader: Loader) -> Outcome:
+    """Run a mission.
+
+    Args:
+        plan: what to fly.
+        directory: logs and the bag go below it.
+        domain: ROS domain.
+        progress: what a person sees.
+        loader: of the nodes; it has none yet.
 
     Raises:
         MissionFailed: a node died or never came up; nothing is left running.
     """
     # ROS's own logs, too, belong to the run: a service has no home to put them.
     environment = {"ROS_DOMAIN_ID": str(domain), "ROS_LOG_DIR": str(directory / "log" / "ros")}
+    environment |= discovery.variables()
     if plan.options.simulator or "ROS_AUTOMATIC_DISCOVERY_RANGE" not in os.environ:
         environment["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     os.environ.update(environment)
@@ -87,13 +75,14 @@ def fly(plan: Plan, directory: Path, domain: int, progress: Progress) -> Outcome
     separate = plan.lockstep and not plan.options.composed
     processor = Processor(None if separate and not plan.options.any_processor else ())
     try:
-        _start_nodes(plan, children, plan.write(directory / "config"))
-        # Only now: a process with DDS threads must not fork.
+        _start_nodes(plan, children, loader, plan.write(directory / "config"))
+        # Only now: the nodes are to load meanwhile, and a process with DDS threads must not fork.
         from auv_sim.mission.monitor import Monitor
 
+        look = discovery.look_for(domain)
         monitor = Monitor(plan.options.namespace)
         try:
-            return _Flight(plan, children, monitor, progress, interrupt, processor).run()
+            return _Flight(plan, children, loader, monitor, progress, interrupt, processor).run(look)
         finally:
             # The recorder first, while the others still hold what it has not yet taken in.
             children.stop([topics.RECORDER])
@@ -105,7 +94,7 @@ def fly(plan: Plan, directory: Path, domain: int, progress: Progress) -> Outcome
         interrupt.withdraw()
 
 
-def _start_nodes(plan: Plan, children: Children, parameters: Path) -> None:
+def _start_nodes(plan: Plan, children: Children, loader: Loader, parameters: Path) -> None:
     sim_time = "true" if plan.use_sim_time else "false"
     ros = [
         "-r",
@@ -118,30 +107,30 @@ def _start_nodes(plan: Plan, children: Children, parameters: Path) -> None:
     if plan.emulator is not None:
         children.start(EMULATOR, EMULATOR_MODULE, plan.emulator)
     names = [name for name in NODES if name in plan.parameters]
+    nodes = {name: (NODES[name].split(":")[0], ["--ros-args", *ros]) for name in names}
     if plan.options.composed:
-        arguments = [json.dumps(dict.fromkeys(names, ros))]
-        children.start(_COMPOSED, "auv_sim.mission.composed", arguments, gated=True)
-        return
-    for name in names:
-        children.start(name, NODES[name].split(":")[0], ["--ros-args", *ros], gated=True)
+        nodes = {_COMPOSED: ("auv_sim.mission.composed", [json.dumps(dict.fromkeys(names, ros))])}
+    children.fork(loader, nodes)
 
 
 class _Flight:
     """The stages of one mission, each with its own way to end."""
 
     def __init__(  # type: ignore[no-untyped-def]
-        self, plan, children, monitor, progress, interrupt, processor: Processor
+        self, plan, children, loader, monitor, progress, interrupt, processor: Processor
     ) -> None:
         self._plan: Plan = plan
         self._children: Children = children
+        self._loader: Loader = loader
         self._monitor = monitor
         self._progress: Progress = progress
         self._interrupt: StopRequest = interrupt
         self._processor = processor
 
-    def run(self) -> Outcome:
+    def run(self, look: float) -> Outcome:
+        """Fly, after at least `look` s of looking at the graph."""
         begin = time.monotonic()
-        if not self._graph_free() or not self._all_listening() or not self._vehicle_there():
+        if not self._graph_free(look) or not self._all_listening() or not self._vehicle_there():
             return Outcome("interrupted", "stopped before the mission began", time.monotonic() - begin, 0.0)
         self._processor.place(self._children.ids)
         self._look.check()
@@ -163,21 +152,24 @@ class _Flight:
             reason = self._why_aborted()
         return Outcome(state, reason, wall, self._monitor.mission_time)
 
-    def _graph_free(self) -> bool:
-        """Look at the graph while the nodes load, which enter it only then; False when interrupted.
+    def _graph_free(self, look: float) -> bool:
+        """Look at the graph for `look` s and while the nodes load, which enter it only then.
 
         A busy machine discovers late and loads late: looking until all have loaded takes account of both.
+
+        Returns:
+            False when interrupted.
 
         Raises:
             GraphTaken: another has what this mission needs.
         """
-        self._look = self._monitor.look_around(self._plan.claim())
-        while not self._look.ended(self._children.at_gate()):
+        self._look = self._monitor.look_around(self._plan.claim(), look)
+        while not self._look.ended(self._loader.at_gate()):
             if self._interrupt.requested:
                 return False
             self._check_children()
             self._monitor.look(0.02)
-        self._children.open_gate()
+        self._loader.open_gate()
         return True
 
     def _all_listening(self) -> bool:

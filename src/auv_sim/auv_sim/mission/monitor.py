@@ -129,9 +129,9 @@ class Monitor:
             self._executor.spin_once(timeout_sec=0.0)
         time.sleep(max(0.0, deadline - time.monotonic()))
 
-    def look_around(self, claim: Claim) -> GraphLook:
-        """Begin to look whether the graph has room for a mission; `look` lets it see."""
-        return GraphLook(self.node, claim)
+    def look_around(self, claim: Claim, length: float) -> GraphLook:
+        """Begin to look for `length` s whether the graph has room for a mission; `look` lets it see."""
+        return GraphLook(self.node, claim, length=length)
 
     def missing_nodes(self, names: set[str], recorded: bool) -> set[str]:
         """Which of the named nodes do not yet listen to the topics they need."""

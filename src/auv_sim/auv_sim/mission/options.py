@@ -6,12 +6,15 @@ import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
 
-from auv_sim.analysis.flown_share import LEAST_SHARE, LEAST_SHARE_AT_SEA
+from auv_msgs_py import topics
+from auv_sim.analysis.least_share import LEAST_SHARE, LEAST_SHARE_AT_SEA
 from auv_sim.command_line import to_type
 
 DEFAULT_MISSION = "paper_composite"
 DEFAULT_VEHICLE = "remus100"
 DEFAULT_PARAMS = "robust"
+#: What `--vehicle-driver` may say -> the driver's node.
+DRIVERS = {"mavlink": topics.MAVLINK_DRIVER}
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -20,8 +20,8 @@ from auv_path_following.paths import mission_file
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.closed_loop import Scenario
-from auv_sim.mission.options import Options
-from auv_sim.mission.vehicle_driver import DRIVERS, tell_driver
+from auv_sim.mission.options import DRIVERS, Options
+from auv_sim.mission.vehicle_driver import tell_driver
 from auv_sim.parameters import SUITE
 from auv_sim.planning.check import Verdicts, check, refusal
 from auv_sim.plant import sea

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import contextlib
 import ctypes
 import os
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Protocol
 
-from auv_msgs_py.run import GATE, OPEN
+from auv_sim.mission.adopted import Adopted, Loader
 
 _PR_SET_PDEATHSIG = 1
 _LIBC = ctypes.CDLL(None)
@@ -24,12 +24,23 @@ def _die_with_parent() -> None:
     _LIBC.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
 
 
+class Process(Protocol):
+    """The part of `subprocess.Popen` that is used here."""
+
+    pid: int
+
+    def poll(self) -> int | None: ...
+    def wait(self, timeout: float | None = None) -> int: ...
+    def send_signal(self, sig: int) -> None: ...
+    def kill(self) -> None: ...
+
+
 @dataclass(frozen=True)
 class Child:
     """One process and its log."""
 
     name: str
-    process: subprocess.Popen[bytes]
+    process: Process
     log: Path
 
     @property
@@ -53,48 +64,38 @@ class Children:
 
     def __init__(self, log_directory: Path, environment: Mapping[str, str]) -> None:
         self._directory = log_directory
-        self._environment = {**os.environ, **environment, "PYTHONUNBUFFERED": "1"}
+        self._environment = dict(environment)
         self._children: dict[str, Child] = {}
-        self._loaded, self._report = os.pipe()
-        os.set_blocking(self._loaded, False)
-        self._gated = self._at_gate = 0
         log_directory.mkdir(parents=True, exist_ok=True)
 
-    def start(self, name: str, module: str, arguments: Sequence[str], gated: bool = False) -> None:
-        """Run ``python -m module arguments`` in its own session: Ctrl-C reaches only the launcher.
-
-        A gated process runs nodes of the suite and makes them when `open_gate` is called.
-        """
-        log = self._directory / f"{name}.log"
+    def start(self, name: str, module: str, arguments: Sequence[str]) -> None:
+        """Run ``python -m module arguments`` in its own session: Ctrl-C reaches only the launcher."""
+        log = self._log(name)
         with log.open("wb") as stream:
             process = subprocess.Popen(  # noqa: S603 - our own interpreter, our own modules
                 [sys.executable, "-m", module, *arguments],
-                stdin=subprocess.PIPE if gated else subprocess.DEVNULL,
+                stdin=subprocess.DEVNULL,
                 stdout=stream,
                 stderr=subprocess.STDOUT,
-                env={**self._environment, GATE: str(self._report)} if gated else self._environment,
-                pass_fds=(self._report,) if gated else (),
+                env={**os.environ, **self._environment, "PYTHONUNBUFFERED": "1"},
                 start_new_session=True,
                 preexec_fn=_die_with_parent,
             )
-        self._gated += gated
         self._children[name] = Child(name, process, log)
 
-    def at_gate(self) -> bool:
-        """Whether every gated process has loaded and waits."""
-        with contextlib.suppress(BlockingIOError):
-            self._at_gate += len(os.read(self._loaded, self._gated or 1))
-        return self._at_gate >= self._gated
+    def fork(self, loader: Loader, nodes: Mapping[str, tuple[str, Sequence[str]]]) -> None:
+        """Have nodes forked by `loader`: name -> module and arguments. They wait at the loader's gate."""
+        order = [
+            (name, module, list(arguments), str(self._log(name)))
+            for name, (module, arguments) in nodes.items()
+        ]
+        for name, pid in loader.fork(self._environment, order).items():
+            self._children[name] = Child(name, Adopted(pid), self._log(name))
 
-    def open_gate(self) -> None:
-        """Let the gated processes make their nodes."""
-        for child in self._children.values():
-            if child.process.stdin is not None:
-                with contextlib.suppress(BrokenPipeError):  # it has ended, which `dead` reports
-                    child.process.stdin.write(OPEN.encode())
-                    child.process.stdin.flush()
+    def _log(self, name: str) -> Path:
+        return self._directory / f"{name}.log"
 
-    def __iter__(self):  # type: ignore[no-untyped-def]
+    def __iter__(self) -> Iterator[Child]:
         return iter(self._children.values())
 
     @property
@@ -119,6 +120,3 @@ class Children:
             except subprocess.TimeoutExpired:
                 child.process.kill()
                 child.process.wait()
-            if child.process.stdin is not None:
-                with contextlib.suppress(BrokenPipeError):
-                    child.process.stdin.close()

@@ -16,10 +16,11 @@ from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.result_files import write_text
 from auv_sim.analysis.metrics import MissionSummary, farthest, summarise
 from auv_sim.analysis.overview import draw
-from auv_sim.command_line import go_on, to_type, wrote
-from auv_sim.mission.launcher import Outcome
+from auv_sim.command_line import to_type
+from auv_sim.mission.outcome import Outcome
 from auv_sim.mission.plan import Plan
 from auv_sim.recording.load import load
+from auv_sim.terminal import go_on, wrote
 
 #: What was said on `mission_state` is no proof; what was recorded is.
 _UNFINISHED = "found a recording without the path's end, expected it where mission_state is complete"

@@ -17,7 +17,8 @@ from rich.table import Table
 from auv_msgs_py.result_files import write_text
 from auv_path_following import config_files
 from auv_sim import closed_loop, pages
-from auv_sim.analysis.flown_share import LEAST_SHARE_AT_SEA, percent
+from auv_sim.analysis.flown_share import percent
+from auv_sim.analysis.least_share import LEAST_SHARE_AT_SEA
 from auv_sim.analysis.metrics import without_nan
 from auv_sim.analysis.trials import Together, Trial, judge, together
 from auv_sim.command_line import (
@@ -27,19 +28,17 @@ from auv_sim.command_line import (
     add_flown_option,
     at_least_one,
     command,
-    go_on,
     make_directory,
     positive,
-    progress_bar,
     to_type,
     whole,
-    wrote,
 )
-from auv_sim.command_line import console as terminal
 from auv_sim.mission import noise_study, plan
 from auv_sim.mission.options import DEFAULT_MISSION, DEFAULT_PARAMS, DEFAULT_VEHICLE, Options
 from auv_sim.mission.plan import Plan
 from auv_sim.pool import tracked
+from auv_sim.terminal import console as terminal
+from auv_sim.terminal import go_on, progress_bar, wrote
 
 #: Of the page.
 PART = "trials"

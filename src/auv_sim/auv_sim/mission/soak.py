@@ -19,15 +19,18 @@ from auv_msgs_py import topics
 from auv_msgs_py.conversions import nanoseconds
 from auv_msgs_py.result_files import write_text
 from auv_sim.analysis.metrics import summarise
-from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, Parser, command, make_directory, positive, wrote
-from auv_sim.command_line import console as terminal
+from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, Parser, command, make_directory, positive
 from auv_sim.mission import launcher, memory, plan
+from auv_sim.mission.adopted import Loader
 from auv_sim.mission.domains import free_domain
 from auv_sim.mission.options import Options
+from auv_sim.mission.outcome import MissionFailed
 from auv_sim.mission.plan import Plan
 from auv_sim.mission.progress import Progress
 from auv_sim.recording.bag import read_bag
 from auv_sim.recording.load import load, load_messages
+from auv_sim.terminal import console as terminal
+from auv_sim.terminal import wrote
 
 #: A lawnmower with a way back, closed, 1.26 km: followed as often as the hour takes.
 SURVEY = """\
@@ -131,14 +134,14 @@ def _soak(arguments: argparse.Namespace) -> int:
     resolved = plan.make(Options(mission=str(mission), current=(0.1, 0.2)), directory)
     console = terminal()
     watch = Watch(resolved, console)
-    with watch:
-        outcome = launcher.fly(resolved, directory, free_domain(), watch)
+    with watch, Loader() as loader:
+        outcome = launcher.fly(resolved, directory, free_domain(), watch, loader)
     if outcome.state == "interrupted":
         raise KeyboardInterrupt(f"interrupted: {outcome.reason}")
     if outcome.state != "complete":
-        raise launcher.MissionFailed(f"{outcome.state}: {outcome.reason}")
+        raise MissionFailed(f"{outcome.state}: {outcome.reason}")
     if reason := summarise(load(directory / "bag"), resolved.mission.path).shortfall(_LEAST_SHARE):
-        raise launcher.MissionFailed(f"incomplete: {reason}")
+        raise MissionFailed(f"incomplete: {reason}")
     steps, lost = _counted(directory / "bag", resolved.parameters[topics.PLANT].step)
     grown = growth(watch.rows)
     memory.draw(watch.rows, _WARM * watch.rows[-1][0], directory / "soak.png")

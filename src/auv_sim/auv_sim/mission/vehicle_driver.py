@@ -11,12 +11,8 @@ from typing import Any
 from auv_msgs_py import topics
 from auv_msgs_py.errors import ConfigurationError
 from auv_sim.driver_parameters import MavlinkDriverParameters
-from auv_sim.drivers.mavlink_peer import Configured
-from auv_sim.drivers.mavlink_signing import load_key
 from auv_sim.parameters import PlantParameters
 
-#: What `--vehicle-driver` may say -> the driver's node.
-DRIVERS = {"mavlink": topics.MAVLINK_DRIVER}
 #: Below what DDS uses (from 7400) and what Linux hands out.
 _PORTS = range(6000, 7400)
 #: The emulated vehicle's name among the mission's processes, and its module.
@@ -41,6 +37,10 @@ def tell_driver(
     Raises:
         ConfigurationError: a key or a peer that the driver would refuse.
     """
+    # Not before there is a driver: its protocol takes as long to import as all else here.
+    from auv_sim.drivers.mavlink_peer import Configured
+    from auv_sim.drivers.mavlink_signing import load_key
+
     given: MavlinkDriverParameters = parameters[driver]
     load_key(given.signing_key, f"{driver}.signing_key")
     if given.peer:

@@ -3,36 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import math
-import sys
-from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
-from rich import box
-from rich.console import Console
-from rich.markup import escape
-from rich.table import Table
-from rich.text import Text
+from auv_path_following import config_files
+from auv_sim.command_line import Parser, command, finite
 
-from auv_msgs_py import params_file, topics
-from auv_msgs_py.errors import ConfigurationError
-from auv_msgs_py.result_files import NotWritten
-from auv_msgs_py.types import Current
-from auv_path_following import config_files, vehicle
-from auv_path_following.guidance.path_follower import PathFollowerConfig
-from auv_path_following.guidance.switching import as_wished
-from auv_path_following.paths import mission_file
-from auv_path_following.paths.mission_file import Mission
-from auv_path_following.vehicle import Vehicle
-from auv_sim.command_line import EXIT_DONE, Parser, command, finite, go_on, to_type, wrote
-from auv_sim.command_line import console as terminal
-from auv_sim.parameters import SUITE
-from auv_sim.planning import chart, drawing
-from auv_sim.planning.check import Verdicts, check, refusal
-
-_VEHICLE, _STILL = "remus100", (0.0, 0.0)
-_ROWS = 40
+VEHICLE, STILL = "remus100", (0.0, 0.0)
 
 
 def parser() -> argparse.ArgumentParser:
@@ -46,7 +23,7 @@ def parser() -> argparse.ArgumentParser:
     )
     p.add_argument("mission", metavar="MISSION", help=f"file or one of: {shipped['missions']}")
     p.add_argument(
-        "--vehicle", default=_VEHICLE, metavar="FILE", help=f"file or one of: {shipped['vehicles']}"
+        "--vehicle", default=VEHICLE, metavar="FILE", help=f"file or one of: {shipped['vehicles']}"
     )
     p.add_argument(
         "--params", metavar="FILE", help=f"for its circles of acceptance: file or one of: {shipped['params']}"
@@ -55,7 +32,7 @@ def parser() -> argparse.ArgumentParser:
         "--current",
         nargs=2,
         type=finite,
-        default=_STILL,
+        default=STILL,
         metavar=("VX", "VY"),
         help="current towards north and east, m/s",
     )
@@ -69,119 +46,7 @@ def parser() -> argparse.ArgumentParser:
 @command("plan")
 def main(argv: Sequence[str] | None = None) -> int:
     """Plan; returns the exit code: 0 flyable, 2 refused or bad input, 130 interrupted."""
-    return _plan(parser().parse_args(argv))
+    options = parser().parse_args(argv)
+    from auv_sim.planning.session import plan
 
-
-def _plan(options: argparse.Namespace) -> int:
-    hull = vehicle.load(options.vehicle)
-    mission = mission_file.load(options.mission, hull)
-    guidance = _guidance(options, mission)
-    switching = as_wished(guidance.switching, options.switching, None)
-    current = Current(*options.current)
-    verdicts = check(mission, hull, current, switching, guidance.lookahead)
-    console = terminal(options.quiet, soft_wrap=True, width=None if sys.stdout.isatty() else 110)
-    _tell(console, mission, hull, verdicts)
-    png = options.out or (None if options.quiet else Path(f"plan-{mission.source.stem}.png"))
-    if png is not None:
-        try:
-            drawing.draw(mission, verdicts, hull.name, png, current)
-        except (NotWritten, ValueError) as error:  # ValueError: a suffix that is no picture
-            reason = error.strerror if isinstance(error, NotWritten) else error
-            raise ConfigurationError("--out", f"{png} ({reason})", "a picture that can be written") from None
-        wrote(console, png, "the plan in one picture")
-    if options.export is not None:
-        chart.export(mission, options.export)
-        wrote(console, options.export, "the path for a chart")
-    if verdicts.refusals:
-        raise refusal(mission, verdicts, "scripts/mission.py --force would fly it all the same")
-    go_on(console, "Fly it", _command(options))
-    return EXIT_DONE
-
-
-def _command(options: argparse.Namespace) -> str:
-    """What flies it as it was checked."""
-    return to_type(
-        "mission.py",
-        mission=options.mission,
-        vehicle=options.vehicle if options.vehicle != _VEHICLE else None,
-        params=options.params,
-        current=options.current if tuple(options.current) != _STILL else None,
-        switching=options.switching,
-    )
-
-
-def _guidance(options: argparse.Namespace, mission: Mission) -> PathFollowerConfig:
-    """As in flight: the parameters, then the mission."""
-    source = config_files.find("params", options.params) if options.params else None
-    if source is None:
-        parameters = SUITE[topics.GUIDANCE]()
-    else:
-        parameters = params_file.load(source, SUITE)[topics.GUIDANCE]
-    guidance: PathFollowerConfig = parameters.with_wishes_of(mission).guidance
-    return guidance
-
-
-def _tell(console: Console, mission: Mission, hull: Vehicle, verdicts: Verdicts) -> None:
-    path = mission.path
-    times = path.n // max(mission.once, 1)
-    console.print(
-        f"[bold]{escape(mission.name)}[/bold]"
-        + (f": {escape(mission.description)}" if mission.description else "")
-    )
-    console.print(
-        f"  path      {path.n} subpaths, {path.length:.2f} m"
-        + (f", {times} times round" if times > 1 else "")
-    )
-    lasts = f"{verdicts.duration:.0f} s" if math.isfinite(verdicts.duration) else "no end"
-    console.print(
-        f"  duration  {lasts} at {verdicts.speed:.2f} m/s through the water"
-        f" ({mission.thrust:.2f} {hull.thrust_symbol})"
-    )
-    turn = f"{verdicts.turn.radius:.2f} m, {verdicts.turn.source}"
-    console.print(f"  vehicle   {escape(hull.name)}, tightest turn {turn}")
-    console.print(_joints(mission))
-    for verdict in verdicts.refusals:
-        console.print(f"[bold red]refused[/bold red]  {escape(str(verdict))}")
-    for verdict in verdicts.warnings:
-        console.print(f"[yellow]warning[/yellow]  {escape(str(verdict))}")
-    for notice in verdicts.notices:
-        console.print(f"[cyan]notice[/cyan]   {escape(notice)}")
-    if not verdicts.refusals and not verdicts.warnings:
-        console.print("[green]nothing to say against it[/green]")
-    console.print()
-
-
-def _joints(mission: Mission) -> Table | str:
-    joints = mission.path.joints[: max(mission.once - 1, 0)]
-    if not joints:
-        return "  joints    none"
-    if len(joints) > _ROWS:
-        counts = Counter(joint.geometric for joint in joints)
-        listed = ", ".join(f"{counts[name]} {name}" for name in ("G0", "G1", "G2") if counts[name])
-        worst = max(joints, key=lambda joint: joint.gap)
-        return f"  joints    {listed}, largest gap {worst.gap * 1e3:.2g} mm at joint {worst.index}"
-    table = Table(title="joints", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
-    for heading in ("", "between"):
-        table.add_column(heading, no_wrap=True)
-    for heading in ("north\n[m]", "east\n[m]", "gap\n[mm]", "course\nstep [deg]", "curvature\nstep [1/m]"):
-        table.add_column(Text(heading), justify="right", no_wrap=True)
-    table.add_column("")
-    colors = {"G0": "red", "G1": "yellow", "G2": "green"}
-    for joint in joints:
-        before, after = (mission.path.segments[joint.index - 1 + k].kind for k in (0, 1))
-        table.add_row(
-            str(joint.index),
-            f"{before}, {after}",
-            f"{joint.x:.2f}",
-            f"{joint.y:.2f}",
-            f"{joint.gap * 1e3:.3f}",
-            _clean(math.degrees(joint.angle_step), 2),
-            _clean(joint.curvature_step, 5),
-            f"[{colors[joint.geometric]}]{joint.geometric}[/] {joint.parametric}",
-        )
-    return table
-
-
-def _clean(value: float, digits: int) -> str:
-    """Rounded, and without a minus in front of a zero."""
-    return f"{round(value, digits) + 0.0:.{digits}f}"
+    return plan(options)

@@ -17,24 +17,15 @@ from auv_msgs_py.result_files import write_text
 from auv_path_following import vehicle
 from auv_path_following.paths import mission_file
 from auv_sim.analysis.run import Run
-from auv_sim.command_line import (
-    Parser,
-    at_least_one,
-    command,
-    go_on,
-    make_directory,
-    progress_bar,
-    to_type,
-    whole,
-    wrote,
-)
-from auv_sim.command_line import console as terminal
+from auv_sim.command_line import Parser, at_least_one, command, make_directory, to_type, whole
 from auv_sim.pool import tracked
 from auv_sim.reproduction import claims_current, claims_following, corner, corners, figures, page, starts
 from auv_sim.reproduction.cases import flights
 from auv_sim.reproduction.claim import FAILS, HOLDS, Claim
 from auv_sim.reproduction.corner import Bound
 from auv_sim.reproduction.flights import MISSION, PLANTS, Flight, fly
+from auv_sim.terminal import console as terminal
+from auv_sim.terminal import go_on, progress_bar, wrote
 
 _BOUNDS = {"the rudder may move before the corner": True, "it may not": False}
 

@@ -1,0 +1,56 @@
+"""What commands print: tables, progress, what was written, what to do next."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterable
+from typing import Any
+
+from rich.console import Console, ConsoleOptions, RenderableType
+from rich.markup import escape
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.segment import Segment
+
+from auv_msgs_py.errors import printable_lines
+from auv_sim.command_line import discard_output
+
+
+class SafeConsole(Console):
+    """A console that shows text from files as it is safe, and does not mind when its reader has gone."""
+
+    def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterable[Segment]:
+        """Spell out control characters (terminal escapes from files); rich's own colours stay."""
+        for segment in super().render(renderable, options):
+            if segment.control or segment.text.isprintable():
+                yield segment
+            else:
+                yield segment._replace(text=printable_lines(segment.text))
+
+    def on_broken_pipe(self) -> None:
+        """Go on in silence: a mission flies to its end also under `| head -1`."""
+        self.quiet = True
+        discard_output()
+
+
+def console(quiet: bool = False, **options: Any) -> Console:
+    """Where tables go: as wide as the terminal; in a pipe or a file wide enough for the widest table."""
+    free = not sys.stdout.isatty() and "COLUMNS" not in os.environ
+    options = {"width": 140 if free else None, "highlight": False} | options
+    return SafeConsole(quiet=quiet, **options)
+
+
+def wrote(console: Console, path: object, what: str) -> None:
+    """Tell what was written, and what it is for; a path may look like markup."""
+    console.print(f"  {escape(str(path))}  [dim]{escape(what)}[/dim]", soft_wrap=True, highlight=False)
+
+
+def go_on(console: Console, words: str, line: str) -> None:
+    """Tell the next command, as it can be copied, and what it is for."""
+    console.print(f"\n{words}:  {line}", soft_wrap=True, highlight=False, markup=False)
+
+
+def progress_bar(console: Console, disable: bool = False) -> Progress:
+    """What is done, how many of how many, and for how long."""
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    return Progress(*columns, console=console, disable=disable)
