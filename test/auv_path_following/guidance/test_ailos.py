@@ -72,11 +72,11 @@ def test_with_the_heading_reached_the_errors_obey_eq_32(radius, turn, t, ex, ey,
         )
 
     h = 1e-4
-    before, after = errors_at(-h), errors_at(h)
+    (xe_before, ye_before), (xe_after, ye_after) = errors_at(-h), errors_at(h)
     r_p = P.kappa * U_P
-    assert (after.xe - before.xe) / (2.0 * h) == pytest.approx(-K * ex + r_p * ey, abs=1e-5)
+    assert (xe_after - xe_before) / (2.0 * h) == pytest.approx(-K * ex + r_p * ey, abs=1e-5)
     expected = -Ur * ey / math.hypot(DELTA, ey + law.alpha) - r_p * ex
-    assert (after.ye - before.ye) / (2.0 * h) == pytest.approx(expected, abs=1e-5)
+    assert (ye_after - ye_before) / (2.0 * h) == pytest.approx(expected, abs=1e-5)
 
 
 @settings(deadline=None)

@@ -91,7 +91,7 @@ def test_the_along_track_error_decays_on_any_heading(k, xe, ye, psi, ur, vr, Vx,
     def xe_at(seconds):
         there = path.evaluate(0.5 + U_P / P.speed * seconds)
         navigation = Navigation(x + x_dot * seconds, y + y_dot * seconds, psi, 0.0)
-        return path_errors(navigation, there.x, there.y, there.chi).xe
+        return path_errors(navigation, there.x, there.y, there.chi)[0]
 
     h = 1e-4
     assert (xe_at(h) - xe_at(-h)) / (2.0 * h) == pytest.approx(-k * xe + P.kappa * U_P * ye, abs=1e-5)

@@ -23,16 +23,11 @@ class VirtualPointConfig:
     )
 
 
-class PathErrors(NamedTuple):
-    """Eq. (20): xe along the tangent (m, vehicle ahead positive), ye across it (m, starboard positive)."""
-
-    xe: float
-    ye: float
-
-
 @pure
-def path_errors(navigation: Navigation, x_p: float, y_p: float, chi_p: float) -> PathErrors:
-    """Return the vehicle's place as seen from P, Eq. (20).
+def path_errors(navigation: Navigation, x_p: float, y_p: float, chi_p: float) -> tuple[float, float]:
+    """Return the vehicle's place as seen from P, Eq. (20), m.
+
+    xe is along the tangent, positive where the vehicle is ahead; ye is across it, positive to starboard.
 
     Args:
         navigation: the vehicle's pose, NED.
@@ -40,7 +35,7 @@ def path_errors(navigation: Navigation, x_p: float, y_p: float, chi_p: float) ->
     """
     dx, dy = navigation.x - x_p, navigation.y - y_p
     cos_chi, sin_chi = math.cos(chi_p), math.sin(chi_p)
-    return PathErrors(dx * cos_chi + dy * sin_chi, -dx * sin_chi + dy * cos_chi)
+    return dx * cos_chi + dy * sin_chi, -dx * sin_chi + dy * cos_chi
 
 
 @pure

@@ -23,9 +23,14 @@ _CHECKS = np.linspace(-1.0, 1.0, 41)
 _SAMPLES = np.concatenate((_NODES, [0.0], _CHECKS))
 #: What two integrations divide a power by.
 _TWICE = (np.arange(DEGREE + 1.0) + 1.0) * (np.arange(DEGREE + 1.0) + 2.0)
+_K = np.arange(TERMS)[:, None]
 #: Powers of u at the checks and both derivatives of them, shape (3, TERMS, checks).
 _AT_CHECKS = np.stack(
-    [[np.polynomial.Polynomial.basis(k).deriv(order)(_CHECKS) for k in range(TERMS)] for order in range(3)]
+    [
+        _CHECKS**_K,
+        _K * _CHECKS ** np.maximum(_K - 1, 0),
+        _K * (_K - 1) * _CHECKS ** np.maximum(_K - 2, 0),
+    ]
 )
 #: From values at the nodes to a Chebyshev series, and from that to powers: in one step digits are lost.
 _SERIES = np.linalg.inv(chebyshev.chebvander(_NODES, DEGREE))
