@@ -39,6 +39,12 @@ def pure(function: F) -> F:
     return function
 
 
+@pure
+def bounded(value: float, limit: float) -> float:
+    """Return a value held within +-limit; NaN stays NaN. Faster than `min` and `max`."""
+    return limit if value > limit else -limit if value < -limit else value
+
+
 def dispatched(steps: Mapping[type[Any], Step]) -> Step:
     """Return a step that calls the one of `steps` for the type of the configuration.
 

@@ -6,18 +6,17 @@ from typing import Any, NamedTuple
 
 from auv_msgs_py.frames import flip_yaw
 from auv_msgs_py.pure import pure
-from auv_msgs_py.types import NO_CURRENT, Command, Current, Navigation, Reference, WaterVelocity
+from auv_msgs_py.types import NO_CURRENT, Command, Current, Reference
 from auv_path_following.control import autopilot
-from auv_path_following.control.autopilot import Autopilot, AutopilotInputs, AutopilotState, steer
+from auv_path_following.control.autopilot import Autopilot, AutopilotState, steer
 from auv_path_following.guidance import guide as guidance
 from auv_path_following.guidance.current_observer import (
-    ObserverInputs,
     ObserverState,
     observe,
     relocated,
 )
 from auv_path_following.guidance.follow import GuidanceOutput
-from auv_path_following.guidance.guide import Guide, GuideInputs, GuideState, guide
+from auv_path_following.guidance.guide import Guide, GuideState, Measured, guide
 from auv_path_following.paths.rows import PathRows
 
 
@@ -35,17 +34,6 @@ class Pilot(NamedTuple):
     autopilot: Autopilot
     longest_gap: float
     by_wire: bool
-
-
-class PilotInputs(NamedTuple):
-    """One measurement, as in `GuideInputs`."""
-
-    navigation: Navigation
-    water: WaterVelocity
-    has_water: bool
-    moved: bool
-    to_go: float
-    now: float
 
 
 class PilotState(NamedTuple):
@@ -76,7 +64,7 @@ def first_state(config: Pilot, approach: Any) -> PilotState:
 
 @pure
 def pilot(
-    config: Pilot, path: PathRows, state: PilotState, inputs: PilotInputs, dt: float
+    config: Pilot, path: PathRows, state: PilotState, measured: Measured, dt: float
 ) -> tuple[PilotState, PilotOutput]:
     """Answer one measurement with a command.
 
@@ -84,22 +72,19 @@ def pilot(
         config: of the three parts.
         path: as rows.
         state: of the three parts.
-        inputs: the measurement.
+        measured: the measurement.
         dt: seconds since the last one (0 on the first one).
     """
-    navigation, water, has_water, moved, to_go, now = inputs
-    observer, guide_state, steering = state
+    navigation, water, has_water, moved, _, _ = measured
+    observer, guiding, steering = state
     if moved:
         observer = relocated(observer)
-    observer, seen = observe(config.observer, observer, ObserverInputs(navigation, water, has_water), dt)
-    measured = GuideInputs(navigation, water, has_water, moved, seen.current, to_go, now)
-    guide_state, (output, thrust, _) = guide(config.guide, path, guide_state, measured, dt)
+    observer = observe(config.observer, observer, navigation, water, has_water, dt)
+    current = observer.current
+    guiding, output, thrust, _ = guide(config.guide, path, guiding, measured, current, dt)
     psi_d = flip_yaw(flip_yaw(output.psi_d)) if config.by_wire else output.psi_d
     reference = Reference(psi_d, output.r_d, thrust)
     if moved or dt > config.longest_gap:
         steering = autopilot.first_state(config.autopilot)
-    steering, steered = steer(config.autopilot, steering, AutopilotInputs(navigation, reference), dt)
-    return (
-        PilotState(observer, guide_state, steering),
-        PilotOutput(seen.current, output, reference, steered.command),
-    )
+    steering, command, _ = steer(config.autopilot, steering, navigation, reference, dt)
+    return PilotState(observer, guiding, steering), PilotOutput(current, output, reference, command)

@@ -19,9 +19,10 @@ from auv_path_following.control.autopilot import AutopilotConfig
 from auv_path_following.guidance import guide
 from auv_path_following.guidance.approach import agility_of, empty_approach
 from auv_path_following.guidance.current_observer import CurrentObserverConfig
+from auv_path_following.guidance.guide import Measured
 from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.paths.composite import CompositePath
-from auv_path_following.pilot import Pilot, PilotInputs, PilotState, first_state, pilot
+from auv_path_following.pilot import Pilot, PilotState, first_state, pilot
 from auv_path_following.vehicle import Vehicle
 from auv_sim.analysis.run import Run
 from auv_sim.parameters import CRUISE
@@ -127,7 +128,7 @@ def fly(scenario: Scenario, progress: Callable[[float], None] | None = None) -> 
         navigation, water = vehicle.navigation, vehicle.water_velocity
         if c.sea is not None:
             navigation = navigation._replace(psi=_as_on_the_wire(navigation.psi))
-        measured = PilotInputs(navigation, water, True, False, 0.0, k * dt)
+        measured = Measured(navigation, water, True, False, 0.0, k * dt)
         state, (estimate, g, _, command) = pilot(config, path, state, measured, dt if k else 0.0)
         current = vehicle.current
         truth = vehicle.truth[0][:3] if c.sea is not None else ()

@@ -16,7 +16,6 @@ from auv_path_following import vehicle
 from auv_path_following.control.hull_model import HullModel, tightest_turn
 from auv_path_following.control.reference_model import (
     ReferenceConfig,
-    ReferenceInputs,
     ReferenceState,
     limits_of,
     prepare,
@@ -33,7 +32,8 @@ angles = st.floats(-math.pi, math.pi)
 
 
 def model(**changes):
-    return Stepped(shape, prepare(dataclasses.replace(CONFIG, **changes), REMUS, RATE), ReferenceState())
+    config = prepare(dataclasses.replace(CONFIG, **changes), REMUS, RATE)
+    return Stepped(lambda c, state, inputs, dt: shape(c, state, *inputs, dt), config, ReferenceState())
 
 
 @settings(deadline=None, max_examples=60)
@@ -44,9 +44,9 @@ def model(**changes):
 def test_rate_acceleration_and_jerk_stay_within_their_limits(wanted, dt):
     reference = model()
     limits = reference.config.limits
-    last = reference.update(ReferenceInputs(0.3, 0.0, 0.3, 0.0), 0.0)
+    last = reference.update((0.3, 0.0, 0.3, 0.0), 0.0)
     for psi_d, r_d in wanted:
-        shaped = reference.update(ReferenceInputs(0.3, 0.0, psi_d, r_d), dt)
+        shaped = reference.update((0.3, 0.0, psi_d, r_d), dt)
         assert abs(shaped.r_d_dot) <= limits.acceleration * (1 + 1e-9)
         assert abs(shaped.r_d_dot - last.r_d_dot) <= limits.jerk * dt * (1 + 1e-9)
         # It brakes with limited jerk, so it may run over the rate a little, never far.
@@ -61,9 +61,9 @@ def test_rate_acceleration_and_jerk_stay_within_their_limits(wanted, dt):
 @given(st.lists(angles, min_size=5, max_size=60))
 def test_what_is_fed_forward_are_the_exact_derivatives(wanted):
     reference = model()
-    last = reference.update(ReferenceInputs(0.0, 0.1, 0.0, 0.0), 0.0)
+    last = reference.update((0.0, 0.1, 0.0, 0.0), 0.0)
     for psi_d in wanted:
-        shaped = reference.update(ReferenceInputs(0.0, 0.0, psi_d, 0.0), DT)
+        shaped = reference.update((0.0, 0.0, psi_d, 0.0), DT)
         assert shaped.r_d == pytest.approx(last.r_d + last.r_d_dot * DT, abs=1e-12)
         moved = last.r_d * DT + 0.5 * last.r_d_dot * DT * DT
         assert wrap(shaped.psi_d - last.psi_d - moved) == pytest.approx(0.0, abs=1e-12)
@@ -75,7 +75,7 @@ def test_it_comes_to_rest_on_what_is_asked_without_running_over_it_far(psi_d):
     reference = model()
     furthest = 0.0
     for _ in range(1200):
-        shaped = reference.update(ReferenceInputs(0.0, 0.0, psi_d, 0.0), DT)
+        shaped = reference.update((0.0, 0.0, psi_d, 0.0), DT)
         furthest = max(furthest, math.copysign(1.0, psi_d) * shaped.psi_d - abs(psi_d))
     assert shaped.psi_d == pytest.approx(psi_d, abs=1e-6)
     assert abs(shaped.r_d) < 1e-6
@@ -84,17 +84,17 @@ def test_it_comes_to_rest_on_what_is_asked_without_running_over_it_far(psi_d):
 
 def test_it_starts_from_the_vehicle_and_again_after_a_reset():
     reference = model()
-    assert reference.update(ReferenceInputs(1.2, 0.15, -1.0, 0.0), 0.0)[:2] == pytest.approx((1.2, 0.15))
-    reference.update(ReferenceInputs(1.2, 0.15, -1.0, 0.0), DT)
+    assert reference.update((1.2, 0.15, -1.0, 0.0), 0.0)[:2] == pytest.approx((1.2, 0.15))
+    reference.update((1.2, 0.15, -1.0, 0.0), DT)
     reference.reset()
-    assert reference.update(ReferenceInputs(-2.0, -0.1, 1.0, 0.0), DT)[:2] == pytest.approx((-2.0, -0.1))
+    assert reference.update((-2.0, -0.1, 1.0, 0.0), DT)[:2] == pytest.approx((-2.0, -0.1))
 
 
 def test_it_follows_a_turning_path_without_lag():
     reference = model()
     for k in range(800):
         psi_d = wrap(0.02 * k * DT)
-        shaped = reference.update(ReferenceInputs(0.0, 0.0, psi_d, 0.02), DT)
+        shaped = reference.update((0.0, 0.0, psi_d, 0.02), DT)
     assert wrap(shaped.psi_d - psi_d) == pytest.approx(0.0, abs=1e-3)
     assert shaped.r_d == pytest.approx(0.02, abs=1e-4)
 

@@ -133,14 +133,16 @@ def test_turning_in_still_water_is_hardly_mistaken_for_a_current():
 def test_it_begins_with_no_current_and_reset_begins_anew():
     at, water = drifting(0.5, 0.5, 1.0, 0.0, 0.0), WaterVelocity(1.0, 0.0)
     observer = CurrentObserver()
-    assert observer.update(at(0.0), water, 0.05) == (NO_CURRENT, 0.0, 0.0)
+    seen = observer.update(at(0.0), water, 0.05)
+    assert (seen.current, seen.ex, seen.ey) == (NO_CURRENT, 0.0, 0.0)
     for k in range(1, 20):
         observer.update(at(k), water, 1.0)
     assert observer.current == pytest.approx((0.5, 0.5), abs=1e-3)
     observer.reset()
     assert observer.current == NO_CURRENT
-    # A jump of the position while nobody looked is no current.
-    assert observer.update(at(1e4), water, 1.0) == (NO_CURRENT, 0.0, 0.0)
+    # A jump of the position before the first measurement is no current.
+    seen = observer.update(at(1e4), water, 1.0)
+    assert (seen.current, seen.ex, seen.ey) == (NO_CURRENT, 0.0, 0.0)
 
 
 def settled(psi=0.0):

@@ -11,7 +11,6 @@ from auv_path_following.guidance.acceptance import Cornering
 from auv_path_following.guidance.approach import Agility, empty_approach
 from auv_path_following.guidance.follow import (
     LONGEST_STEP,
-    FollowerInputs,
     GuidanceOutput,
     first_state,
     follow,
@@ -32,10 +31,10 @@ def test_from_one_state_the_same_step_gives_the_same_result_again() -> None:
     state, outputs = first_state(config, empty_approach()), []
     x, y, psi = -30.0, 20.0, 0.0
     for k in range(2000):
-        inputs = FollowerInputs(Navigation(x, y, psi, 0.0), AHEAD, NO_CURRENT)
+        inputs = Navigation(x, y, psi, 0.0), AHEAD, NO_CURRENT
         before = state
-        state, output = follow(config, PATH, before, inputs, DT if k else 0.0)
-        assert (state, output) == follow(config, PATH, before, inputs, DT if k else 0.0)
+        state, output = follow(config, PATH, before, *inputs, DT if k else 0.0)
+        assert (state, output) == follow(config, PATH, before, *inputs, DT if k else 0.0)
         outputs.append(output)
         if output.finished:
             break
@@ -48,8 +47,8 @@ def test_from_one_state_the_same_step_gives_the_same_result_again() -> None:
 
 def first_output(navigation: Navigation, water: WaterVelocity, current: Current) -> GuidanceOutput:
     config = prepare(PathFollowerConfig(minimum_speed=0.2))
-    inputs = FollowerInputs(navigation, water, current)
-    return follow(config, PATH, first_state(config, empty_approach()), inputs, 0.0)[1]
+    state = first_state(config, empty_approach())
+    return follow(config, PATH, state, navigation, water, current, 0.0)[1]
 
 
 @pytest.mark.parametrize("speed", [0.0, 0.1, 0.19])
@@ -68,7 +67,7 @@ def test_above_the_least_speed_they_are() -> None:
 
 def test_a_long_gap_counts_as_a_short_one() -> None:
     config = prepare(PathFollowerConfig())
-    inputs = FollowerInputs(Navigation(0.0, 0.0, 0.0, 0.0), AHEAD, NO_CURRENT)
-    state, _ = follow(config, PATH, first_state(config, empty_approach()), inputs, 0.0)
-    _, output = follow(config, PATH, state, inputs, 75.0)
+    inputs = Navigation(0.0, 0.0, 0.0, 0.0), AHEAD, NO_CURRENT
+    state, _ = follow(config, PATH, first_state(config, empty_approach()), *inputs, 0.0)
+    _, output = follow(config, PATH, state, *inputs, 75.0)
     assert output.x_p == pytest.approx(SPEED * LONGEST_STEP)

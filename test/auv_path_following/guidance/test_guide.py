@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import pytest
 
@@ -12,7 +13,8 @@ from auv_path_following.guidance import guide as guidance
 from auv_path_following.guidance import limits as bounds
 from auv_path_following.guidance import mission_state as m
 from auv_path_following.guidance.approach import agility_of, empty_approach
-from auv_path_following.guidance.guide import GuideInputs, guide, start
+from auv_path_following.guidance.follow import GuidanceOutput
+from auv_path_following.guidance.guide import Measured, guide, start
 from auv_path_following.guidance.limits import LimitsConfig
 from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.paths.composite import CompositePath
@@ -21,6 +23,12 @@ from auv_path_following.paths.line import Line
 REMUS = vehicle.load("remus100")
 NORTH = CompositePath([Line(0.0, 0.0, 100.0, 0.0)])
 THRUST, DT = 6.0, 0.1
+
+
+class Answer(NamedTuple):
+    guidance: GuidanceOutput
+    thrust: float
+    has_resumed: bool
 
 
 class Flight:
@@ -38,11 +46,9 @@ class Flight:
     def step(self, north, east=0.0, dt=DT, has_water=True, moved=False):
         self.now += dt
         navigation = Navigation(north, east, 0.0, 0.0)
-        inputs = GuideInputs(
-            navigation, WaterVelocity(2.0, 0.0), has_water, moved, NO_CURRENT, 100.0 - north, self.now
-        )
-        self.state, output = guide(self.config, NORTH.rows, self.state, inputs, dt)
-        return output
+        inputs = Measured(navigation, WaterVelocity(2.0, 0.0), has_water, moved, 100.0 - north, self.now)
+        self.state, *output = guide(self.config, NORTH.rows, self.state, inputs, NO_CURRENT, dt)
+        return Answer(*output)
 
     def start(self, metres=5.0):
         self.state = start(self.config, self.state)

@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from auv_msgs_py.types import Navigation
 from auv_path_following.guidance.limits import (
     LimitsConfig,
-    LimitsInputs,
     LimitsState,
     NoLimits,
     inside,
@@ -34,7 +33,7 @@ class Limits:
         self.state = LimitsState()
 
     def broken(self, navigation, xe, ye, to_go, dt, holds=False, rests=False):
-        inputs = LimitsInputs(navigation, xe, ye, to_go, holds, rests)
+        inputs = navigation, xe, ye, to_go, holds, rests
         self.state, reason = limits_step(self.config, self.state, inputs, dt)
         return "" if reason == NO_REASON else words(reason)
 

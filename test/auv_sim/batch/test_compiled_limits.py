@@ -13,7 +13,6 @@ from auv_path_following.guidance.limits import (
     BEGINNING,
     Limits,
     LimitsConfig,
-    LimitsInputs,
     NoLimits,
     limits_step,
     prepare,
@@ -30,7 +29,7 @@ def ended(config: Any, track: Any, dt: float) -> tuple[int, Reason]:
     for k in range(len(track)):
         row = track[k]
         navigation = Navigation(row[0], row[1], 0.0, 0.0)
-        inputs = LimitsInputs(navigation, row[2], row[3], row[4], row[5] > 0.0, row[6] > 0.0)
+        inputs = navigation, row[2], row[3], row[4], row[5] > 0.0, row[6] > 0.0
         state, reason = limits_step(config, state, inputs, dt)
         if reason.cause != NO_REASON.cause:
             return k, reason

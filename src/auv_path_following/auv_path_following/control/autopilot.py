@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from auv_msgs_py.angles import wrap
-from auv_msgs_py.pure import numbers_of, pure
+from auv_msgs_py.pure import bounded, numbers_of, pure
 from auv_msgs_py.settings import setting
 from auv_msgs_py.types import STOP, Command, Navigation, Reference
 from auv_path_following.control import nism, pid, reference_model, smc
@@ -14,7 +14,6 @@ from auv_path_following.control.controller import HeadingInputs
 from auv_path_following.control.derivative import DerivativeConfig, DerivativeState, derivative
 from auv_path_following.control.reference_model import (
     ReferenceConfig,
-    ReferenceInputs,
     ReferenceState,
     Shaping,
     shape,
@@ -85,13 +84,6 @@ def prepare(config: AutopilotConfig, vehicle: Vehicle) -> Autopilot:
     )
 
 
-class AutopilotInputs(NamedTuple):
-    """Measured heading and yaw rate (NED), and what guidance requests; thrust 0: no mission is running."""
-
-    navigation: Navigation
-    reference: Reference
-
-
 class AutopilotState(NamedTuple):
     """Whether it has begun, the last r_d (rad/s), and the states of filter, reference and controller."""
 
@@ -100,6 +92,10 @@ class AutopilotState(NamedTuple):
     derivative: DerivativeState
     reference: ReferenceState
     controller: Any
+
+
+#: psi_e (rad), sigma_1 (rad/s) and sigma_2 (rad/s^2) of the controller.
+Signals = tuple[float, float, float]
 
 
 class AutopilotOutput(NamedTuple):
@@ -125,19 +121,25 @@ def first_state(config: Autopilot) -> AutopilotState:
 
 @pure
 def steer(
-    config: Autopilot, state: AutopilotState, inputs: AutopilotInputs, dt: float
-) -> tuple[AutopilotState, AutopilotOutput]:
+    config: Autopilot, state: AutopilotState, navigation: Navigation, reference: Reference, dt: float
+) -> tuple[AutopilotState, Command, Signals]:
     """Turn a reference into rudder and thrust.
 
     dr/dt is from `derivative`, d r_d/dt is the difference of the inputs; a shaped reference has its
     own. Outside a running mission (thrust 0) the rudder is neutral and the controller forgets, so that a new
     start begins clean. A rudder that is not finite is a stop.
+
+    Args:
+        config: of controller, filter and reference.
+        state: of the last step.
+        navigation: measured heading and yaw rate, NED.
+        reference: request of guidance; thrust 0: no mission is running.
+        dt: seconds since the last step (0 on the first one).
     """
-    navigation, reference = inputs
     begun, last_r_d, slope, shaped, controller = state
     psi_e = wrap(navigation.psi - reference.psi_d)
     if not reference.thrust > 0.0:  # NaN is no mission either
-        return first_state(config), AutopilotOutput(STOP, psi_e, 0.0, 0.0)
+        return first_state(config), STOP, (psi_e, 0.0, 0.0)
     r, r_d = navigation.r, reference.r_d
     r_d_dot = 0.0
     if not begun:
@@ -148,18 +150,20 @@ def steer(
     slope, r_dot = derivative(config.derivative, slope, r, dt)
     error = psi_e
     if config.reference.enabled:
-        request = ReferenceInputs(navigation.psi, r, reference.psi_d, r_d)
-        shaped, (psi_d, r_d, r_d_dot) = shape(config.reference, shaped, request, dt)
+        shaped, (psi_d, r_d, r_d_dot) = shape(
+            config.reference, shaped, navigation.psi, r, reference.psi_d, r_d, dt
+        )
         error = wrap(navigation.psi - psi_d)
-    thrust = min(reference.thrust, config.thrust_max)
+    thrust = reference.thrust if reference.thrust < config.thrust_max else config.thrust_max
     seen = HeadingInputs(error, r, r_dot, r_d, r_d_dot, thrust)
     controller, out = controller_step(config.controller, controller, seen, dt)
     if not math.isfinite(out.rudder):
-        return first_state(config), AutopilotOutput(STOP, psi_e, out.sigma_1, out.sigma_2)
-    rudder = min(max(out.rudder, -config.max_angle), config.max_angle)
+        return first_state(config), STOP, (psi_e, out.sigma_1, out.sigma_2)
+    rudder = bounded(out.rudder, config.max_angle)
     return (
         AutopilotState(True, last_r_d, slope, shaped, controller),
-        AutopilotOutput(Command(rudder, thrust), psi_e, out.sigma_1, out.sigma_2),
+        Command(rudder, thrust),
+        (psi_e, out.sigma_1, out.sigma_2),
     )
 
 
@@ -202,5 +206,5 @@ class HeadingAutopilot:
             reference: what guidance requests; thrust 0 means that no mission is running.
             dt: seconds since the last update (0 on the first one).
         """
-        self.state, output = steer(self.config, self.state, AutopilotInputs(navigation, reference), dt)
-        return output
+        self.state, command, signals = steer(self.config, self.state, navigation, reference, dt)
+        return AutopilotOutput(command, *signals)

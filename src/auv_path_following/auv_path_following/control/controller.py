@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from auv_msgs_py.pure import pure
+from auv_msgs_py.pure import bounded, pure
 
 
 class HeadingInputs(NamedTuple):
@@ -40,6 +40,4 @@ class RudderLimits(NamedTuple):
 @pure
 def limited(limits: RudderLimits, angle: float, desired: float, dt: float) -> float:
     """Return the rudder command after `dt` seconds on the way from `angle` to `desired`, rad."""
-    reach = limits.max_rate * dt
-    desired = min(max(desired, -limits.max_angle), limits.max_angle)
-    return angle + min(max(desired - angle, -reach), reach)
+    return angle + bounded(bounded(desired, limits.max_angle) - angle, limits.max_rate * dt)

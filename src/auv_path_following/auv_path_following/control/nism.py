@@ -6,7 +6,7 @@ import dataclasses
 import math
 from typing import NamedTuple
 
-from auv_msgs_py.pure import numbers, numbers_of, pure
+from auv_msgs_py.pure import bounded, numbers, numbers_of, pure
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.control.controller import ControllerOutput, HeadingInputs
 from auv_path_following.control.hull_model import rudder_effect
@@ -101,7 +101,7 @@ def nism(
     and the rudder rests.
     """
     rate, sigma_1, sigma_2 = rudder_rate(config.gains, inputs)
-    rudder = min(max(state.rudder + rate * dt, -config.max_angle), config.max_angle)
+    rudder = bounded(state.rudder + rate * dt, config.max_angle)
     return NismState(rudder), ControllerOutput(rudder, sigma_1, sigma_2)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from auv_msgs_py.pure import numbers, numbers_of, pure
+from auv_msgs_py.pure import bounded, numbers, numbers_of, pure
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.control.controller import ControllerOutput, HeadingInputs, RudderLimits, limited
 from auv_path_following.registry import Law
@@ -51,7 +51,7 @@ def pid(config: Pid, state: PidState, inputs: HeadingInputs, dt: float) -> tuple
     """
     rudder, integral = state
     g = config.gains
-    error = min(max(inputs.psi_e, -g.largest_error), g.largest_error)
+    error = bounded(inputs.psi_e, g.largest_error)
     integral += g.ki * error * dt
     desired = g.kp * error + integral + g.kd * (inputs.r - inputs.r_d)
     rudder = limited(config.rudder, rudder, desired, dt)

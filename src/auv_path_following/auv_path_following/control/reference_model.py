@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from auv_msgs_py.angles import wrap
 from auv_msgs_py.errors import ConfigurationError
-from auv_msgs_py.pure import pure
+from auv_msgs_py.pure import bounded, pure
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.control.hull_model import LEAST_EFFECT, rudder_effect, tightest_turn
 from auv_path_following.vehicle import Vehicle
@@ -139,15 +139,6 @@ def prepare(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> Sh
     return Shaping(config.enabled, float(config.bandwidth), float(config.damping), limits)
 
 
-class ReferenceInputs(NamedTuple):
-    """The vehicle's heading and yaw rate, where the reference starts, and what guidance requests."""
-
-    psi: float
-    r: float
-    psi_d: float
-    r_d: float
-
-
 class ReferenceState(NamedTuple):
     """Angle (rad), rate (rad/s) and acceleration (rad/s^2) of the reference, once it has begun."""
 
@@ -159,25 +150,30 @@ class ReferenceState(NamedTuple):
 
 @pure
 def shape(
-    config: Shaping, state: ReferenceState, inputs: ReferenceInputs, dt: float
+    config: Shaping, state: ReferenceState, psi: float, r: float, psi_d: float, r_d: float, dt: float
 ) -> tuple[ReferenceState, Shaped]:
     """Follow psi_d with limited rate, acceleration and jerk, from the vehicle's own heading and rate.
 
     The acceleration chosen here is held until the next step, so that r_d and r_d_dot are the exact
     derivatives of psi_d: a controller may feed them forward without differencing anything.
+
+    Args:
+        config: bandwidth, damping, limits.
+        state: of the last step.
+        psi, r: heading and yaw rate of the vehicle, where the reference starts (rad, rad/s).
+        psi_d, r_d: request of guidance (rad, rad/s).
+        dt: seconds since the last step.
     """
     begun, angle, turning, held = state
     largest_rate, largest, jerk = config.limits
     if begun:
         angle, turning = angle + turning * dt + 0.5 * held * dt * dt, turning + held * dt
     else:
-        angle, turning = inputs.psi, inputs.r
-    closing = closing_rate(config, wrap(inputs.psi_d - angle), largest)
-    desired = min(max(inputs.r_d + closing, -largest_rate), largest_rate)
+        angle, turning = psi, r
+    closing = closing_rate(config, wrap(psi_d - angle), largest)
+    desired = bounded(r_d + closing, largest_rate)
     pull = 4.0 * config.damping**2 * config.bandwidth * (desired - turning)
-    pull = min(max(pull, -largest), largest)
-    change = jerk * dt
-    held += min(max(pull - held, -change), change)
+    held += bounded(bounded(pull, largest) - held, jerk * dt)
     angle = wrap(angle)
     return ReferenceState(True, angle, turning, held), Shaped(angle, turning, held)
 

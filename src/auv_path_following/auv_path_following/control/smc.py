@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from auv_msgs_py.pure import numbers, numbers_of, pure
+from auv_msgs_py.pure import bounded, numbers, numbers_of, pure
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.control.controller import ControllerOutput, HeadingInputs, RudderLimits, limited
 from auv_path_following.control.hull_model import (
@@ -70,8 +70,8 @@ def smc(config: Smc, state: SmcState, inputs: HeadingInputs, dt: float) -> tuple
         return SmcState(rudder, vr), ControllerOutput(rudder, 0.0, 0.0)
     vr = sway_after(config.hull, ur, vr, inputs.r, rudder, dt)
     lean = g.slope * inputs.psi_e
-    sigma = inputs.r - inputs.r_d + min(max(lean, -g.largest_rate), g.largest_rate)
-    push = -g.gain * min(max(sigma / g.boundary, -1.0), 1.0)
+    sigma = inputs.r - inputs.r_d + bounded(lean, g.largest_rate)
+    push = -g.gain * bounded(sigma / g.boundary, 1.0)
     turn = rudder_gain(config.hull, ur)[1]
     desired = equivalent(config, inputs, ur, vr) + push / turn
     rudder = limited(config.rudder, rudder, desired, dt)

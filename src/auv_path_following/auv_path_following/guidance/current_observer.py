@@ -31,14 +31,6 @@ class CurrentObserverConfig:
     )
 
 
-class ObserverInputs(NamedTuple):
-    """Measured pose (NED) and velocity through the water (FRD), and whether the latter is known now."""
-
-    navigation: Navigation
-    water: WaterVelocity
-    has_water: bool
-
-
 class ObserverState(NamedTuple):
     """What the observer keeps from step to step.
 
@@ -61,14 +53,6 @@ class ObserverState(NamedTuple):
     current: Current = NO_CURRENT
 
 
-class ObserverOutput(NamedTuple):
-    """The estimated current (m/s, NED) and the position error behind it (m)."""
-
-    current: Current
-    ex: float
-    ey: float
-
-
 @pure
 def relocated(state: ObserverState) -> ObserverState:
     """Return the state in which the next position does not continue the last one; the current is kept."""
@@ -77,8 +61,13 @@ def relocated(state: ObserverState) -> ObserverState:
 
 @pure
 def observe(
-    config: CurrentObserverConfig, state: ObserverState, inputs: ObserverInputs, dt: float
-) -> tuple[ObserverState, ObserverOutput]:
+    config: CurrentObserverConfig,
+    state: ObserverState,
+    navigation: Navigation,
+    water: WaterVelocity,
+    has_water: bool,
+    dt: float,
+) -> ObserverState:
     """Estimate the current by Eq. (35), discretised exactly for any step.
 
     Between two measurements the position is taken to move on a straight line and the velocity through
@@ -93,18 +82,19 @@ def observe(
     Args:
         config: gains.
         state: of the observer.
-        inputs: the measurement; without a velocity through the water the estimate rests.
+        navigation: measured pose, NED.
+        water: measured velocity through the water, FRD.
+        has_water: whether that is known now; otherwise the estimate rests.
         dt: seconds since the last step, greater than 0; ignored on the first one.
     """
     dt += state.blind
     if dt > config.longest_gap:
         state = relocated(state)
     seen, last_x, last_y, last_wx, last_wy, ex, ey, _, current = state
-    if not inputs.has_water:
-        waiting = ObserverState(seen, last_x, last_y, last_wx, last_wy, ex, ey, dt, current)
-        return waiting, ObserverOutput(current, ex, ey)
-    x, y, psi, _ = inputs.navigation
-    ur, vr = inputs.water
+    if not has_water:
+        return ObserverState(seen, last_x, last_y, last_wx, last_wy, ex, ey, dt, current)
+    x, y, psi, _ = navigation
+    ur, vr = water
     cos_psi, sin_psi = math.cos(psi), math.sin(psi)
     wx = cos_psi * ur - sin_psi * vr
     wy = sin_psi * ur + cos_psi * vr
@@ -116,7 +106,7 @@ def observe(
         gap_x, gap_y = current.Vx - dx, current.Vy - dy
         current = Current(dx + f21 * ex + f22 * gap_x, dy + f21 * ey + f22 * gap_y)
         ex, ey = f11 * ex + f12 * gap_x, f11 * ey + f12 * gap_y
-    return ObserverState(True, x, y, wx, wy, ex, ey, 0.0, current), ObserverOutput(current, ex, ey)
+    return ObserverState(True, x, y, wx, wy, ex, ey, 0.0, current)
 
 
 class CurrentObserver:
@@ -143,11 +133,11 @@ class CurrentObserver:
         """The latest estimate, m/s, NED."""
         return self.state.current
 
-    def update(self, navigation: Navigation, water: WaterVelocity | None, dt: float) -> ObserverOutput:
+    def update(self, navigation: Navigation, water: WaterVelocity | None, dt: float) -> ObserverState:
         """Take in one measurement: `observe`; a `water` of None is not known now."""
-        inputs = ObserverInputs(navigation, water or _UNKNOWN, water is not None)
-        self.state, output = observe(self.config, self.state, inputs, dt)
-        return output
+        has_water = water is not None
+        self.state = observe(self.config, self.state, navigation, water or _UNKNOWN, has_water, dt)
+        return self.state
 
 
 _UNKNOWN = WaterVelocity(0.0, 0.0)

@@ -6,7 +6,7 @@ import math
 from typing import Any, NamedTuple
 
 from auv_msgs_py.angles import wrap
-from auv_msgs_py.pure import pure
+from auv_msgs_py.pure import bounded, pure
 from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
 from auv_path_following.guidance.law import LawInputs
 from auv_path_following.guidance.laws import law_step
@@ -56,14 +56,6 @@ class FollowerConfig(NamedTuple):
     progress: ProgressConfig
 
 
-class FollowerInputs(NamedTuple):
-    """Measured pose (NED) and velocity through water (FRD), and the observer's estimate."""
-
-    navigation: Navigation
-    water: WaterVelocity
-    current: Current
-
-
 class FollowerState(NamedTuple):
     """Where the mission is, and the state of the law."""
 
@@ -107,7 +99,13 @@ def first_state(config: FollowerConfig, approach: Any) -> FollowerState:
 
 @pure
 def follow(
-    config: FollowerConfig, path: PathRows, state: FollowerState, inputs: FollowerInputs, dt: float
+    config: FollowerConfig,
+    path: PathRows,
+    state: FollowerState,
+    navigation: Navigation,
+    water: WaterVelocity,
+    current: Current,
+    dt: float,
 ) -> tuple[FollowerState, GuidanceOutput]:
     """Take one step of guidance.
 
@@ -115,10 +113,11 @@ def follow(
         config: of `prepare`.
         path: the path's rows.
         state: of the last step.
-        inputs: measurements and estimate.
+        navigation: measured pose, NED.
+        water: measured velocity through the water, FRD.
+        current: the observer's estimate, NED.
         dt: seconds since the last step (0 on the first one); of a gap `LONGEST_STEP` at most counts.
     """
-    navigation, water, current = inputs
     if dt > LONGEST_STEP:
         dt = LONGEST_STEP
     if not config.compensate_current:
@@ -144,7 +143,7 @@ def follow(
     kappa = curvature(dx, dy, ddx, ddy)
     # At the end of the path there is nothing more to turn to.
     psi_d, r_d = (psi, 0.0) if finished else (wrap(out.psi_d), kappa * U_P)  # Eq. (9)
-    r_d = saturated(r_d, config.turn_rate)
+    r_d = bounded(r_d, config.turn_rate)
     progress = settled(config.progress, progress, P, legs, joined, math.hypot(xe, ye), navigation)
     approach = approach_to_go(legs, progress.approach, i, t)
     if legs > 0:

@@ -12,7 +12,6 @@ from auv_path_following.guidance import path_follower
 from auv_path_following.guidance.approach import Agility
 from auv_path_following.guidance.follow import (
     FollowerConfig,
-    FollowerInputs,
     FollowerState,
     GuidanceOutput,
     follow,
@@ -22,7 +21,6 @@ from auv_path_following.guidance.follow import (
 from auv_path_following.guidance.limits import (
     BEGINNING,
     Limits,
-    LimitsInputs,
     LimitsState,
     NoLimits,
     limits_step,
@@ -79,7 +77,7 @@ def prepare(
     return Guide(path_follower.prepare(config, agility), bounds or NoLimits(), hold_after, float(thrust))
 
 
-class GuideInputs(NamedTuple):
+class Measured(NamedTuple):
     """One measurement.
 
     Attributes:
@@ -87,7 +85,6 @@ class GuideInputs(NamedTuple):
         water: velocity through the water, FRD, m/s.
         has_water: whether that is known now.
         moved: the pose does not continue the last one.
-        current: estimate, NED, m/s.
         to_go: path from the virtual point to the end, as of the last step, m; only limits need it.
         now: ROS time, s.
     """
@@ -96,7 +93,6 @@ class GuideInputs(NamedTuple):
     water: WaterVelocity
     has_water: bool
     moved: bool
-    current: Current
     to_go: float
     now: float
 
@@ -118,20 +114,6 @@ class GuideState(NamedTuple):
     blind: float
     follower: FollowerState
     limits: LimitsState
-
-
-class GuideOutput(NamedTuple):
-    """Result of guidance.
-
-    Attributes:
-        guidance: result of the follower.
-        thrust: desired, N: 0 exactly when no mission is running.
-        has_resumed: the mission held, because of a gap before this measurement if not before, and runs again.
-    """
-
-    guidance: GuidanceOutput
-    thrust: float
-    has_resumed: bool
 
 
 @pure
@@ -165,49 +147,53 @@ def reconfigured(config: Guide, state: GuideState) -> GuideState:
 
 @pure
 def guide(
-    config: Guide, path: PathRows, state: GuideState, inputs: GuideInputs, dt: float
-) -> tuple[GuideState, GuideOutput]:
+    config: Guide, path: PathRows, state: GuideState, measured: Measured, current: Current, dt: float
+) -> tuple[GuideState, GuidanceOutput, float, bool]:
     """Answer one measurement.
 
     Args:
         config: what is flown, and how.
         path: as rows.
         state: of the mission.
-        inputs: the measurement.
-        dt: seconds since the last one.
+        measured: the measurement.
+        current: estimate, NED, m/s.
+        dt: seconds since the last measurement.
+
+    Returns:
+        The state; the follower's result; the desired thrust (N), 0 exactly when no mission is running; and
+        whether the mission held, because of a gap before this measurement if not before, and runs again.
     """
     mission, begins, rejoins, blind, follower, limits = state
-    navigation = inputs.navigation
+    navigation, water, has_water, moved, to_go, now = measured
     if begins:
         dt = 0.0
-    rejoins = (rejoins or inputs.moved) and not begins
+    rejoins = (rejoins or moved) and not begins
     # A gap between stamps holds a mission as one in time does: which is noticed first must not matter.
     blind += dt
     if blind > config.hold_after:
-        mission = navigation_lost(mission, config.hold_after, inputs.now)
-    has_resumed = inputs.has_water and mission.state == HOLDING
-    if inputs.has_water:
+        mission = navigation_lost(mission, config.hold_after, now)
+    has_resumed = has_water and mission.state == HOLDING
+    if has_water:
         blind = 0.0
         rejoins = rejoins or has_resumed
         mission = navigation_back(mission)
-    is_followed = mission.state == RUNNING and inputs.has_water
+    is_followed = mission.state == RUNNING and has_water
     if is_followed:
         if rejoins:
             follower = rejoin(config.follower, path, follower, navigation)
         since = 0.0 if rejoins else dt
-        measured = FollowerInputs(navigation, inputs.water, inputs.current)
-        follower, output = follow(config.follower, path, follower, measured, since)
+        follower, output = follow(config.follower, path, follower, navigation, water, current, since)
         if output.finished:
             mission = completed(mission)
     else:
         follower, output = look(path, follower, navigation)
     if is_followed or is_under_way(mission):
         has_rejoined = is_followed and rejoins
-        seen = LimitsInputs(navigation, output.xe, output.ye, inputs.to_go, not is_followed, has_rejoined)
+        seen = navigation, output.xe, output.ye, to_go, not is_followed, has_rejoined
         limits, reason = limits_step(config.limits, limits, seen, dt)
         if reason.cause != NO_REASON.cause and is_under_way(mission):
             mission = aborted(mission, reason)
     rejoins = rejoins and not is_followed
     thrust = config.thrust if mission.state == RUNNING else 0.0
     state = GuideState(mission, False, rejoins, blind, follower, limits)
-    return state, GuideOutput(output, thrust, has_resumed)
+    return state, output, thrust, has_resumed

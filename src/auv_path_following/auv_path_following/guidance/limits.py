@@ -142,19 +142,9 @@ class LimitsState(NamedTuple):
 BEGINNING = LimitsState()
 
 
-class LimitsInputs(NamedTuple):
-    """Measured pose (NED), its place as seen from the virtual point (m), path to go (m).
-
-    `holds`: the mission holds, only its time counts. `rests`: the vehicle was stopped until now, speeds are
-    measured anew.
-    """
-
-    navigation: Navigation
-    xe: float
-    ye: float
-    to_go: float
-    holds: bool
-    rests: bool
+#: Measured pose (NED); its place as seen from the virtual point, xe and ye, and the path to go, m; whether
+#: the mission holds: only its time counts; whether it was stopped until now: speeds are measured anew.
+LimitsInputs = tuple[Navigation, float, float, float, bool, bool]
 
 
 def prepare(config: LimitsConfig, geofence: Sequence[Point] = ()) -> Limits | NoLimits:
@@ -182,16 +172,17 @@ def no_limits(
 def limits(config: Limits, state: LimitsState, inputs: LimitsInputs, dt: float) -> tuple[LimitsState, Reason]:
     """Return the reason why a mission must end, or `NO_REASON`. Constant in time."""
     c = config.values
-    elapsed, has_been_near, most_to_go, has_followed, places, to_go_marks = state
+    elapsed, has_been_near, most_to_go, has_followed, places, along = state
     elapsed += dt
     reason = NO_REASON
-    x, y = inputs.navigation.x, inputs.navigation.y
-    if inputs.rests:
-        places, to_go_marks = _NO_MARKS, _NO_MARKS
+    navigation, xe, ye, to_go, holds, rests = inputs
+    x, y = navigation.x, navigation.y
+    if rests:
+        places, along = _NO_MARKS, _NO_MARKS
     if c.duration > 0.0 and elapsed > c.duration:
         reason = Reason(DURATION, elapsed, 0.0, c.duration)
-    elif not inputs.holds:
-        off_path = math.hypot(inputs.xe, inputs.ye)
+    elif not holds:
+        off_path = math.hypot(xe, ye)
         is_near = off_path <= c.path_distance
         if c.path_distance > 0.0 and has_been_near and not is_near:
             reason = Reason(PATH_DISTANCE, off_path, 0.0, c.path_distance)
@@ -199,14 +190,14 @@ def limits(config: Limits, state: LimitsState, inputs: LimitsInputs, dt: float) 
             reason = Reason(GEOFENCE, x, y, 0.0)
         else:
             places, reason = _over_ground(c, places, x, y, dt)
-            if c.path_speed > 0.0 and not inputs.rests:
-                most_to_go = max(most_to_go, inputs.to_go)
+            if c.path_speed > 0.0 and not rests:
+                most_to_go = max(most_to_go, to_go)
                 if has_followed and reason.cause == NO_REASON.cause:
-                    to_go_marks, reason = _along(c, to_go_marks, inputs.to_go, dt)
-                advanced = most_to_go - inputs.to_go >= c.path_speed * c.path_speed_window
+                    along, reason = _along(c, along, to_go, dt)
+                advanced = most_to_go - to_go >= c.path_speed * c.path_speed_window
                 has_followed = has_followed or advanced
         has_been_near = has_been_near or (is_near and c.path_distance > 0.0)
-    return LimitsState(elapsed, has_been_near, most_to_go, has_followed, places, to_go_marks), reason
+    return LimitsState(elapsed, has_been_near, most_to_go, has_followed, places, along), reason
 
 
 @pure

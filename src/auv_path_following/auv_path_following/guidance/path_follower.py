@@ -11,7 +11,6 @@ from auv_path_following.guidance import follow as steps
 from auv_path_following.guidance.approach import Agility, ApproachConfig, empty_approach, turn_radius
 from auv_path_following.guidance.follow import (
     FollowerConfig,
-    FollowerInputs,
     FollowerState,
     GuidanceOutput,
     first_state,
@@ -144,6 +143,5 @@ class PathFollower:
         self, navigation: Navigation, water: WaterVelocity, current: Current, dt: float
     ) -> GuidanceOutput:
         """Take one step: `follow`."""
-        inputs = FollowerInputs(navigation, water, current)
-        self.state, output = follow(self.config, self.path.rows, self.state, inputs, dt)
+        self.state, output = follow(self.config, self.path.rows, self.state, navigation, water, current, dt)
         return output

@@ -18,7 +18,7 @@ from auv_path_following.guidance import mission_state as states
 from auv_path_following.guidance.approach import ApproachWatch, agility_of, empty_approach
 from auv_path_following.guidance.guide import (
     Guide,
-    GuideInputs,
+    Measured,
     at_the_beginning,
     first_state,
     guide,
@@ -142,19 +142,19 @@ class GuidanceNode(SuiteNode):
         if has_water:
             self._last_usable = now
         water = inputs.water or _UNKNOWN
-        measured = GuideInputs(
-            inputs.navigation, water, has_water, inputs.moved, inputs.current, self._to_go(), now
+        measured = Measured(inputs.navigation, water, has_water, inputs.moved, self._to_go(), now)
+        self.state, output, thrust, has_resumed = guide(
+            self.config, self._rows, self.state, measured, inputs.current, inputs.dt
         )
-        self.state, out = guide(self.config, self._rows, self.state, measured, inputs.dt)
-        if out.has_resumed:
+        if has_resumed:
             self._report.resumed(self.config.hold_after)
-        if out.thrust > 0.0:
+        if thrust > 0.0:
             late = inputs.current_age > p.current_timeout
             self.health.warn("current", f"no fresh {topics.CURRENT_ESTIMATE.name}" if late else "")
-            if news := self._approach.update(out.guidance.approach, inputs.dt):
+            if news := self._approach.update(output.approach, inputs.dt):
                 self.get_logger().info(news)
             self.health.warn("approach", self._approach.complaint(p.guidance.approach.overdue))
-        self._messages.fill(out.guidance, out.thrust, self._to_go(), inputs.stamp)
+        self._messages.fill(output, thrust, self._to_go(), inputs.stamp)
         self.answer(self._publish)
 
     def _to_go(self) -> float:

@@ -26,9 +26,9 @@ from auv_path_following.control import autopilot
 from auv_path_following.guidance import guide
 from auv_path_following.guidance import mission_state as states
 from auv_path_following.guidance.approach import agility_of, empty_approach
-from auv_path_following.guidance.guide import GuideState, at_the_beginning
+from auv_path_following.guidance.guide import GuideState, Measured, at_the_beginning
 from auv_path_following.paths.mission_file import Mission
-from auv_path_following.pilot import Pilot, PilotInputs, first_state, pilot
+from auv_path_following.pilot import Pilot, first_state, pilot
 from auv_path_following.vehicle import Vehicle
 from auv_sim.recording.bag import Bag, RecordedTopic
 from auv_sim.recording.deserialize import deserializer
@@ -152,9 +152,7 @@ class _Chain:
         if verdict is Verdict.RESTART:
             self._state = first_state(self._config, empty_approach())
         self._guide(self._state.guide._replace(mission=_in_phase(mission, phase)))
-        measured = PilotInputs(
-            navigation, water or _UNKNOWN, water is not None, False, 0.0, step.stamp * 1e-9
-        )
+        measured = Measured(navigation, water or _UNKNOWN, water is not None, False, 0.0, step.stamp * 1e-9)
         self._state, out = pilot(self._config, self._rows, self._state, measured, dt)
         (rudder, thrust), guided = out.command, out.guidance
         yaw = flip_yaw(guided.psi_d)

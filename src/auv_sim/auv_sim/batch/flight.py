@@ -12,8 +12,9 @@ from auv_msgs_py.types import Current, WaterVelocity
 from auv_path_following import pilot as piloting
 from auv_path_following.guidance import guide
 from auv_path_following.guidance.approach import empty_approach
+from auv_path_following.guidance.guide import Measured
 from auv_path_following.paths.rows import PathRows
-from auv_path_following.pilot import Pilot, PilotInputs, PilotState, pilot
+from auv_path_following.pilot import Pilot, PilotState, pilot
 from auv_sim.analysis.flown_share import Cells
 from auv_sim.batch import tally
 from auv_sim.batch.compiled import compiled, take_over_pure
@@ -125,7 +126,7 @@ def fly_one(
         state, rudder = afloat.hull, afloat.servo.angle
         last = state
         water = WaterVelocity(state.ur, state.vr)
-        measured = PilotInputs(navigation_of(state), water, True, False, 0.0, k * c.dt)
+        measured = Measured(navigation_of(state), water, True, False, 0.0, k * c.dt)
         flying, out = pilot(c.pilot, path, flying, measured, since)
         guided, estimate, (command, thrust) = out.guidance, out.current, out.command
         finished, s = guided.finished, guided.s

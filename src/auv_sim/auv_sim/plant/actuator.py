@@ -6,7 +6,7 @@ import dataclasses
 import math
 from typing import NamedTuple
 
-from auv_msgs_py.pure import dispatched, pure
+from auv_msgs_py.pure import bounded, dispatched, pure
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.vehicle import Rudder, Vehicle
 
@@ -57,10 +57,9 @@ def turn(config: Servo, state: ServoState, inputs: Order, dt: float) -> tuple[Se
     """Move towards the command at the greatest rate, never past the stops."""
     max_angle, max_rate = config
     angle = state.angle
-    error = min(max(inputs.angle, -max_angle), max_angle) - angle
-    half, reach = max_rate * (0.5 * dt), max_rate * dt
-    end = angle + min(max(error, -reach), reach)
-    return ServoState(end), Deflection(angle, angle + min(max(error, -half), half), end)
+    error = bounded(inputs.angle, max_angle) - angle
+    end = angle + bounded(error, max_rate * dt)
+    return ServoState(end), Deflection(angle, angle + bounded(error, max_rate * (0.5 * dt)), end)
 
 
 class FlawedServo(NamedTuple):
