@@ -12,7 +12,7 @@ from auv_path_following.guidance.current_observer import CurrentObserverConfig
 from auv_path_following.guidance.limits import LimitsConfig
 from auv_path_following.guidance.mission_state import HoldingConfig
 from auv_path_following.guidance.path_follower import PathFollowerConfig
-from auv_path_following.guidance.switching import as_wished
+from auv_path_following.guidance.switching import with_overrides
 from auv_path_following.navigation_gate import NavigationGateConfig
 
 if TYPE_CHECKING:  # reading missions is guidance's affair; the other nodes start faster without it
@@ -85,7 +85,7 @@ class GuidanceParameters(NavigationParameters):
         if not self.mission_switching:
             return self
         wish = mission.switching
-        switching = as_wished(self.guidance.switching, wish.mode, wish.radius)
+        switching = with_overrides(self.guidance.switching, wish.mode, wish.radius)
         return dataclasses.replace(self, guidance=dataclasses.replace(self.guidance, switching=switching))
 
 

@@ -175,7 +175,7 @@ def test_a_vehicle_carried_off_its_approach_gets_a_new_one() -> None:
 
 
 def test_an_approach_that_ends_beside_the_start_is_flown_again() -> None:
-    """P reaches the end of the approach while a current that nobody sees keeps the vehicle 5 m off."""
+    """P reaches the end of the approach while an unmeasured current keeps the vehicle 5 m off."""
     follower = PathFollower(PATH, CONFIG, AGILITY)
     x = -20.0
     for k in range(400):

@@ -1,4 +1,4 @@
-"""Guidance as a whole, driven by a point that goes exactly where it is told."""
+"""Guidance as a whole, with a vehicle whose heading is always the desired one."""
 
 from __future__ import annotations
 
@@ -167,7 +167,7 @@ def test_looking_moves_nothing_and_asks_for_the_present_heading():
     output = follower.look(Navigation(5.0, -3.0, 0.7, 0.1))
     assert (output.psi_d, output.r_d, output.U_P, output.psi_e) == (0.7, 0.0, 0.0, 0.0)
     assert (output.xe, output.ye) == pytest.approx((5.0, -3.0))
-    # P rests until the next update has told it a speed, however long that was.
+    # P rests until the next update sets its speed, however long that takes.
     later = follower.update(Navigation(5.0, -3.0, 0.7, 0.1), AHEAD, NO_CURRENT, 100.0)
     assert later.s == 0.0
     assert not later.finished

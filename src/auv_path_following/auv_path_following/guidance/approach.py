@@ -41,7 +41,7 @@ class ApproachConfig:
 
 
 class Agility(NamedTuple):
-    """What guidance has to know of the hull, at the mission's thrust.
+    """Properties of the hull that guidance needs, at the mission's thrust.
 
     Attributes:
         speed: through the water, straight ahead, m/s.

@@ -29,7 +29,7 @@ from auv_path_following.guidance.virtual_point import (
 )
 from auv_path_following.paths.rows import PathRows, curvature, evaluate
 
-#: A longer gap between two updates counts as this much, s: nothing is known of what happened in it.
+#: Longest time between two steps that counts, s: motion in a longer gap is not assumed.
 LONGEST_STEP = 1.0
 
 
@@ -64,7 +64,7 @@ class FollowerState(NamedTuple):
 
 
 class GuidanceOutput(NamedTuple):
-    """One update's result with every signal a plot wants (NED, m, rad, s).
+    """Result of a step, with every signal for plots (NED, m, rad, s).
 
     During an approach P, its errors and its course are the approach's, s and i are 0, and `approach` is what
     is left of it, m.

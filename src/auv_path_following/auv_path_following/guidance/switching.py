@@ -42,8 +42,10 @@ class SwitchingConfig:
     )
 
 
-def as_wished(config: SwitchingConfig, mode: SwitchingMode | None, radius: float | None) -> SwitchingConfig:
-    """`config` with what a mission asks for; None leaves a value as it is."""
+def with_overrides(
+    config: SwitchingConfig, mode: SwitchingMode | None, radius: float | None
+) -> SwitchingConfig:
+    """Return `config` with a mission's values; None leaves a value as it is."""
     return SwitchingConfig(
         mode=config.mode if mode is None else mode, radius=config.radius if radius is None else radius
     )

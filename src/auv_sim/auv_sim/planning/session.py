@@ -20,7 +20,7 @@ from auv_msgs_py.result_files import NotWritten
 from auv_msgs_py.types import Current
 from auv_path_following import config_files, vehicle
 from auv_path_following.guidance.path_follower import PathFollowerConfig
-from auv_path_following.guidance.switching import as_wished
+from auv_path_following.guidance.switching import with_overrides
 from auv_path_following.paths import mission_file
 from auv_path_following.paths.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
@@ -40,7 +40,7 @@ def plan(options: argparse.Namespace) -> int:
     hull = vehicle.load(options.vehicle)
     mission = mission_file.load(options.mission, hull)
     guidance = _guidance(options, mission)
-    switching = as_wished(guidance.switching, options.switching, None)
+    switching = with_overrides(guidance.switching, options.switching, None)
     current = Current(*options.current)
     verdicts = check(mission, hull, current, switching, guidance.lookahead)
     console = terminal(options.quiet, soft_wrap=True, width=None if sys.stdout.isatty() else 110)
