@@ -12,11 +12,10 @@ from dataclasses import dataclass, field
 
 from auv_msgs_py import topics
 from auv_msgs_py.frames import flip_yaw, quaternion_of_yaw, yaw_of_quaternion
-from auv_msgs_py.pure import numbers_of
 from auv_msgs_py.types import NO_CURRENT, Current
 from auv_path_following.control import autopilot
 from auv_path_following.control.autopilot import AutopilotConfig
-from auv_path_following.guidance import guide
+from auv_path_following.guidance import current_observer, guide
 from auv_path_following.guidance.approach import agility_of, empty_approach
 from auv_path_following.guidance.current_observer import CurrentObserverConfig
 from auv_path_following.guidance.guide import Measured
@@ -97,7 +96,8 @@ def pilot_of(scenario: Scenario) -> Pilot:
     hull = c.controller_vehicle or c.vehicle
     guidance = guide.prepare(c.guidance, agility_of(hull, c.thrust), c.thrust)
     steering = autopilot.prepare(c.autopilot, hull)
-    return Pilot(numbers_of(c.observer), guidance, steering, math.inf, c.sea is not None)
+    observer = current_observer.prepare(c.observer, round(c.step * 1e9) * 1e-9)
+    return Pilot(observer, guidance, steering, math.inf, c.sea is not None)
 
 
 def begun(config: Pilot) -> PilotState:

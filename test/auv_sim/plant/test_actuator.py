@@ -10,9 +10,7 @@ from hypothesis import strategies as st
 
 from auv_path_following import vehicle
 from auv_sim.plant.actuator import (
-    Deflection,
     FlawedServoState,
-    Order,
     RudderFlaws,
     Servo,
     ServoState,
@@ -32,13 +30,13 @@ class Driven:
         limits = vehicle.Rudder(max_angle_deg=35.0, max_rate_deg_s=15.0)
         self.config = flawed_servo_of(limits, RudderFlaws(**flaws), 0.05) if flaws else servo_of(limits)
         self.state = FlawedServoState() if flaws else ServoState()
-        self.fins = Deflection(0.0, 0.0, 0.0)
+        self.fins = (0.0, 0.0, 0.0)
 
     def command(self, angle: float, seconds: float) -> None:
-        self.state, self.fins = servo_step(self.config, self.state, Order(angle, True), seconds)
+        self.state, self.fins = servo_step(self.config, self.state, (angle, True), seconds)
 
     def hold(self, angle: float, seconds: float) -> None:
-        self.state, self.fins = servo_step(self.config, self.state, Order(angle, False), seconds)
+        self.state, self.fins = servo_step(self.config, self.state, (angle, False), seconds)
 
     @property
     def angle(self) -> float:
@@ -89,7 +87,7 @@ def test_without_flaws_rudder_and_servo_are_one():
         for rudder in (ideal, flawless):
             rudder.command(angle, 0.1)
         assert ideal.fins == flawless.fins
-        assert ideal.angle == ideal.fins.end == flawless.angle
+        assert ideal.angle == ideal.fins[2] == flawless.angle
 
 
 def test_a_share_of_the_rate_is_all_that_changes():
@@ -119,13 +117,13 @@ def test_play_is_lost_at_every_reversal():
     rudder = Driven(backlash_deg=2.0)
     play = math.radians(1.0)
     rudder.command(0.2, 0.5)
-    assert rudder.fins.end == pytest.approx(0.5 * RATE - play)
+    assert rudder.fins[2] == pytest.approx(0.5 * RATE - play)
     rudder.command(0.2, 10.0)
-    assert (rudder.angle, rudder.fins.end) == pytest.approx((0.2, 0.2 - play))
+    assert (rudder.angle, rudder.fins[2]) == pytest.approx((0.2, 0.2 - play))
     rudder.command(0.2 - 1.5 * play, 10.0)
-    assert rudder.fins.end == pytest.approx(0.2 - play)  # still within the play
+    assert rudder.fins[2] == pytest.approx(0.2 - play)  # still within the play
     rudder.command(0.0, 10.0)
-    assert rudder.fins.end == pytest.approx(play)
+    assert rudder.fins[2] == pytest.approx(play)
 
 
 def test_a_command_comes_after_its_dead_time():
@@ -156,9 +154,9 @@ def test_commands_faster_than_the_ring_was_made_for_are_an_error():
 def test_flaws_never_break_the_limits(commands, band, backlash, dead_time):
     rudder = Driven(dead_band_deg=band, backlash_deg=backlash, dead_time=dead_time)
     for angle in commands:
-        before = rudder.fins.end
+        before = rudder.fins[2]
         rudder.command(angle, 0.05)
-        assert rudder.fins.begin == before
-        assert abs(rudder.fins.end - before) <= RATE * 0.05 + 1e-12
+        assert rudder.fins[0] == before
+        assert abs(rudder.fins[2] - before) <= RATE * 0.05 + 1e-12
         assert abs(rudder.angle) <= LIMIT
-        assert abs(rudder.fins.end - rudder.angle) <= math.radians(0.5 * backlash) + 1e-12
+        assert abs(rudder.fins[2] - rudder.angle) <= math.radians(0.5 * backlash) + 1e-12

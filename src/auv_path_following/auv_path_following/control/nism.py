@@ -118,7 +118,7 @@ def rudder_rate(g: NismConfig, inputs: HeadingInputs) -> tuple[float, float, flo
     sigma_1_dot = g.k1 * g.k2 * (1.0 - bend * bend) * psi_e_dot + psi_e_ddot
     sigma_2 = g.k3 * math.tanh(g.k4 * sigma_1) + sigma_1_dot
 
-    sign = int(sigma_2 > 0.0) - int(sigma_2 < 0.0)  # NumPy has no difference of truths
+    sign = 1.0 if sigma_2 > 0.0 else -1.0 if sigma_2 < 0.0 else 0.0
     rate = g.kp * math.tanh(g.k5 * sigma_2) + g.ks * sign
     return rate, sigma_1, sigma_2
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from auv_msgs_py.pure import numbers, numbers_class, pure
+from auv_msgs_py.pure import bounded, numbers, numbers_class, pure
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.guidance.adaptive_lookahead import AdaptiveLookaheadConfig, adaptive_lookahead
 from auv_path_following.guidance.law import LawInputs, LawOutput, NoState
@@ -46,7 +46,7 @@ def ailos(config: AilosConfig, state: NoState, inputs: LawInputs, dt: float) -> 
     theta_n = 0.0
     if Ur > 0.0:
         across = -math.sin(chi_p) * current.Vx + math.cos(chi_p) * current.Vy
-        theta_n = min(max(across / Ur, -limit), limit)
+        theta_n = bounded(across / Ur, limit)
     alpha = adaptive_offset(ye, theta_n, Delta)
     chi_r = math.atan(-(ye + alpha) / Delta)
     return state, LawOutput(chi_p + chi_r - beta_r, chi_r, alpha, theta_n)

@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from auv_msgs_py.pure import numbers, pure
+from auv_msgs_py.pure import pure
 from auv_msgs_py.settings import setting, settings
 from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
 
 
-@numbers
 @settings
 class CurrentObserverConfig:
     """Gains of Eq. (35). The poles of the error are the roots of z^2 + k_ob2 z + k_ob1 = 0."""
@@ -29,6 +28,16 @@ class CurrentObserverConfig:
         le=60.0,
         live=True,
     )
+
+
+class Observer(NamedTuple):
+    """Configuration: gains and longest gap as in the settings, and `transition` for steps of `dt` s."""
+
+    k_ob1: float
+    k_ob2: float
+    longest_gap: float
+    dt: float
+    transition: tuple[float, float, float, float]
 
 
 class ObserverState(NamedTuple):
@@ -61,7 +70,7 @@ def relocated(state: ObserverState) -> ObserverState:
 
 @pure
 def observe(
-    config: CurrentObserverConfig,
+    config: Observer,
     state: ObserverState,
     navigation: Navigation,
     water: WaterVelocity,
@@ -99,7 +108,9 @@ def observe(
     wx = cos_psi * ur - sin_psi * vr
     wy = sin_psi * ur + cos_psi * vr
     if seen and dt > 0.0:
-        f11, f12, f21, f22 = transition(config.k_ob1, config.k_ob2, dt)
+        f11, f12, f21, f22 = config.transition
+        if dt != config.dt:
+            f11, f12, f21, f22 = transition(config.k_ob1, config.k_ob2, dt)
         dx = (x - last_x) / dt - 0.5 * (wx + last_wx)
         dy = (y - last_y) / dt - 0.5 * (wy + last_wy)
         # e = 0, Vhat = d is the equilibrium, so the distance from it is what decays.
@@ -117,8 +128,12 @@ class CurrentObserver:
     """
 
     def __init__(self, config: CurrentObserverConfig | None = None) -> None:
-        self.config = config or CurrentObserverConfig()
+        self.configure(config or CurrentObserverConfig())
         self.reset()
+
+    def configure(self, config: CurrentObserverConfig) -> None:
+        """Take new gains; the estimate is kept."""
+        self.config = prepare(config)
 
     def reset(self) -> None:
         """Forget everything; the next update starts with an estimate of zero."""
@@ -141,6 +156,17 @@ class CurrentObserver:
 
 
 _UNKNOWN = WaterVelocity(0.0, 0.0)
+
+
+def prepare(config: CurrentObserverConfig, dt: float = 0.0) -> Observer:
+    """Return the observer's configuration.
+
+    Args:
+        config: gains.
+        dt: usual step, s, whose transition is computed once; any other step has its own.
+    """
+    k_ob1, k_ob2 = float(config.k_ob1), float(config.k_ob2)
+    return Observer(k_ob1, k_ob2, float(config.longest_gap), dt, transition(k_ob1, k_ob2, dt))
 
 
 @pure

@@ -175,8 +175,8 @@ def guide(
     has_resumed = has_water and mission.state == HOLDING
     if has_water:
         blind = 0.0
-        rejoins = rejoins or has_resumed
-        mission = navigation_back(mission)
+    if has_resumed:
+        rejoins, mission = True, navigation_back(mission)
     is_followed = mission.state == RUNNING and has_water
     if is_followed:
         if rejoins:

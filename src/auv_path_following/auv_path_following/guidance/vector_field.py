@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from auv_msgs_py.pure import numbers, numbers_class, pure
+from auv_msgs_py.pure import bounded, numbers, numbers_class, pure
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.guidance.law import LawInputs, LawOutput, NoState
 from auv_path_following.registry import Law
@@ -51,7 +51,7 @@ def vector_field(
     theta_n = 0.0
     if Ur > 0.0:
         across = -math.sin(chi_d) * current.Vx + math.cos(chi_d) * current.Vy
-        theta_n = min(max(across / Ur, -config.theta_limit), config.theta_limit)
+        theta_n = bounded(across / Ur, config.theta_limit)
     return state, LawOutput(chi_d - math.asin(theta_n) - beta_r, chi_r, 0.0, theta_n)
 
 

@@ -26,7 +26,7 @@ class CurrentObserverNode(SuiteNode):
         self._input = NavigationInput(self, self._step, self.observer.reset)
 
     def configure(self) -> None:
-        self.observer.config = self.parameters.observer
+        self.observer.configure(self.parameters.observer)
         self._input.odometry.configure()
 
     def waiting_for(self) -> str:

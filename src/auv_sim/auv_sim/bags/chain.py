@@ -19,11 +19,10 @@ from auv_msgs_py import topics
 from auv_msgs_py.conversions import nanoseconds, navigation_from, water_velocity_from
 from auv_msgs_py.errors import ConfigurationError, MessageRefused
 from auv_msgs_py.frames import FrameTable, flip_yaw
-from auv_msgs_py.pure import numbers_of
 from auv_msgs_py.stamps import StampGuard, Verdict
 from auv_msgs_py.types import WaterVelocity
 from auv_path_following.control import autopilot
-from auv_path_following.guidance import guide
+from auv_path_following.guidance import current_observer, guide
 from auv_path_following.guidance import mission_state as states
 from auv_path_following.guidance.approach import agility_of, empty_approach
 from auv_path_following.guidance.guide import GuideState, Measured, at_the_beginning
@@ -124,7 +123,7 @@ class _Chain:
         hold_after = math.inf if guidance.lockstep else guidance.holding.hold_after
         gap = math.inf if guidance.lockstep else steering.odometry_timeout
         self._config = Pilot(
-            numbers_of(parameters[topics.OBSERVER].observer),
+            current_observer.prepare(parameters[topics.OBSERVER].observer),
             guide.prepare(guidance.guidance, agility_of(vehicle, mission.thrust), mission.thrust, hold_after),
             autopilot.prepare(steering.autopilot, vehicle),
             gap,

@@ -24,19 +24,10 @@ class RudderFlaws:
     dead_time: float = setting(0.0, "from a command to the servo's start", unit="s", ge=0.0, le=5.0)
 
 
-class Order(NamedTuple):
-    """Commanded angle, rad, and whether it was commanded at the beginning of this step or is held."""
-
-    angle: float
-    is_new: bool
-
-
-class Deflection(NamedTuple):
-    """Angle of the rudder itself at the beginning, the middle and the end of a step, rad."""
-
-    begin: float
-    middle: float
-    end: float
+#: Commanded angle, rad, and whether it was commanded at the beginning of this step or is held.
+Order = tuple[float, bool]
+#: Angle of the rudder itself at the beginning, the middle and the end of a step, rad.
+Deflection = tuple[float, float, float]
 
 
 class Servo(NamedTuple):
@@ -57,9 +48,9 @@ def turn(config: Servo, state: ServoState, inputs: Order, dt: float) -> tuple[Se
     """Move towards the command at the greatest rate, never past the stops."""
     max_angle, max_rate = config
     angle = state.angle
-    error = bounded(inputs.angle, max_angle) - angle
+    error = bounded(inputs[0], max_angle) - angle
     end = angle + bounded(error, max_rate * dt)
-    return ServoState(end), Deflection(angle, angle + bounded(error, max_rate * (0.5 * dt)), end)
+    return ServoState(end), (angle, angle + bounded(error, max_rate * (0.5 * dt)), end)
 
 
 class FlawedServo(NamedTuple):
@@ -139,8 +130,9 @@ def turn_flawed(
     """
     max_angle, max_rate, band, play, dead_time, size, ring = config
     angle, target, fin, clock, first, after = state
-    if inputs.is_new:
-        command = min(max(inputs.angle, -max_angle), max_angle)
+    ordered, is_new = inputs
+    if is_new:
+        command = bounded(ordered, max_angle)
         if dead_time > 0.0:
             if after - first >= size:
                 raise IndexError("more commands within their dead time than the servo's ring holds")
@@ -149,20 +141,20 @@ def turn_flawed(
             target, first = _due(config, angle, target, clock, first, after)
         else:
             target = _aim(band, angle, target, command)
-    error, half, reach = target - angle, max_rate * (0.5 * dt), max_rate * dt
-    middle, end = angle + min(max(error, -half), half), angle + min(max(error, -reach), reach)
+    error = target - angle
+    middle, end = angle + bounded(error, max_rate * (0.5 * dt)), angle + bounded(error, max_rate * dt)
     if play > 0.0:
-        fins = Deflection(
+        fins = (
             min(max(fin, angle - play), angle + play),
             min(max(fin, middle - play), middle + play),
             min(max(fin, end - play), end + play),
         )
     else:
-        fins = Deflection(angle, middle, end)
+        fins = angle, middle, end
     if dead_time > 0.0:
         clock += dt
         target, first = _due(config, end, target, clock, first, after)
-    return FlawedServoState(end, target, fins.end, clock, first, after), fins
+    return FlawedServoState(end, target, fins[2], clock, first, after), fins
 
 
 @pure

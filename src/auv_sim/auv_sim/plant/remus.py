@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from auv_msgs_py.pure import dispatched, pure
 from auv_msgs_py.types import Command, Current, Navigation
 from auv_path_following.vehicle import Vehicle
-from auv_sim.plant.actuator import Deflection, Order, ServoState, servo_of, servo_step
+from auv_sim.plant.actuator import Deflection, ServoState, servo_of, servo_step
 
 #: Longest Runge-Kutta step, s; longer steps are divided.
 MAX_STEP = 0.05
@@ -72,12 +72,8 @@ def planar_hull_of(vehicle: Vehicle) -> PlanarHull:
     )
 
 
-class HullInputs(NamedTuple):
-    """Rudder during the step (rad), thrust (N), current (m/s, NED)."""
-
-    rudder: Deflection
-    thrust: float
-    current: Current
+#: Rudder during the step, thrust (N), current (m/s, NED).
+HullInputs = tuple[Deflection, float, Current]
 
 
 @pure
@@ -94,7 +90,7 @@ def planar_slopes(
     """
     (inv_x, inv_vv, inv_vr, inv_rv, inv_rr, Xuu, Xvr, Xrr,
      Yvv, Yrr, Yur, Yuv, Yuud, Nvv, Nrr, Nur, Nuv, Nuud) = hull  # fmt: skip
-    sway, yaw = abs(vr), abs(r)
+    sway, yaw = vr if vr >= 0.0 else -vr, r if r >= 0.0 else -r
     SX = Xuu * ur * abs(ur) + Xvr * vr * r + Xrr * r * r + thrust
     SY = Yvv * vr * sway + Yrr * r * yaw + Yur * ur * r + Yuv * ur * vr + Yuud * ur * ur * delta
     SN = Nvv * vr * sway + Nrr * r * yaw + Nur * ur * r + Nuv * ur * vr + Nuud * ur * ur * delta
@@ -191,14 +187,16 @@ def plant_step(config: Plant, state: Afloat, inputs: PlantInputs, dt: float) -> 
     """Let `dt` seconds pass under a held command and current; the output is the hull's motion."""
     hull, servo = state
     command, current, efficiency = inputs
-    thrust = min(max(command.thrust, 0.0), config.thrust_max) * efficiency
-    substeps = max(1, math.ceil(dt / config.max_step - 1e-9))
+    order, thrust = command
+    largest = config.thrust_max
+    thrust = (0.0 if thrust < 0.0 else largest if thrust > largest else thrust) * efficiency
+    substeps = 1 if dt <= config.max_step else math.ceil(dt / config.max_step - 1e-9)
     h = dt / substeps
-    servo, rudder = servo_step(config.servo, servo, Order(command.rudder, True), h)
-    hull, motion = hull_step(config.hull, hull, HullInputs(rudder, thrust, current), h)
+    servo, rudder = servo_step(config.servo, servo, (order, True), h)
+    hull, motion = hull_step(config.hull, hull, (rudder, thrust, current), h)
     for _ in range(substeps - 1):
-        servo, rudder = servo_step(config.servo, servo, Order(command.rudder, False), h)
-        hull, motion = hull_step(config.hull, hull, HullInputs(rudder, thrust, current), h)
+        servo, rudder = servo_step(config.servo, servo, (order, False), h)
+        hull, motion = hull_step(config.hull, hull, (rudder, thrust, current), h)
     return Afloat(hull, servo), motion
 
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from auv_path_following.vehicle import Vehicle
-from auv_sim.plant.actuator import Order, Servo, ServoState, turn
+from auv_sim.plant.actuator import Servo, ServoState, turn
 from auv_sim.vehicle_check.samples import Array
 
 #: Step of the grid on which commands and models stand, s.
@@ -54,7 +54,7 @@ def servo(rudder: Array, vehicle: Vehicle, rate: float) -> Array:
     angles = np.empty_like(rudder)
     for k, angle in enumerate(rudder):
         angles[k] = state.angle
-        state, _ = turn(config, state, Order(float(angle), True), STEP)
+        state, _ = turn(config, state, (float(angle), True), STEP)
     return angles
 
 
