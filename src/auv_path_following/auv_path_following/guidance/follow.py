@@ -118,39 +118,41 @@ def follow(
         current: the observer's estimate, NED.
         dt: seconds since the last step (0 on the first one); of a gap `LONGEST_STEP` at most counts.
     """
+    # Unpacked at once, because that is cheaper than one field after the other.
+    law_config, _, compensates, minimum_speed, k, saturation, turn_rate, where = config
+    progress, law = state
+    psi, (ur, vr) = navigation.psi, water
     if dt > LONGEST_STEP:
         dt = LONGEST_STEP
-    if not config.compensate_current:
+    if not compensates:
         current = NO_CURRENT
-    progress, psi = state.progress, navigation.psi
-    Ur = math.hypot(water.ur, water.vr)  # Eq. (17)
-    i, t, finished, legs, joined, switched = move(
-        config.progress, path, progress, navigation, Ur, current, dt
-    )
-    along = followed(path, legs, progress.approach)
+    Ur = math.hypot(ur, vr)  # Eq. (17)
+    i, t, finished, legs, joined, switched = move(where, path, progress, navigation, Ur, current, dt)
+    way = progress.approach
+    along = followed(path, legs, way)
     x_p, y_p, dx, dy, ddx, ddy = evaluate(along, along.subpath[i], t)
     chi_p = math.atan2(dy, dx)
     xe, ye = path_errors(navigation, x_p, y_p, chi_p)
 
-    beta_r = math.atan2(water.vr, water.ur)
-    if Ur < config.minimum_speed:
+    beta_r = math.atan2(vr, ur)
+    if Ur < minimum_speed:
         Ur = beta_r = 0.0
-    law, out = law_step(config.law, state.law, LawInputs(ye, chi_p, Ur, beta_r, current), dt)
+    seen = LawInputs(ye, chi_p, Ur, beta_r, current)
+    law, (psi_d, chi_r, alpha, theta_n) = law_step(law_config, law, seen, dt)
 
-    drawn = saturated(xe, config.saturation)
-    desired = tangential_speed(config.k, drawn, psi, water, chi_p, current)
+    desired = tangential_speed(k, saturated(xe, saturation), psi, water, chi_p, current)
     P, U_P = driven(i, t, finished, desired, math.hypot(dx, dy))
     kappa = curvature(dx, dy, ddx, ddy)
     # At the end of the path there is nothing more to turn to.
-    psi_d, r_d = (psi, 0.0) if finished else (wrap(out.psi_d), kappa * U_P)  # Eq. (9)
-    r_d = bounded(r_d, config.turn_rate)
-    progress = settled(config.progress, progress, P, legs, joined, math.hypot(xe, ye), navigation)
-    approach = approach_to_go(legs, progress.approach, i, t)
+    psi_d, r_d = (psi, 0.0) if finished else (wrap(psi_d), kappa * U_P)  # Eq. (9)
+    r_d = bounded(r_d, turn_rate)
+    progress = settled(where, P, legs, way, joined, math.hypot(xe, ye), navigation)
+    approach = approach_to_go(legs, way, i, t)
     if legs > 0:
         i, t = 0, 0.0
     return FollowerState(progress, law), GuidanceOutput(
         psi_d, r_d, xe, ye, wrap(psi - psi_d), i + t, i, x_p, y_p, chi_p, kappa, U_P, beta_r,
-        out.chi_r, out.alpha, out.theta_n, approach, switched, finished,
+        chi_r, alpha, theta_n, approach, switched, finished,
     )  # fmt: skip
 
 

@@ -102,7 +102,8 @@ def move(
         vehicle has joined the subpath; whether P has come to another subpath of the path, or to its end.
     """
     P, legs, approach, planned, joined, _, _ = state
-    i, t, finished, beyond = P.i, P.t, P.finished, 0.0
+    i, t, _, _, finished = P
+    beyond = 0.0
     if planned:
         i, t, finished, beyond = moved(followed(path, legs, approach), P, dt)
     if not planned or (legs > 0 and finished):
@@ -133,16 +134,17 @@ def _plan(config: ProgressConfig, path: PathRows, approach: Any, navigation: Nav
 
 @pure
 def settled(
-    config: ProgressConfig, state: Progress, P: VirtualPoint, legs: int, joined: bool, off: float,
+    config: ProgressConfig, P: VirtualPoint, legs: int, approach: Any, joined: bool, off: float,
     navigation: Navigation,
 ) -> Progress:  # fmt: skip
-    """Return the state after a step: `off` is the distance to P, m.
+    """Return the state after a step.
 
-    It decides whether the vehicle has joined the subpath or lost the approach.
+    The distance to P, `off` (m), decides whether the vehicle has joined the subpath or lost the approach.
     """
-    planned = legs == 0 or off <= config.approach_radius
-    joined = joined or (legs == 0 and off <= NEAR)
-    return Progress(P, legs, state.approach, planned, joined, navigation.x, navigation.y)
+    x, y, _, _ = navigation
+    if legs == 0:
+        return Progress(P, legs, approach, True, joined or off <= NEAR, x, y)
+    return Progress(P, legs, approach, off <= config.approach_radius, joined, x, y)
 
 
 @pure

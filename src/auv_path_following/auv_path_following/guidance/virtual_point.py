@@ -33,7 +33,8 @@ def path_errors(navigation: Navigation, x_p: float, y_p: float, chi_p: float) ->
         navigation: the vehicle's pose, NED.
         x_p, y_p, chi_p: P (m) and the path's course there (rad), NED.
     """
-    dx, dy = navigation.x - x_p, navigation.y - y_p
+    x, y, _, _ = navigation
+    dx, dy = x - x_p, y - y_p
     cos_chi, sin_chi = math.cos(chi_p), math.sin(chi_p)
     return dx * cos_chi + dy * sin_chi, -dx * sin_chi + dy * cos_chi
 
@@ -59,9 +60,9 @@ def tangential_speed(
     Ur cos(psi + beta_r - chi_p) is written as ur cos(psi - chi_p) - vr sin(psi - chi_p): the same value
     without the drift angle, so it is valid at rest as well.
     """
-    off = psi - chi_p
-    through_water = water.ur * math.cos(off) - water.vr * math.sin(off)
-    return through_water + k * xe + math.cos(chi_p) * current.Vx + math.sin(chi_p) * current.Vy
+    (ur, vr), (Vx, Vy), off = water, current, psi - chi_p
+    through_water = ur * math.cos(off) - vr * math.sin(off)
+    return through_water + k * xe + math.cos(chi_p) * Vx + math.sin(chi_p) * Vy
 
 
 class VirtualPoint(NamedTuple):
@@ -98,12 +99,13 @@ def moved(path: PathRows, P: VirtualPoint, dt: float) -> Place:
     Departs from Eq. (43), which sets P to the start of the next subpath: the rest of the step's way is
     carried over as length, over as many subpaths as it takes. The time is linear in the subpaths passed.
     """
-    t = P.t + P.t_rate * dt
+    i, t, t_rate, metres_per_t, finished = P
+    t += t_rate * dt
     if t < 0.0:
         t = 0.0
-    if t < 1.0 or P.finished:
-        return P.i, t, P.finished, 0.0
-    return passed_on(path, P.i, (t - 1.0) * P.metres_per_t)
+    if t < 1.0 or finished:
+        return i, t, finished, 0.0
+    return passed_on(path, i, (t - 1.0) * metres_per_t)
 
 
 @pure
