@@ -6,14 +6,18 @@ import dataclasses
 import json
 import signal
 import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
+import numpy as np
 import pytest
 
 from auv_msgs_py import topics
 from auv_sim import pages
-from auv_sim.benchmark import graph, laws, page, sheets
+from auv_sim.benchmark import against, graph, laws, page, sheets, start_up
 from auv_sim.benchmark.cli import main
 from auv_sim.benchmark.rig import Setup, Timing, free_running, lockstep
 from auv_sim.benchmark.scale import QUICK
@@ -58,7 +62,9 @@ def test_one_vehicle_and_many_are_counted_in_vehicle_steps() -> None:
     told: list[str] = []
     scale = dataclasses.replace(QUICK, vehicles=(3,), flight=0.5)
     assert laws.closed_loop_figures(scale, told.append)["vehicle_steps_per_second"] > 0.0
-    assert laws.batch_figures(scale, told.append)["vehicle_steps_per_second"]["3"] > 0.0
+    batch = laws.batch_figures(scale, told.append)
+    assert batch["vehicle_steps_per_second"]["3"] > 0.0
+    assert batch["fixed_us"]["3"] >= 0.0
     assert told == ["closed loop", "batch, 3 vehicles"]
 
 
@@ -98,6 +104,48 @@ def test_the_suite_is_compared_with_its_own_floor(
     assert ["all", "500", "320", "160"] in rows
 
 
+def test_what_a_flight_takes_once_is_told_apart_from_its_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An engine that takes 70 us a flight and 2 us a step, on a clock that only it moves."""
+    now = [0.0]
+
+    def fly(scenarios: list[Any], _: int = 1) -> Any:
+        steps = np.array([int(scenario.time_limit / scenario.step) + 1 for scenario in scenarios])
+        now[0] += 70e-6 * len(scenarios) + 2e-6 * steps.sum()
+        return SimpleNamespace(steps=steps)
+
+    monkeypatch.setattr(laws, "engine", SimpleNamespace(fly=fly))
+    monkeypatch.setattr(laws, "time", SimpleNamespace(perf_counter=lambda: now[0]))
+    batch = laws.batch_figures(dataclasses.replace(QUICK, vehicles=(1, 10)), lambda _: None)
+    for number in ("1", "10"):
+        assert batch["fixed_us"][number] == pytest.approx(70.0)
+        assert batch["step_us"][number] == pytest.approx(2.0)
+        assert batch["vehicle_steps_per_second"][number] == pytest.approx(41 / (70e-6 + 41 * 2e-6))
+
+
+def test_two_checkouts_fly_in_turns() -> None:
+    one = against.Contender(sys.executable, "closed_loop", "-", 2, 0.5, 1)
+    other = against.Contender(sys.executable, "batch", "rough", 2, 0.5, 1)
+    try:
+        for contender in (one, other):
+            contender.fly(counts=False)
+            contender.fly()
+            assert len(contender.times) == 1 and contender.times[0] > 0.0
+    finally:
+        one.close()
+        other.close()
+
+
+def test_a_checkout_without_an_environment_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["--against", str(tmp_path)]) == 2
+    assert f"--against: found {tmp_path}, which has no .venv/py3" in capsys.readouterr().err
+
+
+def test_a_missions_start_is_timed_by_its_recording() -> None:
+    assert 0.0 < start_up.first_command(composed=True) < 60.0
+
+
 def figures() -> dict[str, object]:
     """Every section, with made-up figures."""
     kinds = ("plain floor", "floor", "suite", "floor, recorded", "suite, recorded")
@@ -115,12 +163,19 @@ def figures() -> dict[str, object]:
         "latency": {"20": at, "50": at},
         "simulation": {
             "closed_loop": {"vehicle_steps_per_second": 2e4},
-            "batch": {"vehicle_steps_per_second": {"1": 1e6, "10000": 2e6}, "threads": 2, "compiled": True},
+            "batch": {
+                "vehicle_steps_per_second": {"1": 1e6, "10000": 2e6}, "step_us": {"1": 0.9, "10000": 0.4},
+                "fixed_us": {"1": 40.0, "10000": 39.96}, "threads": 2, "compiled": True,
+            },
         },
         "start_up": {"seconds": 2.5},
         "subpaths": {"step_us": {"10": 20.0, "10000": 21.0}},
         "recording": {"rate_hz": 50.0, "cpu_percent": {"1": 2.0, "100": 20.0}},
-    }
+        "against": {
+            "closed_loop": 0.72, "batch": 104.2, "batch_at_sea": 25.14, "first_command": 0.4, "recorded": 1.1,
+            "first_command_composed": 0.41, "recorded_composed": 1.3, "vehicles": 100_000,
+        },
+    }  # fmt: skip
 
 
 def test_the_page_is_renewed_between_its_marks(tmp_path: Path) -> None:
@@ -135,7 +190,8 @@ def test_the_page_is_renewed_between_its_marks(tmp_path: Path) -> None:
     assert "old" not in text
     assert "abacus" in text
     assert "| plain rclpy nodes, empty callbacks | 2.50 | 2500 |" in text
-    assert "| batch, 10,000 vehicles | 100.0 | 2,000,000 |" in text
+    assert "| batch, 10,000 vehicles | 100.0 | 2,000,000 | 0.500 | 0.400 | 40.0 |" in text
+    assert "| batch, 100,000 vehicles, all cores: times the other's closed_loop | 104 |" in text
     assert (tmp_path / "images" / page.PICTURE).stat().st_size > 10_000
 
 

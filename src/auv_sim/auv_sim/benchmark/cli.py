@@ -13,7 +13,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from auv_msgs_py.errors import ConfigurationError
 from auv_msgs_py.result_files import write_text
 from auv_sim import pages
-from auv_sim.benchmark import graph, laws, machine, page, recording, sheets
+from auv_sim.benchmark import against, graph, laws, machine, page, recording, sheets
 from auv_sim.benchmark.scale import FULL, QUICK, Scale
 from auv_sim.command_line import EXIT_DONE, Parser, command, make_directory, target, to_type
 from auv_sim.terminal import console, go_on, wrote
@@ -43,6 +43,9 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument(
         "--only", nargs="+", choices=tuple(SECTIONS), metavar="SECTION", help=f"some of {', '.join(SECTIONS)}"
     )
+    p.add_argument(
+        "--against", type=Path, metavar="DIR", help="compare with another checkout of the suite, in turns"
+    )
     p.add_argument("--json", type=target, metavar="FILE", help="write all figures to FILE")
     p.add_argument(
         "--write-docs", action="store_true", help="renew the figures and pictures of docs/performance.md"
@@ -67,12 +70,14 @@ def _measure(options: argparse.Namespace) -> int:
         pages.check(options.page, page.PART)  # before minutes of measuring, not after
         make_directory(options.images, "--images")
     scale = QUICK if options.quick else FULL
-    chosen = options.only or list(SECTIONS)
+    chosen = options.only or ([] if options.against and not options.write_docs else list(SECTIONS))
+    theirs = against.interpreter_of(options.against) if options.against is not None else ""
     out = console()
     figures: dict[str, Any] = {"machine": machine.describe(), "load": machine.load(), "quick": options.quick}
+    total = sum(SECTIONS[name][1](scale) for name in chosen) + (against.ticks(scale) if theirs else 0)
     columns = (BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), TextColumn("{task.description}"))
     with Progress(*columns, console=out, transient=True) as bar:
-        task = bar.add_task("", total=sum(SECTIONS[name][1](scale) for name in chosen))
+        task = bar.add_task("", total=total)
         begun = 0
 
         def tick(text: str) -> None:
@@ -82,6 +87,8 @@ def _measure(options: argparse.Namespace) -> int:
 
         for name in chosen:
             figures[name] = SECTIONS[name][0](scale, tick)
+        if theirs:
+            figures["against"] = against.figures(scale, tick, theirs)
     found = sheets.sheets(figures)
     out.print(", ".join(f"{name} {value}" for name, value in figures["machine"].items()), soft_wrap=True)
     sheets.show(found, out)

@@ -2,28 +2,15 @@
 
 from __future__ import annotations
 
-import os
-import signal
-import subprocess
-import sys
-import tempfile
-import time
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
-import rclpy
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
-from rclpy.signals import SignalHandlerOptions
 
-from auv_msgs_py import qos, topics
-from auv_msgs_py.runtime import StopRequest
-from auv_sim.benchmark.children import BenchmarkFailed, interruptible
-from auv_sim.benchmark.rig import NAMESPACE, Setup, Timing, free_running, lockstep
+from auv_sim.benchmark.children import BenchmarkFailed
+from auv_sim.benchmark.rig import Setup, Timing, free_running, lockstep
 from auv_sim.benchmark.scale import Scale
-from auv_sim.mission.domains import free_domain
+from auv_sim.benchmark.start_up import first_command
 
 Tick = Callable[[str], None]
 _MICRO = 1e6
@@ -102,58 +89,5 @@ def start_up_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
     times = []
     for _ in range(scale.rounds):
         tick("start-up")
-        times.append(_first_command())
+        times.append(first_command())
     return {"seconds": min(times)}
-
-
-def _first_command() -> float:
-    with tempfile.TemporaryDirectory(prefix="auv-benchmark-") as name, interruptible() as stop:
-        domain = free_domain()
-        environment = {**os.environ, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
-        command = [sys.executable, "-m", "auv_sim.mission", "--quiet", "--domain", str(domain)]
-        begin = time.monotonic()
-        launcher = subprocess.Popen(  # noqa: S603 - our own interpreter, our own module
-            [*command, "--out", str(Path(name) / "run")],
-            env=environment,
-            stderr=subprocess.DEVNULL,
-            start_new_session=True,  # Ctrl-C is passed on, once
-        )
-        try:
-            return _until_commanded(domain, launcher, stop) - begin
-        finally:
-            launcher.send_signal(signal.SIGINT)
-            try:
-                launcher.wait(30.0)
-            except subprocess.TimeoutExpired:
-                launcher.kill()
-                launcher.wait()
-
-
-def _until_commanded(domain: int, launcher: subprocess.Popen[bytes], stop: StopRequest) -> float:
-    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
-    rclpy.init(args=[], domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
-    node = Node("benchmark", namespace=NAMESPACE, start_parameter_services=False)
-    executor = SingleThreadedExecutor()
-    executor.add_node(node)
-    came: list[float] = []
-    topic = topics.RUDDER_CMD
-    node.create_subscription(
-        qos.message_class(topic.type),
-        topic.name,
-        lambda _: came.append(time.monotonic()),
-        qos.requested(topic, reliable=False),
-        raw=True,
-    )
-    deadline = time.monotonic() + 90.0
-    try:
-        while not came:
-            if launcher.poll() is not None or time.monotonic() > deadline:
-                raise BenchmarkFailed("the launcher did not bring up a mission")
-            executor.spin_once(timeout_sec=0.05)
-            if stop.requested:
-                raise KeyboardInterrupt
-        return came[0]
-    finally:
-        executor.shutdown()
-        node.destroy_node()
-        rclpy.try_shutdown()

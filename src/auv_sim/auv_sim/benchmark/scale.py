@@ -22,7 +22,7 @@ class Scale:
     rounds: int = 3
     steps: int = 3000
     seconds: float = 12.0
-    vehicles: tuple[int, ...] = (1, 10, 100, 1000, 10_000)
+    vehicles: tuple[int, ...] = (1, 10, 100, 1000, 10_000, 100_000)
     flight: float = 20.0
     topics: tuple[int, ...] = (1, 10, 30, 100)
     subpaths: tuple[int, ...] = (10, 100, 1000, 10_000)

@@ -33,7 +33,7 @@ def sheets(figures: dict[str, Any]) -> list[Sheet]:
     """A table for everything that was measured."""
     makers = {
         "lockstep": _lockstep, "latency": _latency, "simulation": _simulation, "start_up": _start_up,
-        "subpaths": _subpaths, "recording": _recording,
+        "subpaths": _subpaths, "recording": _recording, "against": _against,
     }  # fmt: skip
     found: list[Sheet] = []
     for name, make in makers.items():
@@ -102,18 +102,24 @@ def _latency(figures: dict[str, Any]) -> list[Sheet]:
 
 def _simulation(figures: dict[str, Any]) -> list[Sheet]:
     scalar = figures["closed_loop"]["vehicle_steps_per_second"]
-    rows = [("closed_loop, one vehicle", "1.0", f"{scalar:,.0f}", f"{1e6 / scalar:.2f}")]
-    how = "batch" if figures["batch"]["compiled"] else "batch, not compiled"
-    for number, rate in figures["batch"]["vehicle_steps_per_second"].items():
+    rows = [("closed_loop, one vehicle", "1.0", f"{scalar:,.0f}", f"{1e6 / scalar:.2f}", "-", "-")]
+    batch = figures["batch"]
+    how = "batch" if batch["compiled"] else "batch, not compiled"
+    for number, rate in batch["vehicle_steps_per_second"].items():
         rows.append(
             (
                 f"{how}, {int(number):,} vehicle{'s' * (number != '1')}",
                 f"{rate / scalar:.1f}",
                 f"{rate:,.0f}",
                 f"{1e6 / rate:.3f}",
+                f"{batch['step_us'][number]:.3f}",
+                f"{batch['fixed_us'][number]:.1f}",
             )
         )
-    heads = ("", "times closed_loop", "vehicle-steps a second", "us a vehicle-step")
+    heads = (
+        "", "times closed_loop", "vehicle-steps a second", "us a vehicle-step",
+        "of it for the step", "us a flight, once",
+    )  # fmt: skip
     return [Sheet("Simulation without ROS", heads, tuple(rows))]
 
 
@@ -131,6 +137,20 @@ def _subpaths(figures: dict[str, Any]) -> list[Sheet]:
     rows = tuple((f"{int(n):,}", f"{cost / least:.2f}", f"{cost:.1f}") for n, cost in costs.items())
     heads = ("subpaths", "times the shortest path's", "us a step of guidance")
     return [Sheet("Guidance, by number of subpaths", heads, rows)]
+
+
+def _against(figures: dict[str, Any]) -> list[Sheet]:
+    many = f"batch, {figures['vehicles']:,} vehicles, all cores"
+    rows = (
+        ("closed_loop: time", f"{figures['closed_loop']:.2f}"),
+        (f"{many}: times the other's closed_loop", f"{figures['batch']:.0f}"),
+        ("batch, rough sea, one core: times the other's closed_loop", f"{figures['batch_at_sea']:.1f}"),
+        ("first rudder command, one process for each node: time", f"{figures['first_command']:.2f}"),
+        ("first rudder command, all nodes in one process: time", f"{figures['first_command_composed']:.2f}"),
+        ("one process for each node: recorded / not recorded", f"{figures['recorded']:.2f}"),
+        ("all nodes in one process: recorded / not recorded", f"{figures['recorded_composed']:.2f}"),
+    )
+    return [Sheet("Against the other checkout", ("", "ratio"), rows)]
 
 
 def _recording(figures: dict[str, Any]) -> list[Sheet]:
