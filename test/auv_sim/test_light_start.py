@@ -1,0 +1,33 @@
+"""What a command imports before it is told what to do: nothing that takes long."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+#: Each of these takes 0.1 s or more.
+HEAVY = {
+    "matplotlib", "mcap", "numba", "numpy", "pyarrow", "pydantic", "pymavlink", "rclpy", "rich", "rosbags",
+    "scipy", "yaml",
+}  # fmt: skip
+
+
+def imported(code: str) -> set[str]:
+    """The heavy ones among what a new interpreter has imported behind this code."""
+    whole = f"import sys\n{code}\nprint(*sys.modules, file=sys.stderr)"
+    done = subprocess.run([sys.executable, "-c", whole], capture_output=True, text=True, check=True)
+    return set(done.stderr.split()) & HEAVY
+
+
+@pytest.mark.parametrize("module", ["auv_sim.bags.cli", "auv_sim.mission.cli", "auv_sim.planning.cli"])
+def test_help_needs_no_library(module: str) -> None:
+    code = f"from {module} import main\ntry: main(['--help'])\nexcept SystemExit as end: assert end.code == 0"
+    assert imported(code) == set()
+
+
+def test_what_draws_and_what_reads_bags_is_loaded_after_the_flight() -> None:
+    assert imported("from auv_sim.mission import flight, monitor") == {
+        "numpy", "pydantic", "rclpy", "rich", "yaml",
+    }  # fmt: skip
