@@ -50,7 +50,7 @@ PARSERS = {
     "plan": "auv_sim.planning.cli",
     "reproduce_paper": "auv_sim.reproduction.cli",
     "sea_trials": "auv_sim.mission.sea_trials",
-    "soak": "auv_sim.mission.soak",
+    "soak": "auv_sim.mission.soak_cli",
 }
 #: What the shell and other programs' commands begin with: they are no commands of this suite.
 FOREIGN = (

@@ -21,7 +21,17 @@ def imported(code: str) -> set[str]:
     return set(done.stderr.split()) & HEAVY
 
 
-@pytest.mark.parametrize("module", ["auv_sim.bags.cli", "auv_sim.mission.cli", "auv_sim.planning.cli"])
+@pytest.mark.parametrize(
+    "module",
+    [
+        "auv_sim.bags.cli",
+        "auv_sim.benchmark.cli",
+        "auv_sim.faults.cli",
+        "auv_sim.mission.cli",
+        "auv_sim.mission.soak_cli",
+        "auv_sim.planning.cli",
+    ],
+)
 def test_help_needs_no_library(module: str) -> None:
     code = f"from {module} import main\ntry: main(['--help'])\nexcept SystemExit as end: assert end.code == 0"
     assert imported(code) == set()

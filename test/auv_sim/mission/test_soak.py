@@ -12,7 +12,8 @@ import pytest
 
 from auv_sim.analysis.run import Run
 from auv_sim.mission import launcher, memory, soak
-from auv_sim.mission.soak import growth, main
+from auv_sim.mission.soak import growth
+from auv_sim.mission.soak_cli import main
 
 
 def test_what_grows_is_found_and_the_warm_up_does_not_count() -> None:

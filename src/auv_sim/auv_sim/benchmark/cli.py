@@ -3,37 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import json
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from auv_sim.command_line import Parser, command, target
 
-from auv_msgs_py.errors import ConfigurationError
-from auv_msgs_py.result_files import write_text
-from auv_sim import pages
-from auv_sim.benchmark import against, graph, laws, machine, page, recording, sheets
-from auv_sim.benchmark.scale import FULL, QUICK, Scale
-from auv_sim.command_line import EXIT_DONE, Parser, command, make_directory, target, to_type
-from auv_sim.terminal import console, go_on, wrote
-
-Tick = Callable[[str], None]
-
-
-def _simulation(scale: Scale, tick: Tick) -> dict[str, Any]:
-    return {"closed_loop": laws.closed_loop_figures(scale, tick), "batch": laws.batch_figures(scale, tick)}
-
-
-#: Section -> who measures it, and how many ticks of the progress bar it takes.
-SECTIONS: dict[str, tuple[Callable[[Scale, Tick], dict[str, Any]], Callable[[Scale], int]]] = {
-    "lockstep": (graph.lockstep_figures, lambda scale: 10 * scale.rounds),
-    "latency": (graph.latency_figures, lambda _: 3),
-    "simulation": (_simulation, lambda scale: 1 + len(laws.vehicles(scale))),
-    "start_up": (graph.start_up_figures, lambda scale: scale.rounds),
-    "subpaths": (laws.subpath_figures, lambda scale: len(scale.subpaths)),
-    "recording": (recording.topic_figures, lambda scale: len(scale.topics)),
-}
+#: What can be measured alone.
+SECTIONS = ("lockstep", "latency", "simulation", "start_up", "subpaths", "recording")
 
 
 def parser() -> argparse.ArgumentParser:
@@ -41,7 +17,7 @@ def parser() -> argparse.ArgumentParser:
     p = Parser(prog="benchmark.py", description=__doc__, allow_abbrev=False)
     p.add_argument("--quick", action="store_true", help="a minute: whether it works, not how fast it is")
     p.add_argument(
-        "--only", nargs="+", choices=tuple(SECTIONS), metavar="SECTION", help=f"some of {', '.join(SECTIONS)}"
+        "--only", nargs="+", choices=SECTIONS, metavar="SECTION", help=f"some of {', '.join(SECTIONS)}"
     )
     p.add_argument(
         "--against", type=Path, metavar="DIR", help="compare with another checkout of the suite, in turns"
@@ -58,49 +34,10 @@ def parser() -> argparse.ArgumentParser:
 @command("benchmark", interrupted="interrupted; nothing was written")
 def main(argv: Sequence[str] | None = None) -> int:
     """Measure; returns the exit code: 0 done, 1 something did not run, 2 bad input, 130 interrupted."""
-    return _measure(parser().parse_args(argv))
+    options = parser().parse_args(argv)
+    from auv_sim.benchmark.session import measure
 
-
-def _measure(options: argparse.Namespace) -> int:
-    if options.write_docs:
-        if options.only:
-            raise ConfigurationError(
-                "--write-docs", "together with --only", "all sections, the page needs them"
-            )
-        pages.check(options.page, page.PART)  # before minutes of measuring, not after
-        make_directory(options.images, "--images")
-    scale = QUICK if options.quick else FULL
-    chosen = options.only or ([] if options.against and not options.write_docs else list(SECTIONS))
-    theirs = against.interpreter_of(options.against) if options.against is not None else ""
-    out = console()
-    figures: dict[str, Any] = {"machine": machine.describe(), "load": machine.load(), "quick": options.quick}
-    total = sum(SECTIONS[name][1](scale) for name in chosen) + (against.ticks(scale) if theirs else 0)
-    columns = (BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), TextColumn("{task.description}"))
-    with Progress(*columns, console=out, transient=True) as bar:
-        task = bar.add_task("", total=total)
-        begun = 0
-
-        def tick(text: str) -> None:
-            nonlocal begun
-            bar.update(task, completed=begun, description=text)
-            begun += 1
-
-        for name in chosen:
-            figures[name] = SECTIONS[name][0](scale, tick)
-        if theirs:
-            figures["against"] = against.figures(scale, tick, theirs)
-    found = sheets.sheets(figures)
-    out.print(", ".join(f"{name} {value}" for name, value in figures["machine"].items()), soft_wrap=True)
-    sheets.show(found, out)
-    if options.json is not None:
-        write_text(options.json, json.dumps(figures, indent=2) + "\n")
-        wrote(out, options.json, "all figures")
-    if options.write_docs:
-        page.renew(options.page, options.images, figures, found)
-        wrote(out, options.page, f"renewed, with {options.images / page.PICTURE}")
-    else:
-        go_on(out, "Measure everything and renew the page", to_type("benchmark.py", write_docs=True))
-    return EXIT_DONE
+    return measure(options)
 
 
 if __name__ == "__main__":

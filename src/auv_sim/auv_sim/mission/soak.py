@@ -1,4 +1,4 @@
-"""`scripts/soak.py`: an hour of mission time in one go; does any process grow, is any message lost?"""
+"""What `scripts/soak.py` does: fly long, watch the memory of each process, count the messages."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from auv_msgs_py import topics
 from auv_msgs_py.conversions import nanoseconds
 from auv_msgs_py.result_files import write_text
 from auv_sim.analysis.metrics import summarise
-from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, Parser, command, make_directory, positive
+from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, make_directory
 from auv_sim.mission import launcher, memory, plan
 from auv_sim.mission.adopted import Loader
 from auv_sim.mission.domains import free_domain
@@ -99,32 +99,8 @@ def growth(rows: Sequence[tuple[float, dict[str, int]]]) -> list[Growth]:
     return found
 
 
-def parser() -> argparse.ArgumentParser:
-    """The command line."""
-    p = Parser(
-        prog="soak.py",
-        description="Fly a looped survey for an hour of mission time and watch.",
-        allow_abbrev=False,
-    )
-    p.add_argument("--minutes", type=positive, default=60.0, help="of mission time at least (default 60)")
-    p.add_argument(
-        "--flat",
-        type=positive,
-        default=20.0,
-        metavar="KB",
-        help="largest growth, kB per 1000 steps (default 20)",
-    )
-    p.add_argument("--out", type=Path, metavar="DIR", help="run directory (default: runs/soak-DATE)")
-    return p
-
-
-@command("soak")
-def main(argv: Sequence[str] | None = None) -> int:
-    """Returns 0 when nothing grew or was lost, 1 when something did, 2 for bad input, 130 interrupted."""
-    return _soak(parser().parse_args(argv))
-
-
-def _soak(arguments: argparse.Namespace) -> int:
+def soak(arguments: argparse.Namespace) -> int:
+    """Fly as the command line asks; returns the exit code."""
     directory = (arguments.out or Path("runs") / f"soak-{time.strftime('%Y%m%d-%H%M%S')}").absolute()
     make_directory(directory, new=True)
     mission = directory / "soak.yaml"
