@@ -37,6 +37,14 @@ def quaternion_of_yaw(yaw: float) -> tuple[float, float]:
     return math.sin(0.5 * yaw), math.cos(0.5 * yaw)
 
 
+@pure
+def heading_over_the_wire(psi: float) -> float:
+    """Return a heading after its way over the wire in an odometry: the same but for its last bits."""
+    yaw = math.pi / 2.0 - psi
+    z, w = math.sin(0.5 * yaw), math.cos(0.5 * yaw)
+    return math.pi / 2.0 - math.atan2(2.0 * (w * z), 1.0 - 2.0 * (z * z))
+
+
 class Convention(enum.Enum):
     """Which way the axes of a pair of frames point."""
 

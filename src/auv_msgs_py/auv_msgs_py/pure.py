@@ -45,6 +45,19 @@ def bounded(value: float, limit: float) -> float:
     return limit if value > limit else -limit if value < -limit else value
 
 
+def squared(x: float) -> float:
+    """Return x ** 2, in compiled code to the same last bit.
+
+    Python's power is not always x * x, which compilers make of it; at sea that grows to centimetres.
+    """
+    return x**2
+
+
+def modulus(z: complex) -> float:
+    """Return abs(z), in compiled code to the same last bit: it is not always that of `math.hypot`."""
+    return abs(z)
+
+
 def dispatched(steps: Mapping[type[Any], Step]) -> Step:
     """Return a step that calls the one of `steps` for the type of the configuration.
 

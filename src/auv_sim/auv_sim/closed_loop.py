@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from auv_msgs_py import topics
-from auv_msgs_py.frames import flip_yaw, quaternion_of_yaw, yaw_of_quaternion
+from auv_msgs_py.frames import heading_over_the_wire
 from auv_msgs_py.types import NO_CURRENT, Current
 from auv_path_following.control import autopilot
 from auv_path_following.control.autopilot import AutopilotConfig
@@ -76,16 +76,6 @@ def start_of(path: CompositePath) -> PlantState:
     return PlantState(x, y, chi, CRUISE, 0.0, 0.0)
 
 
-def _as_on_the_wire(psi: float) -> float:
-    """A heading that has travelled in an odometry: the same but for its last bits.
-
-    Without a sea they die out. A servo with a dead band and a controller in saturation make centimetres of
-    them within minutes, so in a sea this flight takes the same last bits as the graph's.
-    """
-    z, w = quaternion_of_yaw(flip_yaw(psi))
-    return float(flip_yaw(yaw_of_quaternion(0.0, 0.0, z, w)))
-
-
 def pilot_of(scenario: Scenario) -> Pilot:
     """Return the pilot of a scenario: no limits, no holds, and over the wire's last bits only at sea.
 
@@ -127,7 +117,7 @@ def fly(scenario: Scenario, progress: Callable[[float], None] | None = None) -> 
         stamp = topics.FIRST_STAMP_NS + k * step_ns
         navigation, water = vehicle.navigation, vehicle.water_velocity
         if c.sea is not None:
-            navigation = navigation._replace(psi=_as_on_the_wire(navigation.psi))
+            navigation = navigation._replace(psi=heading_over_the_wire(navigation.psi))
         measured = Measured(navigation, water, True, False, 0.0, k * dt)
         state, (estimate, g, _, command) = pilot(config, path, state, measured, dt if k else 0.0)
         current = vehicle.current

@@ -204,13 +204,46 @@ def test_what_cannot_be_flown_is_refused() -> None:
         engine.fly([dataclasses.replace(scenario(), vehicle=ghost)])
 
 
-def test_a_flight_at_sea_is_flown_all_the_same() -> None:
-    told = dataclasses.replace(scenario(time_limit=30.0), sea=sea.load("rough"), seed=5)
-    at_sea, ideal = engine.fly([told, dataclasses.replace(told, sea=None)]), scenario(time_limit=30.0)
+#: Seas, and what takes their every branch: two Runge-Kutta steps a step, gains that swing the rudder.
+SEAS = {
+    **{name: {"name": name} for name in config_files.shipped("seas")},
+    "rough, 12.5 Hz": {"name": "rough", "step": 0.08, "current": CURRENT},
+    "rough, paper": {"name": "rough", "params": "paper"},
+}
+
+
+def at_sea(name="rough", seed=5, **changes) -> Scenario:
+    return dataclasses.replace(scenario(**({"time_limit": 90.0} | changes)), sea=sea.load(name), seed=seed)
+
+
+@pytest.mark.parametrize("name", SEAS)
+def test_a_flight_at_sea_is_that_of_the_closed_loop(name: str) -> None:
+    told = at_sea(**SEAS[name])
     reference = closed_loop.fly(told)
-    assert at_sea.rms_distance[0] == judged(reference, told)["rms_distance"]
-    assert at_sea.rms_distance[1] == engine.fly([ideal]).rms_distance[0] != at_sea.rms_distance[0]
-    assert largest_difference(engine.track(told, every=3), reference.select(slice(None, None, 3))) == 0.0
+    assert largest_difference(engine.track(told), reference) == 0.0
+
+    flights, wanted = engine.fly([told]), judged(reference, told)
+    for figure, value in wanted.items():
+        found = getattr(flights, figure)[0]
+        assert found == pytest.approx(value, rel=1e-9, abs=1e-9, nan_ok=True), figure
+
+
+def test_a_flight_at_sea_does_not_depend_on_the_others() -> None:
+    told = [at_sea(seed=k, time_limit=20.0) for k in range(4)]
+    told.insert(2, dataclasses.replace(told[0], sea=None))
+    forwards, backwards = engine.fly(told), engine.fly(told[::-1], threads=2)
+    assert forwards.last_x.tolist() == backwards.last_x.tolist()[::-1]
+    assert len(set(forwards.last_x.tolist())) == 5
+
+
+def test_a_flight_that_lasts_longer_than_its_random_numbers_is_the_same(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    told = at_sea(time_limit=20.0)
+    whole, figures = engine.track(told, every=3), engine.fly([told])
+    monkeypatch.setattr(engine, "_likely_steps", lambda *_: 150)
+    assert largest_difference(engine.track(told, every=3), whole) == 0.0
+    assert repr(as_columns(engine.fly([told]))) == repr(as_columns(figures))
 
 
 def test_no_scenarios_no_flights() -> None:

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from auv_msgs_py.angles import wrap
 from auv_msgs_py.errors import ConfigurationError
-from auv_msgs_py.pure import bounded, pure
+from auv_msgs_py.pure import bounded, pure, squared
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.control.hull_model import LEAST_EFFECT, rudder_effect, tightest_turn
 from auv_path_following.vehicle import Vehicle
@@ -172,7 +172,7 @@ def shape(
         angle, turning = psi, r
     closing = closing_rate(config, wrap(psi_d - angle), largest)
     desired = bounded(r_d + closing, largest_rate)
-    pull = 4.0 * config.damping**2 * config.bandwidth * (desired - turning)
+    pull = 4.0 * squared(config.damping) * config.bandwidth * (desired - turning)
     held += bounded(bounded(pull, largest) - held, jerk * dt)
     angle = wrap(angle)
     return ReferenceState(True, angle, turning, held), Shaped(angle, turning, held)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from auv_msgs_py.pure import numbers, pure
+from auv_msgs_py.pure import numbers, pure, squared
 from auv_msgs_py.settings import setting, settings
 
 
@@ -40,6 +40,6 @@ def adaptive_lookahead(config: AdaptiveLookaheadConfig, ye: float, Ur: float) ->
     A short look-ahead presses harder towards the path, where the angles are small and the rudder can follow;
     from far away it would only ask for a steeper turn at the end of the approach.
     """
-    share = 1.0 + (config.near - 1.0) * math.exp(-((ye / config.width) ** 2))
+    share = 1.0 + (config.near - 1.0) * math.exp(-squared(ye / config.width))
     length = config.hull_length
     return min(max(config.time * Ur * share, config.smallest * length), config.largest * length)

@@ -4,8 +4,7 @@
     print(flights.completed.mean(), flights.rms_distance.max())
 
 A scenario may have its own path, vehicle, gains, current and start. The figures of a flight depend on its own
-scenario only, to the last bit: not on the others, their order or the number of threads. One at sea
-(`Scenario.sea`) is flown by `closed_loop` itself, with instruments and navigator, at its speed.
+scenario only, to the last bit: not on the others, their order or the number of threads.
 """
 
 from __future__ import annotations
@@ -18,6 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from auv_msgs_py import topics
+from auv_msgs_py.types import Current
 from auv_path_following import vehicle
 from auv_path_following.paths.composite import CompositePath
 from auv_path_following.paths.line import Line
@@ -32,9 +32,14 @@ from auv_sim.batch.flights import Flights, figures_of
 from auv_sim.batch.judge import judged
 from auv_sim.batch.scenarios import Preparation, flight_of
 from auv_sim.closed_loop import Scenario, start_of
+from auv_sim.plant.at_sea import at_sea_of
+from auv_sim.plant.draws import Draws
+from auv_sim.plant.remus import PlantState, plant_at
+from auv_sim.plant.sea import Sea
 
 _TRACK = ("x", "y", "psi", "r", "ur", "vr", "rudder", "rudder_cmd", "thrust_cmd", "psi_d", "r_d",
-          "xe", "ye", "psi_e", "s", "Vx_est", "Vy_est")  # fmt: skip
+          "xe", "ye", "psi_e", "s", "Vx_est", "Vy_est", "Vx_true", "Vy_true")  # fmt: skip
+_TRUTH = ("x_true", "y_true", "psi_true")
 #: Flights of one compiled call.
 _CHUNK = 64
 
@@ -84,17 +89,15 @@ class _Chunk(NamedTuple):
 
     places: Sequence[int]
     example: Flight | None
-    course: Course | None
+    course: Course
     configs: Any
     which: Any
 
     def fly(self, scenarios: Sequence[Scenario]) -> dict[str, Any]:
         """Return the figures by the names of `Flights`, one row for each flight."""
         flown = [scenarios[place] for place in self.places]
-        if self.example is None or self.course is None:
-            return {
-                name: np.array([value]) for name, value in judged(closed_loop.fly(flown[0]), flown[0]).items()
-            }
+        if self.example is None:
+            return _at_sea(flown[0], self.course)
         n, m = len(flown), self.course.path.n
         starts = np.array([scenario.initial or start_of(scenario.path) for scenario in flown], np.float64)
         currents = np.array([scenario.current for scenario in flown], np.float64)
@@ -122,12 +125,11 @@ def _chunks(scenarios: Sequence[Scenario], largest: int) -> list[_Chunk]:
     size = max(1, min(largest, _CHUNK))
     for members in groups.values():
         scenario = scenarios[members[0][0]]
-        example = course = None
-        if scenario.sea is None:
-            path = scenario.path
-            if id(path) not in courses:
-                courses[id(path)] = course_of(path)
-            course, example = courses[id(path)], preparation.flights[members[0][1]]
+        path = scenario.path
+        if id(path) not in courses:
+            courses[id(path)] = course_of(path)
+        course = courses[id(path)]
+        example = preparation.flights[members[0][1]] if scenario.sea is None else None
         different = sorted({row for _, row in members})
         configs = preparation.rows(different) if example is not None else None
         which = np.searchsorted(different, [row for _, row in members])
@@ -137,10 +139,15 @@ def _chunks(scenarios: Sequence[Scenario], largest: int) -> list[_Chunk]:
     return chunks
 
 
-def compile_once() -> None:
-    """Compile now what the first flight would: a pool's processes then find it done."""
+def compile_once(at_sea: bool = False) -> None:
+    """Compile now what the first flight would: a pool's processes then find it done.
+
+    Args:
+        at_sea: what flights at sea need; else what those without one need.
+    """
     line = CompositePath([Line(0.0, 0.0, 10.0, 0.0)])
-    fly([Scenario(path=line, vehicle=vehicle.load("remus100"), thrust=1.0, time_limit=0.1)])
+    water = Sea(name="still") if at_sea else None
+    fly([Scenario(path=line, vehicle=vehicle.load("remus100"), thrust=1.0, time_limit=0.1, sea=water)])
 
 
 def track(scenario: Scenario, every: int = 1) -> Run:
@@ -156,26 +163,57 @@ def track(scenario: Scenario, every: int = 1) -> Run:
     Raises:
         ConfigurationError: a scenario that cannot be flown.
     """
-    flight = flight_of(scenario)
-    if scenario.sea is not None:
+    if scenario.sea is not None and not COMPILED:
         return closed_loop.fly(scenario).select(slice(None, None, every))
-    course = course_of(scenario.path)
-    start = np.array(scenario.initial or start_of(scenario.path), np.float64)
-    whole, end = np.empty(tally.FLIGHT_TALLIES), np.empty(tally.ENDS)
-    subpaths = np.empty((course.path.n, tally.SUBPATH_TALLIES))
-    kept = np.empty((math.ceil(flight.steps / every), TRACK_COLUMNS))
-    with np.errstate(all="ignore"):  # a state that runs away is a result
-        fly_one(
-            flight, start, np.array(scenario.current, np.float64), course, scratch_of(course),
-            whole, subpaths, end, kept, every,
-        )  # fmt: skip
-    rows = kept[: math.ceil(end[tally.ODOMETRIES] / every)]
+    *_, rows = _flown(scenario, course_of(scenario.path), every)
     step_ns = round(scenario.step * 1e9)
     t = [(topics.FIRST_STAMP_NS + int(k) * step_ns) * 1e-9 for k in rows[:, 0]]
-    columns: dict[str, Any] = {"t": t} | {name: rows[:, j] for j, name in enumerate(_TRACK, 1)}
-    Vx, Vy = map(float, scenario.current)
-    true = {"Vx_true": np.full(len(t), Vx), "Vy_true": np.full(len(t), Vy)}
-    return Run.from_columns(columns | true)
+    names = _TRACK if scenario.sea is None else (*_TRACK, *_TRUTH)
+    return Run.from_columns({"t": t} | {name: rows[:, j] for j, name in enumerate(names, 1)})
+
+
+def _at_sea(scenario: Scenario, course: Course) -> dict[str, Any]:
+    """Return the figures of one flight at sea, one row of each."""
+    if not COMPILED:
+        return {
+            name: np.array([value]) for name, value in judged(closed_loop.fly(scenario), scenario).items()
+        }
+    whole, subpaths, end, _ = _flown(scenario, course, 0)
+    return figures_of(end[None], whole[None], subpaths[None], np.array([round(scenario.step * 1e9) * 1e-9]))
+
+
+def _flown(scenario: Scenario, course: Course, every: int) -> tuple[Any, Any, Any, Any]:
+    """Fly one scenario; return its tallies, those of its subpaths, its end, and every `every`-th row."""
+    flight = flight_of(scenario)
+    start = PlantState(*map(float, scenario.initial or start_of(scenario.path)))
+    constant = Current(*map(float, scenario.current))
+    whole, end = np.empty(tally.FLIGHT_TALLIES), np.empty(tally.ENDS)
+    subpaths = np.empty((course.path.n, tally.SUBPATH_TALLIES))
+    steps, scratch = _likely_steps(scenario, flight), scratch_of(course)
+    while True:
+        steps = min(steps, flight.steps)
+        kept = np.empty((math.ceil(steps / every) if every else 0, TRACK_COLUMNS))
+        vehicle: Any = flight.plant
+        state: Any = plant_at(start)
+        if scenario.sea is not None:
+            draws = Draws(flight.dt, steps, arrays=True)
+            vehicle, state = at_sea_of(scenario.vehicle, start, scenario.sea, scenario.seed, draws)
+        with np.errstate(all="ignore"):  # a state that runs away is a result
+            fly_one(
+                flight._replace(steps=steps), vehicle, state, constant, course, scratch,
+                whole, subpaths, end, kept, every,
+            )  # fmt: skip
+        if steps == flight.steps or end[tally.ODOMETRIES] < steps:
+            return whole, subpaths, end, kept[: math.ceil(end[tally.ODOMETRIES] / every)] if every else kept
+        steps *= 2  # from the beginning: the same seed is the same flight
+
+
+def _likely_steps(scenario: Scenario, flight: Flight) -> int:
+    """Return for how many odometries it pays to draw random numbers."""
+    if scenario.sea is None:
+        return flight.steps
+    seconds = 1.1 * scenario.path.length / scenario.vehicle.speed_at(scenario.thrust) + 60.0
+    return math.ceil(seconds / flight.dt)
 
 
 def course_of(path: CompositePath) -> Course:

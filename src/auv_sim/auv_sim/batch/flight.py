@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from auv_msgs_py.types import Current, WaterVelocity
+from auv_msgs_py.frames import heading_over_the_wire
+from auv_msgs_py.types import Command, Current, Navigation
 from auv_path_following import pilot as piloting
 from auv_path_following.guidance import guide
 from auv_path_following.guidance.approach import empty_approach
@@ -16,21 +17,22 @@ from auv_path_following.guidance.guide import Measured
 from auv_path_following.paths.rows import PathRows
 from auv_path_following.pilot import Pilot, PilotState, pilot
 from auv_sim.analysis.flown_share import Cells
-from auv_sim.batch import tally
+from auv_sim.batch import same_bits, tally  # noqa: F401 - before anything is compiled
 from auv_sim.batch.compiled import compiled, take_over_pure
 from auv_sim.batch.distance import Outlines, distance_to
 from auv_sim.batch.flown_cells import pass_cells
 from auv_sim.batch.rows import unpack
 from auv_sim.plant.actuator import ServoState
-from auv_sim.plant.remus import Afloat, PlantInputs, PlantState, navigation_of, plant_step
+from auv_sim.plant.remus import Afloat, PlantInputs, PlantState
+from auv_sim.plant.simulated import vehicle_measure, vehicle_step
 
 take_over_pure()
 
 Array = npt.NDArray[np.float64]
 Flags = npt.NDArray[np.bool_]
 
-#: Columns of a track, in the order of `closed_loop`'s, the stamp first and without the constant true current.
-TRACK_COLUMNS = 18
+#: Columns of a track, in the order of `closed_loop`'s; the first is the number of the odometry.
+TRACK_COLUMNS = 23
 
 
 class Flight(NamedTuple):
@@ -90,28 +92,30 @@ def fly_many(
     none = np.empty((0, TRACK_COLUMNS))
     for k in range(first, end):
         flight = unpack(example, configs[which[k]])
-        fly_one(flight, starts[k], currents[k], course, scratch, whole[k], subpaths[k], ends[k], none, 0)
+        row = starts[k]
+        start = Afloat(PlantState(row[0], row[1], row[2], row[3], row[4], row[5]), ServoState(0.0))
+        current = Current(currents[k, 0], currents[k, 1])
+        fly_one(
+            flight, flight.plant, start, current, course, scratch, whole[k], subpaths[k], ends[k], none, 0
+        )
 
 
 @compiled
 def fly_one(
-    c: Flight, start: Array, current_of: Array, course: Course, scratch: Scratch,
+    c: Flight, vehicle: Any, afloat: Any, constant: Current, course: Course, scratch: Scratch,
     whole: Array, subpaths: Array, end: Array, track: Array, every: int,
 ) -> None:  # fmt: skip
     """Fly until the end of the path, the last step, or a state that is not finite.
 
     Args:
         c, course: what is flown.
-        start: shape (6,), first state of the hull.
-        current_of: shape (2,), NED, m/s.
+        vehicle, afloat: configuration and first state of the vehicle, of `vehicle_step`.
+        constant: current, NED, m/s.
         scratch: written.
         whole, subpaths, end: tallies, shapes (FLIGHT_TALLIES,), (m, SUBPATH_TALLIES) and (ENDS,); written.
         track: shape (rows, TRACK_COLUMNS), every `every`-th odometry; written; `every` 0 for none.
     """
     path, outlines, cells = course
-    current = Current(current_of[0], current_of[1])
-    state = PlantState(start[0], start[1], start[2], start[3], start[4], start[5])
-    afloat = Afloat(state, ServoState(0.0))
     flown = scratch.flown
     flown[:] = False
     tally.begin(whole, subpaths)
@@ -120,13 +124,14 @@ def fly_one(
     commanded = 0.0
     i, clear, s, finite = -1, 0.0, 0.0, True
     odometries = c.steps
-    last = state
+    afloat, seen = vehicle_measure(vehicle, afloat, PlantInputs(Command(0.0, 0.0), constant, 1.0), 0.0)
     for k in range(c.steps):
         since = c.dt if k > 0 else 0.0
-        state, rudder = afloat.hull, afloat.servo.angle
-        last = state
-        water = WaterVelocity(state.ur, state.vr)
-        measured = Measured(navigation_of(state), water, True, False, 0.0, k * c.dt)
+        navigation, state, current = seen.navigation, seen.motion, seen.current
+        if c.pilot.by_wire:
+            x, y, psi, r = navigation
+            navigation = Navigation(x, y, heading_over_the_wire(psi), r)
+        measured = Measured(navigation, seen.water, True, False, 0.0, k * c.dt)
         flying, out = pilot(c.pilot, path, flying, measured, since)
         guided, estimate, (command, thrust) = out.guidance, out.current, out.command
         finished, s = guided.finished, guided.s
@@ -142,12 +147,14 @@ def fly_one(
             tally.count(whole, subpaths, i, s, k * c.dt, distance, guided.psi_e, off[0], off[1])
         if every > 0 and k % every == 0:
             row = track[k // every]
-            row[0], row[1], row[2], row[3] = k, state.x, state.y, state.psi
-            row[4], row[5], row[6], row[7] = state.r, state.ur, state.vr, rudder
+            row[0], row[1], row[2], row[3] = k, navigation.x, navigation.y, navigation.psi
+            row[4], row[5], row[6], row[7] = navigation.r, seen.water.ur, seen.water.vr, seen.rudder
             row[8], row[9] = command, thrust
             row[10], row[11] = guided.psi_d, guided.r_d
             row[12], row[13], row[14] = guided.xe, guided.ye, guided.psi_e
             row[15], row[16], row[17] = s, estimate.Vx, estimate.Vy
+            row[18], row[19] = current.Vx, current.Vy
+            row[20], row[21], row[22] = state.x, state.y, state.psi
         if finished or not finite:
             odometries = k + 1
             break
@@ -155,15 +162,18 @@ def fly_one(
             is_at_stop = abs(command) >= c.pilot.autopilot.max_angle - 1e-12
             tally.count_command(whole, (command - commanded) / c.dt, is_at_stop)
         commanded = command
-        afloat, after = plant_step(c.plant, afloat, PlantInputs(out.command, current, 1.0), c.dt)
+        rudder = seen.rudder
+        if k + 1 == c.steps:  # motion after the last odometry is not attributed to a subpath
+            break
+        afloat, seen = vehicle_step(vehicle, afloat, PlantInputs(out.command, constant, 1.0), c.dt)
+        after = seen.motion
         covered = math.sqrt((after.x - state.x) ** 2 + (after.y - state.y) ** 2)
         clear -= covered
-        if k + 1 < c.steps:  # motion after the last odometry is not attributed to a subpath
-            tally.count_step(subpaths, i, c.dt, abs(afloat.servo.angle - rudder), covered)
-            pass_cells(cells, flown, s, state.x, state.y, after.x, after.y)
+        tally.count_step(subpaths, i, c.dt, abs(seen.rudder - rudder), covered)
+        pass_cells(cells, flown, s, state.x, state.y, after.x, after.y)
     end[tally.ODOMETRIES], end[tally.S], end[tally.FINITE] = odometries, s, 1.0 if finite else 0.0
     end[tally.SHARE] = np.mean(flown)
-    end[tally.LAST_X], end[tally.LAST_Y] = last.x, last.y
+    end[tally.LAST_X], end[tally.LAST_Y] = seen.motion.x, seen.motion.y
 
 
 @compiled

@@ -20,6 +20,7 @@ _FLOWN_BY = (
     (auv_sim, "closed_loop.py"),
     (auv_sim, "*parameters.py"),
     (auv_sim, "analysis/flown_share.py"),
+    (auv_sim, "analysis/least_share.py"),
     (auv_sim, "analysis/metrics.py"),
     (auv_sim, "analysis/run.py"),
     (auv_sim, "batch/*.py"),

@@ -112,7 +112,7 @@ def _fly(store: Store, options: argparse.Namespace) -> int:
         + (f", {len(plan.points)} points of the grids" if plan.grids else "")
         + (f"\n  {escape(plan.study.description)}" if plan.study.description else "")
     )
-    size = options.chunk or (50 if COMPILED and not plan.study.sea else 2)
+    size = options.chunk or (50 if COMPILED else 2)
     with store.alone():
         chunks = store.missing(size)
         if chunks and not store.same_code:
@@ -137,7 +137,7 @@ def _fly_chunks(store: Store, chunks: list[range], options: argparse.Namespace, 
         )
     else:
         with console.status("compiling the laws (once for each version of them)"):
-            engine.compile_once()
+            engine.compile_once(bool(store.plan.study.sea))
     workers = options.workers or os.cpu_count() or 1
     if options.dask is None:
         results = runner.on_this_machine(store, chunks, workers)

@@ -11,9 +11,10 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from rich.table import Table
 
-from auv_sim import closed_loop
 from auv_sim.analysis.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, save, style
 from auv_sim.analysis.trials import Trial, judge
+from auv_sim.batch import engine
+from auv_sim.closed_loop import Scenario
 from auv_sim.mission import plan
 from auv_sim.mission.options import Options
 from auv_sim.plant.actuator import RudderFlaws
@@ -80,10 +81,10 @@ def fly(mission: str, vehicle: str, sea: str, run: Runner) -> Study:
 
 def _fly(job: Job) -> Trial:
     scenario = _scenario(job)
-    return judge(closed_loop.fly(scenario), scenario.path, job.gains.params, SEED)
+    return judge(engine.track(scenario), scenario.path, job.gains.params, SEED)
 
 
-def _scenario(job: Job) -> closed_loop.Scenario:
+def _scenario(job: Job) -> Scenario:
     options = Options(
         mission=job.mission, vehicle=job.vehicle, params=job.gains.params, sea=job.sea, seed=SEED
     )

@@ -12,15 +12,17 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from rich.console import Console
+from rich.progress import Progress
 from rich.table import Table
 
 from auv_msgs_py.result_files import write_text
 from auv_path_following import config_files
-from auv_sim import closed_loop, pages
+from auv_sim import pages
 from auv_sim.analysis.flown_share import percent
 from auv_sim.analysis.least_share import LEAST_SHARE_AT_SEA
 from auv_sim.analysis.metrics import without_nan
 from auv_sim.analysis.trials import Together, Trial, judge, together
+from auv_sim.batch import engine
 from auv_sim.command_line import (
     EXIT_DONE,
     EXIT_FAILED,
@@ -115,7 +117,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         picture = _pictures(options) / "rudder_activity.png"
         with progress_bar(console) as bar:
             study = noise_study.fly(
-                options.mission, options.vehicle, options.sea, partial(tracked, bar, options.workers)
+                options.mission, options.vehicle, options.sea, partial(_flown, bar, options.workers)
             )
         noise_study.draw(study, picture)
         _write(options.out / "rudder_activity.json", noise_study.record(study))
@@ -134,7 +136,17 @@ def fly(job: Job) -> Trial:
         ConfigurationError: a file that cannot be used.
     """
     scenario = _plan(job).scenario()
-    return judge(closed_loop.fly(scenario), scenario.path, job.params, job.seed)
+    return judge(engine.track(scenario), scenario.path, job.params, job.seed)
+
+
+def _flown(
+    bar: Progress, workers: int, what: str, work: Callable[[Any], Any], items: Sequence[Any]
+) -> list[Any]:
+    """`pool.tracked`, with the laws compiled before."""
+    task = bar.add_task("compiling the laws (once for each version of them)", total=None)
+    engine.compile_once(at_sea=True)
+    bar.remove_task(task)
+    return tracked(bar, workers, what, work, items)
 
 
 def _plan(job: Job) -> Plan:
@@ -151,7 +163,7 @@ def _trials(options: argparse.Namespace, console: Console) -> int:
     for job in jobs[: len(options.params)]:  # a mistake is told before the pool starts
         _plan(job)
     with progress_bar(console) as bar:
-        trials = tracked(bar, options.workers, "flying", fly, jobs)
+        trials = _flown(bar, options.workers, "flying", fly, jobs)
     rows = together(trials, options.limit, options.flown)
     record = {
         "mission": options.mission,

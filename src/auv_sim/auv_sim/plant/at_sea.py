@@ -90,7 +90,7 @@ def at_sea_of(
     """
     initial = PlantState(*map(float, initial))
     servo = flawed_servo_of(vehicle.rudder, sea.rudder, draws.step)
-    plant = plant_of(vehicle)._replace(servo=servo)
+    plant = plant_of(vehicle)._replace(servo=servo._replace(ring=draws.table(2 * servo.size)))
     water, north, east = water_of(sea.current, (seed, 0), draws)
     propeller, drift = noise_of(sea.thrust, (seed, 1), draws)
     sensors, sensors_state = sensors_of(sea.sensors, (seed, 2), draws)

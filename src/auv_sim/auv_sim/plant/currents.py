@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from auv_msgs_py.pure import pure
+from auv_msgs_py.pure import pure, squared
 from auv_msgs_py.settings import Pair, setting, settings
 from auv_msgs_py.types import Current
 from auv_sim.plant.draws import Draws, Memory, Seed
@@ -170,7 +170,7 @@ def flow(config: Water, north: float, east: float, x: float, y: float, time: flo
         Vx, Vy = Vx + speed * shear.course.cos, Vy + speed * shear.course.sin
     if jet.speed > 0.0:
         far = min(abs(_across(x, y, jet.x, jet.y, jet.course)) / jet.width, 300.0)
-        speed = jet.speed / math.cosh(far) ** 2
+        speed = jet.speed / squared(math.cosh(far))
         Vx, Vy = Vx + speed * jet.course.cos, Vy + speed * jet.course.sin
     if tide.major > 0.0 or tide.minor != 0.0:
         turn = 2.0 * math.pi * time / tide.period + tide.phase

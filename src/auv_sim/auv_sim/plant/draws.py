@@ -130,6 +130,10 @@ class Draws:
         self._rows.append((generator, kind, begin, size))
         return Row(len(self._rows) - 1, self._drawn)
 
+    def table(self, size: int) -> Any:
+        """Return a table of zeros of its own."""
+        return np.zeros(size) if self._arrays else [0.0] * size
+
     def memory(self) -> Memory:
         """Draw; return the memory of the run. To be called once, when everything is laid out."""
         drawn = np.empty(self._drawn)

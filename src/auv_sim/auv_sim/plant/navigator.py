@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from auv_msgs_py.pure import numbers, numbers_of, pure
+from auv_msgs_py.pure import modulus, numbers, numbers_of, pure, squared
 from auv_msgs_py.settings import setting, settings
 from auv_msgs_py.types import Navigation
 from auv_sim.plant.draws import Draws, Now, Ring, slot
@@ -143,7 +143,7 @@ def _carry_on(
     turn = complex(math.cos(psi), math.sin(psi))
     through = turn * complex(ur, vr)
     if on_water == lock:
-        P_ze, P_water = 0j, c.water_error**2
+        P_ze, P_water = 0j, squared(c.water_error)
     axes, velocity, error, variance, deviation = 1.0 + 0j, through, water, P_water, c.water_error
     if lock:
         axes, velocity, error, variance, deviation = (
@@ -160,7 +160,7 @@ def _carry_on(
     P_z += 2.0 * dt * (axes * P_ze.conjugate()).real + dt * dt * variance
     P_z += c.walk * c.walk * dt
     P_ze += axes * dt * variance
-    variance += 2.0 * deviation**2 * dt / c.error_time
+    variance += 2.0 * squared(deviation) * dt / c.error_time
     if lock:
         P_bottom = variance
     else:
@@ -193,14 +193,14 @@ def _weigh(config: Navigator, state: NavigatorState, fix: complex, age: float, n
     z, shown, P_z, P_ze, bottom, P_bottom, water, P_water, on_water, velocity, way, in_a_row, refused = state
     innovation = fix - (z - _way_since(config.track, way, age, now))
     S = P_z + c.fix * c.fix
-    if abs(innovation) ** 2 > c.gate * c.gate * S:
+    if squared(modulus(innovation)) > c.gate * c.gate * S:
         refused, in_a_row = refused + 1, in_a_row + 1
         if in_a_row >= c.patience:
             P_z *= 2.0
     else:
         in_a_row = 0
         correction, error = P_z / S * innovation, P_ze.conjugate() / S * innovation
-        known = abs(P_ze) ** 2 / S
+        known = squared(modulus(P_ze)) / S
         if on_water:
             water, P_water = water + error, P_water - known
         else:
