@@ -172,7 +172,7 @@ def test_a_new_place_found_without_velocity_through_water_is_rejoined_later(
     for k in range(8):
         bench.odometry(6.0 + 0.1 * k, Navigation(60.0, 5.0, 0.0, 0.0))
         bench.spin(0.02)
-    bench.until(lambda: node.state.rejoins)
+    bench.until(lambda: node.keeper.state.rejoins)
     s = step(bench, 7.0, 60.0, 5.0)
     assert s == pytest.approx(0.55, abs=0.06)
 
@@ -188,7 +188,7 @@ def test_a_gap_of_time_holds_and_rejoins_whichever_notices_it_first(
     s = step(bench, 20.0, 12.0, 1.0)
     bench.until(lambda: states(bench)[-2:] == ["holding", "running"])
     assert s == pytest.approx(0.12, abs=1e-4)
-    assert node.state.follower.progress.point.t == pytest.approx(s, abs=1e-9)
+    assert node.keeper.state.follower.progress.point.t == pytest.approx(s, abs=1e-9)
 
 
 def test_an_approach_is_a_phase_of_its_own(bench: Bench, tmp_path: Any) -> None:

@@ -27,7 +27,7 @@ def test_its_parameters_show_what_counts(
     node = bench.start(GuidanceNode, **wishes)
     names = ("guidance.switching.mode", "guidance.switching.radius")
     assert tuple(node.get_parameter(name).value for name in names) == expected
-    circles = node.config.follower.progress.circles
+    circles = node.keeper.config.follower.progress.circles
     assert (("off", "g0", "all")[circles.mode], circles.radius) == expected
 
 

@@ -1,0 +1,131 @@
+"""The mission in its node: started and aborted by services, held without navigation, begun anew with time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from rclpy.parameter import Parameter
+from std_srvs.srv import Trigger
+
+from auv_msgs_py import topics
+from auv_msgs_py.runtime import SuiteNode
+from auv_msgs_py.types import Current
+from auv_path_following.guidance import limits
+from auv_path_following.guidance import mission_state as states
+from auv_path_following.guidance.approach import Agility, empty_approach
+from auv_path_following.guidance.follow import GuidanceOutput
+from auv_path_following.guidance.guide import (
+    Guide,
+    Measured,
+    at_the_beginning,
+    first_state,
+    guide,
+    prepare,
+    reconfigured,
+    start,
+)
+from auv_path_following.guidance.mission_state import Mission, Reason, State
+from auv_path_following.nodes.guidance_output import MissionReport
+from auv_path_following.paths.mission_file import Mission as MissionFile
+
+
+class MissionKeeper:
+    """Configuration and state of guidance, and what changes them besides measurements.
+
+    Args:
+        node: ailos_guidance.
+        mission: what is flown.
+        agility: of the hull.
+        begins: called when a mission begins anew, with whether a start was requested.
+    """
+
+    def __init__(
+        self, node: SuiteNode, mission: MissionFile, agility: Agility, begins: Callable[[bool], None]
+    ) -> None:
+        self._node, self._mission, self._agility, self._begins = node, mission, agility, begins
+        self._rows = mission.path.rows
+        self.config = self._prepared()
+        self.state = first_state(self.config, empty_approach())
+        self._last_usable: float | None = None
+        self._clock_went_back = False
+        self.report = MissionReport(node)
+
+    def offer(self) -> None:
+        """Offer the services, and watch the time without navigation."""
+        self._node.create_service(Trigger, topics.START_SERVICE, self._on_start)
+        self._node.create_service(Trigger, topics.ABORT_SERVICE, self._on_abort)
+        if not self._node.parameters.lockstep:
+            self._node.every(0.1, self._watch)
+
+    def configure(self) -> None:
+        """Take the node's parameters; the place on the path is kept."""
+        self.config = self._prepared()
+        self.state = reconfigured(self.config, self.state)
+
+    def take_switching(self) -> None:
+        """Make the mission's switching the parameters', where it can be seen and changed."""
+        parameters = self._node.parameters
+        switching = parameters.with_wishes_of(self._mission).guidance.switching
+        if switching != parameters.guidance.switching:
+            mode = Parameter("guidance.switching.mode", value=switching.mode)
+            radius = Parameter("guidance.switching.radius", value=switching.radius)
+            self._node.set_parameters([mode, radius])
+
+    def step(self, measured: Measured, current: Current, dt: float) -> tuple[GuidanceOutput, float]:
+        """Take one measurement: `guide`; return the follower's result and the desired thrust, N."""
+        if measured.has_water:
+            self._last_usable = measured.now
+        self.state, output, thrust, has_resumed = guide(
+            self.config, self._rows, self.state, measured, current, dt
+        )
+        if has_resumed:
+            self.report.resumed(self.config.hold_after)
+        return output, thrust
+
+    def restart(self) -> None:
+        """The odometry's stamps went back. If the clock did not, only the vehicle's clock was set: go on."""
+        went_back = self._clock_went_back or self._node.now() < (self._last_usable or 0.0)
+        if self._node.parameters.lockstep or went_back:
+            self._begin(False)
+        self._clock_went_back = False
+
+    def _prepared(self) -> Guide:
+        p, mission = self._node.parameters, self._mission
+        bounds = limits.prepare(p.limits.stricter(mission.limits), mission.geofence)
+        hold_after = math.inf if p.lockstep else p.holding.hold_after
+        return prepare(p.guidance, self._agility, mission.thrust, hold_after, bounds)
+
+    def _on_start(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        before, self.state = self.state, start(self.config, self.state)
+        response.success = self.state is not before
+        if response.success:
+            self._begin(True)
+        self.report.tell(self.state.mission)
+        response.message = self.report.reason if response.success else f"already {self.report.word}"
+        return response
+
+    def _on_abort(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        self._become(states.aborted(self.state.mission, Reason(states.ABORT_CALLED)))
+        response.success, response.message = self.report.word is State.ABORTED, self.report.reason
+        return response
+
+    def _begin(self, by_request: bool) -> None:
+        """Go to the beginning of the path: after a start, or when time itself began again."""
+        self.state = at_the_beginning(self.config, self.state.mission, empty_approach())
+        self._last_usable, self._clock_went_back = None, False
+        self._begins(by_request)
+
+    def _watch(self) -> None:
+        """Hold a mission that gets no usable navigation, and end one that holds for too long."""
+        now, mission = self._node.now(), self.state.mission
+        if self._last_usable is None or now < self._last_usable:
+            self._clock_went_back = self._last_usable is not None
+            self._last_usable = now
+        if now - self._last_usable > self.config.hold_after:
+            mission = states.navigation_lost(mission, self.config.hold_after, now)
+        self._become(states.waited(mission, self._node.parameters.holding.abort_after, now))
+
+    def _become(self, mission: Mission) -> None:
+        self.state = self.state._replace(mission=mission)
+        self.report.tell(mission)
