@@ -112,28 +112,22 @@ def fly(scenario: Scenario, progress: Callable[[float], None] | None = None) -> 
     vehicle = SimulatedVehicle(c.vehicle, c.initial or start_of(c.path), c.sea, c.seed, c.current, dt)
     config, path = pilot_of(c), c.path.rows
     state = begun(config)
+    at_sea, seen = c.sea is not None, vehicle.seen
     rows: list[tuple[float, ...]] = []
     for k in range(int(c.time_limit / c.step) + 1):
         stamp = topics.FIRST_STAMP_NS + k * step_ns
-        navigation, water = vehicle.navigation, vehicle.water_velocity
-        if c.sea is not None:
+        navigation, water, _, _, _, motion, rudder, current = seen
+        if at_sea:
             navigation = navigation._replace(psi=heading_over_the_wire(navigation.psi))
         measured = Measured(navigation, water, True, False, 0.0, k * dt)
         state, (estimate, g, _, command) = pilot(config, path, state, measured, dt if k else 0.0)
-        current = vehicle.current
-        truth = vehicle.truth[0][:3] if c.sea is not None else ()
-        rows.append(
-            (
-                stamp * 1e-9, navigation.x, navigation.y, navigation.psi, navigation.r, water.ur, water.vr,
-                vehicle.rudder, command.rudder, command.thrust, g.psi_d, g.r_d,
-                g.xe, g.ye, g.psi_e, g.s, estimate.Vx, estimate.Vy, current.Vx, current.Vy,
-                *truth,
-            )
-        )  # fmt: skip
+        # g begins with psi_d, r_d, xe, ye, psi_e, s: see `GuidanceOutput`.
+        row = (stamp * 1e-9, *navigation, *water, rudder, *command, *g[:6], *estimate, *current)
+        rows.append((*row, *motion[:3]) if at_sea else row)
         if g.finished:
             break
         if progress is not None and k % 20 == 0:
             progress(g.s)
-        vehicle.advance(command, dt)
-    names = _COLUMNS if c.sea is None else (*_COLUMNS, *_TRUTH)
+        seen = vehicle.advance(command, dt)
+    names = (*_COLUMNS, *_TRUTH) if at_sea else _COLUMNS
     return Run.from_columns(dict(zip(names, zip(*rows, strict=True), strict=True)))

@@ -29,6 +29,7 @@ except ImportError:
 #: Where the functions are that end up in compiled code: (package, folder).
 _COMPILED_FROM = (
     (auv_msgs_py, "*.py"),
+    (auv_path_following, "*.py"),
     (auv_path_following, "control/*.py"),
     (auv_path_following, "guidance/*.py"),
     (auv_path_following, "paths/*.py"),

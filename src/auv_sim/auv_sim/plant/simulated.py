@@ -84,7 +84,7 @@ class SimulatedVehicle:
         self._left = _BLOCK
         self._config: Any
         self.state: Any
-        self._seen: Seen
+        self.seen: Seen
         if self._sea is None:
             self._config, self.state = plant_of(self._vehicle), plant_at(self._initial)
         else:
@@ -94,10 +94,13 @@ class SimulatedVehicle:
                 self._vehicle, self._initial, self._sea, self._seed, self._draws
             )
         inputs = PlantInputs(STOP, self.constant_current)
-        self.state, self._seen = vehicle_measure(self._config, self.state, inputs, 0.0)
+        self.state, self.seen = vehicle_measure(self._config, self.state, inputs, 0.0)
 
-    def advance(self, command: Command, dt: float) -> None:
+    def advance(self, command: Command, dt: float) -> Seen:
         """Let `dt` seconds pass under a held command, then measure.
+
+        Returns:
+            The measurements, which `seen` keeps.
 
         Raises:
             ValueError: at sea, not the step that random numbers and rings were laid out for.
@@ -112,14 +115,15 @@ class SimulatedVehicle:
                 self._left = _BLOCK
             self._left -= 1
         inputs = PlantInputs(command, self.constant_current)
-        self.state, self._seen = vehicle_step(self._config, self.state, inputs, dt)
+        self.state, self.seen = vehicle_step(self._config, self.state, inputs, dt)
+        return self.seen
 
     def place(self, motion: PlantState) -> None:
         """Move the hull; servo, instruments and navigator keep their state."""
         afloat = Afloat(motion, self._afloat.servo)
         self.state = afloat if self._sea is None else self.state._replace(afloat=afloat)
         if self._sea is None:
-            self.state, self._seen = vehicle_measure(
+            self.state, self.seen = vehicle_measure(
                 self._config, afloat, PlantInputs(STOP, self.constant_current), 0.0
             )
 
@@ -140,7 +144,7 @@ class SimulatedVehicle:
     @property
     def navigation(self) -> Navigation:
         """Navigation as the vehicle reports it."""
-        return self._seen.navigation
+        return self.seen.navigation
 
     @property
     def truth(self) -> tuple[Navigation, float, float]:
@@ -157,12 +161,12 @@ class SimulatedVehicle:
     @property
     def water_velocity(self) -> WaterVelocity:
         """Velocity through the water as its log reports it, m/s, FRD."""
-        return self._seen.water
+        return self.seen.water
 
     @property
     def water_lock(self) -> bool:
         """Whether that was measured; otherwise it is the last one that was."""
-        return self._seen.water_lock
+        return self.seen.water_lock
 
     @property
     def current(self) -> Current:
@@ -178,4 +182,4 @@ class SimulatedVehicle:
         """(u, v) over ground in the body frame, m/s, as measured; NaN without bottom lock."""
         if self._sea is None:
             return ground_velocity(self.motion, self.constant_current)
-        return self._seen.u, self._seen.v
+        return self.seen.u, self.seen.v
