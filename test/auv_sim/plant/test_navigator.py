@@ -116,7 +116,7 @@ def test_with_bottom_lock_dead_reckoning_is_exact() -> None:
 
 @pytest.mark.parametrize("lock", [True, False])
 def test_fixes_hold_what_dead_reckoning_loses(lock: bool) -> None:
-    """A compass 1 degree off with bottom lock; without, a current that nobody has told."""
+    """A compass 1 degree off with bottom lock; without, an unknown current."""
     generator = np.random.default_rng(1)
     world, navigator = World(), Navigator()
     navigator.update(world.measured(lock=lock), 0.0)
@@ -129,7 +129,7 @@ def test_fixes_hold_what_dead_reckoning_loses(lock: bool) -> None:
         errors.append(error(out, world))
     late = np.array(errors[4000:])
     assert np.sqrt(np.mean(late**2)) < (0.4 if lock else 0.8)
-    # The filter knows how good it is: both axes together, with a margin for the drift that it cannot see.
+    # The filter's own deviation is right: both axes together, with a margin for the drift that it cannot see.
     assert np.sqrt(np.mean(late**2)) < 2.0 * math.sqrt(2.0 * navigator.state.P_z)
 
 
@@ -169,7 +169,7 @@ def test_the_pose_never_jumps() -> None:
         last = now
 
 
-def test_a_navigator_that_is_wrong_comes_to_doubt_itself() -> None:
+def test_a_navigator_that_is_wrong_doubts_itself_after_refusals() -> None:
     world, navigator = World(), Navigator(x=60.0, y=-40.0)
     navigator.update(world.measured(), 0.0)
     for k in range(1, 2001):

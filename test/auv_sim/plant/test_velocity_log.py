@@ -26,11 +26,11 @@ def reported(config: VelocityConfig, truth: list[float], seed: tuple[int, int] =
 
 
 def test_it_has_a_scale_and_holds_its_value_between_measurements() -> None:
-    told = [u for u, _ in reported(VelocityConfig(scale=0.01, rate=5.0), [1.0 + 0.1 * k for k in range(40)])]
-    assert len(set(told)) == 10
+    held = [u for u, _ in reported(VelocityConfig(scale=0.01, rate=5.0), [1.0 + 0.1 * k for k in range(40)])]
+    assert len(set(held)) == 10
     scales = [reported(VelocityConfig(scale=0.01), [1.0], (5, k))[0][0] for k in range(4000)]
     assert np.std(scales) == pytest.approx(0.01, rel=0.05)
-    assert told[0] != 1.0
+    assert held[0] != 1.0
 
 
 def test_one_that_is_late_reports_what_was() -> None:
@@ -40,8 +40,8 @@ def test_one_that_is_late_reports_what_was() -> None:
 
 def test_a_silent_one_says_so_and_repeats_itself() -> None:
     gaps = VelocityConfig(dropouts=DropoutConfig(every=2.0, length=2.0))
-    told = reported(gaps, [float(k) for k in range(2000)])
-    held = [k for k in range(1, 2000) if told[k][0] == told[k - 1][0]]
-    assert held == [k for k in range(1, 2000) if not told[k][1]]
+    seen = reported(gaps, [float(k) for k in range(2000)])
+    held = [k for k in range(1, 2000) if seen[k][0] == seen[k - 1][0]]
+    assert held == [k for k in range(1, 2000) if not seen[k][1]]
     assert 0.3 < len(held) / 2000 < 0.7
     assert reported(VelocityConfig(lock=False), [1.0]) == [(1.0, False)]

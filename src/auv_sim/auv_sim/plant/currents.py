@@ -17,7 +17,7 @@ class Variation:
     """First-order Gauss-Markov deviation from the mean, north and east alike (Fossen)."""
 
     deviation: float = setting(0.0, "standard deviation of each component", unit="m/s", ge=0.0, le=2.0)
-    time: float = setting(120.0, "time in which it forgets itself", unit="s", gt=0.0)
+    time: float = setting(120.0, "time constant", unit="s", gt=0.0)
     limit: float = setting(1.0, "largest deviation of each component", unit="m/s", ge=0.0, le=5.0)
 
 

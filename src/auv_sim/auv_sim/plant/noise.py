@@ -20,7 +20,7 @@ class NoiseConfig:
     white: float = setting(0.0, "standard deviation of each measurement", ge=0.0)
     bias: float = setting(0.0, "standard deviation of a constant offset, drawn once for a run", ge=0.0)
     drift: float = setting(0.0, "standard deviation of a slowly varying offset", ge=0.0)
-    drift_time: float = setting(60.0, "time in which the drift forgets itself", unit="s", gt=0.0)
+    drift_time: float = setting(60.0, "time constant of the drift", unit="s", gt=0.0)
 
 
 @settings

@@ -21,7 +21,7 @@ class Sea:
     rudder: RudderFlaws = setting(factory=RudderFlaws, doc="what the servo does wrong")
     thrust: NoiseConfig = setting(factory=NoiseConfig, doc="errors of the thrust, as a share of it")
     sensors: SensorsConfig = setting(factory=SensorsConfig, doc="instruments")
-    navigator: NavigatorConfig = setting(factory=NavigatorConfig, doc="what it believes of them")
+    navigator: NavigatorConfig = setting(factory=NavigatorConfig, doc="what it assumes of them")
 
 
 def load(name_or_path: str) -> Sea:

@@ -21,7 +21,7 @@ class AngleConfig:
     """Compass (degrees) or gyro (degrees a second)."""
 
     noise_deg: NoiseConfig = setting(factory=NoiseConfig, doc="errors, deg or deg/s")
-    latency: float = setting(0.0, "age of what it tells", unit="s", ge=0.0, le=5.0)
+    latency: float = setting(0.0, "age of its measurements", unit="s", ge=0.0, le=5.0)
 
 
 @settings

@@ -48,7 +48,7 @@ def step(config: Plant, state: Afloat, inputs: PlantInputs, dt: float) -> tuple[
 
 
 #: The first measurement of a vehicle, and one step of it: (configuration, state, `PlantInputs` with the
-#: constant current, dt) -> (state, `Seen`). A sea costs only those who fly in one.
+#: constant current, dt) -> (state, `Seen`). A vehicle without a sea pays nothing for one.
 vehicle_measure = dispatched({Plant: measure, VehicleAtSea: measure_at_sea})
 vehicle_step = dispatched({Plant: step, VehicleAtSea: step_at_sea})
 

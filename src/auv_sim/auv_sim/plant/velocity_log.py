@@ -33,7 +33,7 @@ class VelocityConfig:
         0.0, "standard deviation of the scale's error, drawn once for a run", ge=0.0, le=0.2
     )
     rate: float = setting(0.0, "measurements a second; 0: at every step", unit="1/s", ge=0.0)
-    latency: float = setting(0.0, "age of what it tells", unit="s", ge=0.0, le=5.0)
+    latency: float = setting(0.0, "age of its measurements", unit="s", ge=0.0, le=5.0)
     dropouts: DropoutConfig = setting(factory=DropoutConfig, doc="gaps")
     lock: bool = setting(True, "whether there is anything within its reach: bottom or water")
 
