@@ -52,3 +52,5 @@ class Command(NamedTuple):
 
 STOP = Command(0.0, 0.0)
 NO_CURRENT = Current(0.0, 0.0)
+#: In the place of a velocity through the water that is not known.
+NO_WATER = WaterVelocity(0.0, 0.0)

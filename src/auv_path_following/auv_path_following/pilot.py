@@ -26,7 +26,7 @@ class Pilot(NamedTuple):
     Attributes:
         observer, guide, autopilot: of the three parts.
         longest_gap: after a longer gap between measurements the autopilot starts anew, s.
-        by_wire: whether headings have the last bits that they have after their way over the wire.
+        by_wire: whether psi_d has the last bits that it has after its way over the wire.
     """
 
     observer: Any

@@ -148,6 +148,19 @@ def test_time_that_is_held_counts_for_the_duration():
     assert flight.state.mission.reason.cause == m.DURATION
 
 
+def test_the_way_of_the_last_mission_does_not_arm_the_speed_along_the_path():
+    """Aborted in an approach and started anew beside the start: P has not advanced since."""
+    flight = Flight({"path_speed": 1.0, "path_speed_window": 10.0})
+    flight.state = start(flight.config, flight.state)
+    flight.step(-500.0)
+    flight.state = flight.state._replace(mission=m.aborted(flight.state.mission, m.Reason(m.ABORT_CALLED)))
+    flight.state = start(flight.config, flight.state)
+    flight.step(-500.0)  # as of the last mission's last step, the way to go was 600 m
+    for _ in range(300):
+        flight.step(0.0)
+    assert flight.mission == m.RUNNING
+
+
 def test_a_vehicle_away_from_the_start_is_led_there_first():
     flight = Flight()
     flight.state = start(flight.config, flight.state)

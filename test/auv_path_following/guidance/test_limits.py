@@ -56,8 +56,21 @@ def first_broken(limits, track, off_path=lambda _: 0.0, to_go=lambda _: 0.0):
     return None
 
 
+def test_a_limit_that_is_set_in_flight_counts_from_the_start():
+    limits = Limits()
+    for _ in range(100):
+        assert limits.broken(at(0.0, 0.0), 0.0, 0.0, 0.0, 1.0) == ""
+    limits.config = prepare(LimitsConfig(duration=101.5))
+    assert limits.broken(at(0.0, 0.0), 0.0, 0.0, 0.0, 1.0) == ""
+    assert limits.broken(at(0.0, 0.0), 0.0, 0.0, 0.0, 1.0).startswith("limit duration: 102.0 s")
+
+
+def test_a_flight_that_never_has_limits_is_never_ended():
+    state, reason = limits_step(NoLimits(), LimitsState(), (at(0.0, 0.0), 0.0, 1e9, 0.0, False, False), 1e9)
+    assert (state, reason) == (LimitsState(), NO_REASON)
+
+
 def test_without_limits_nothing_ends():
-    assert prepare(LimitsConfig()) == NoLimits()
     assert first_broken(Limits(), lambda t: (1e6 * t, 0.0), lambda t: 1e6) is None
 
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from auv_msgs_py.pure import pure
 from auv_msgs_py.settings import setting, settings
-from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
+from auv_msgs_py.types import NO_CURRENT, NO_WATER, Current, Navigation, WaterVelocity
 
 
 @settings
@@ -151,11 +151,8 @@ class CurrentObserver:
     def update(self, navigation: Navigation, water: WaterVelocity | None, dt: float) -> ObserverState:
         """Take in one measurement: `observe`; a `water` of None is not known now."""
         has_water = water is not None
-        self.state = observe(self.config, self.state, navigation, water or _UNKNOWN, has_water, dt)
+        self.state = observe(self.config, self.state, navigation, water or NO_WATER, has_water, dt)
         return self.state
-
-
-_UNKNOWN = WaterVelocity(0.0, 0.0)
 
 
 def prepare(config: CurrentObserverConfig, dt: float = 0.0) -> Observer:

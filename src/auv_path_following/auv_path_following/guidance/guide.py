@@ -188,8 +188,8 @@ def guide(
     else:
         follower, output = look(path, follower, navigation)
     if is_followed or is_under_way(mission):
-        has_rejoined = is_followed and rejoins
-        seen = navigation, output.xe, output.ye, to_go, not is_followed, has_rejoined
+        rests = is_followed and (rejoins or begins)
+        seen = navigation, output.xe, output.ye, to_go, not is_followed, rests
         limits, reason = limits_step(config.limits, limits, seen, dt)
         if reason.cause != NO_REASON.cause and is_under_way(mission):
             mission = aborted(mission, reason)

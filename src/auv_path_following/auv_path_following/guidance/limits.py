@@ -116,7 +116,7 @@ class Limits(NamedTuple):
 
 
 class NoLimits(NamedTuple):
-    """Configuration of a flight without limits."""
+    """Configuration of a flight that never has limits: not even its time is counted."""
 
 
 class LimitsState(NamedTuple):
@@ -147,16 +147,13 @@ BEGINNING = LimitsState()
 LimitsInputs = tuple[Navigation, float, float, float, bool, bool]
 
 
-def prepare(config: LimitsConfig, geofence: Sequence[Point] = ()) -> Limits | NoLimits:
+def prepare(config: LimitsConfig, geofence: Sequence[Point] = ()) -> Limits:
     """Return the configuration of the limits.
 
     Args:
         config: the limits.
         geofence: corners (north, east), m; empty for no geofence.
     """
-    c = config
-    if not (c.path_distance or c.duration or c.ground_speed or c.path_speed or geofence):
-        return NoLimits()
     return Limits(numbers_of(config), tuple((float(x), float(y)) for x, y in geofence))
 
 

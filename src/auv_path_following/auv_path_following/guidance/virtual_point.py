@@ -121,7 +121,7 @@ def advanced(path: PathRows, i: int, way: float) -> Place:
     """Return the place `way` metres from the start of subpath `i`."""
     while True:
         row = path.subpath[i]
-        t = way / row[SPEED]
+        t = way / row[SPEED] if way > 0.0 else 0.0
         if t < 1.0:
             return i, t, False, 0.0
         way = max(way - row[LENGTH], 0.0)

@@ -7,7 +7,7 @@ from typing import Any
 
 from auv_msgs_py import topics
 from auv_msgs_py.runtime import SuiteNode, run_nodes
-from auv_msgs_py.types import WaterVelocity
+from auv_msgs_py.types import NO_WATER
 from auv_path_following import vehicle
 from auv_path_following.guidance.approach import ApproachWatch, agility_of
 from auv_path_following.guidance.guide import Measured
@@ -18,8 +18,6 @@ from auv_path_following.nodes.mission_keeper import MissionKeeper
 from auv_path_following.nodes.navigation_input import Inputs, NavigationInput
 from auv_path_following.parameters import GuidanceParameters
 from auv_path_following.paths import mission_file
-
-_UNKNOWN = WaterVelocity(0.0, 0.0)
 
 
 class GuidanceNode(SuiteNode):
@@ -66,13 +64,14 @@ class GuidanceNode(SuiteNode):
         p, has_water = self.parameters, inputs.water is not None
         late = not has_water and inputs.water_age > p.water_velocity_timeout
         self.health.warn("water", f"no fresh {topics.WATER_VELOCITY.name}" if late else "")
-        water = inputs.water or _UNKNOWN
+        water = inputs.water or NO_WATER
         measured = Measured(inputs.navigation, water, has_water, inputs.moved, self._to_go, self.now())
+        dt = 0.0 if self.keeper.state.begins else inputs.dt
         output, thrust = self.keeper.step(measured, inputs.current, inputs.dt)
         late = thrust > 0.0 and inputs.current_age > p.current_timeout
         self.health.warn("current", f"no fresh {topics.CURRENT_ESTIMATE.name}" if late else "")
-        if thrust > 0.0:
-            if news := self._approach.update(output.approach, inputs.dt):
+        if thrust > 0.0 and has_water:
+            if news := self._approach.update(output.approach, dt):
                 self.get_logger().info(news)
             self.health.warn("approach", self._approach.complaint(p.guidance.approach.overdue))
         self._to_go = distance_to_go(self.mission.path, self.keeper.state.follower)

@@ -16,6 +16,8 @@ Array = npt.NDArray[np.float64]
 TOLERANCE = 1e-12
 #: Degree to which the second derivative is fitted; the curve itself has two more.
 DEGREE = TERMS - 3
+#: Where the segment's own rounding is larger, halving does not help: then a piece is within this share.
+ROUNDING = 1e-6
 _NARROWEST = 2.0**-20
 _NODES = chebyshev.chebpts1(DEGREE + 1)
 _CHECKS = np.linspace(-1.0, 1.0, 41)
@@ -43,28 +45,33 @@ def fitted_row(segment: Segment) -> list[float]:
     """Return a segment as FITTED and its pieces.
 
     The second derivative is fitted and integrated twice: this keeps two digits more than a fit of the curve
-    that is differentiated. Pieces are halved until all six signals are within `TOLERANCE` of the segment's.
+    that is differentiated. Pieces are halved until all six signals are within `TOLERANCE` of the segment's,
+    or within `ROUNDING` where halving no longer helps: terms of a high polynomial cancel, and the rest of
+    their digits is noise.
 
     Raises:
-        ConfigurationError: the segment has a kink inside, so that no polynomial follows it.
+        ConfigurationError: the segment has a kink inside, or noise beyond `ROUNDING`.
     """
     scale = np.abs(_sampled(segment, 0.5, 0.5)).max(axis=1)
     # A derivative that is zero throughout comes with rounding of the size of the others.
     allowed = TOLERANCE * np.maximum(scale, 1e-3 * scale.max())[:, None]
     row = [FITTED]
-    stack = [(0.0, 1.0)]
+    stack = [(0.0, 1.0, np.inf)]
     while stack:
-        a, b = stack.pop()
+        a, b, before = stack.pop()
         middle, half = 0.5 * (a + b), 0.5 * (b - a)
         samples = _sampled(segment, middle, half)
         powers = _fit(samples, half)
         signals = (powers @ _AT_CHECKS / half ** np.arange(3.0)[:, None, None]).reshape(6, -1)
-        if np.all(np.abs(signals - samples[:, DEGREE + 2 :]) <= allowed):
+        error = float(np.max(np.abs(signals - samples[:, DEGREE + 2 :]) / allowed))
+        is_noise = 0.25 * before < error <= ROUNDING / TOLERANCE
+        if error <= 1.0 or is_noise:
             row += [a, 1.0 / half, *powers[:, ::-1].ravel().tolist()]
         elif b - a < _NARROWEST:
-            raise ConfigurationError(segment.kind, f"a kink at t = {a:.6g}", "a curve that is smooth inside")
+            found = f"a kink, or terms that cancel, at t = {a:.6g}"
+            raise ConfigurationError(segment.kind, found, "a curve that is smooth inside")
         else:
-            stack += [(middle, b), (a, middle)]
+            stack += [(middle, b, error), (a, middle, error)]
     return row
 
 

@@ -24,7 +24,8 @@ class Polynomial:
         north, east: coefficients of 1, t, t^2, ... in each axis, m.
 
     Raises:
-        ConfigurationError: the curve stands still somewhere on [0, 1], so that its course is not defined.
+        ConfigurationError: the curve stands still somewhere on [0, 1], so that its course is not defined; or
+            its terms cancel so far that little is left of their digits.
     """
 
     kind: Final = "polynomial"
@@ -39,6 +40,8 @@ class Polynomial:
             raise ConfigurationError(
                 "polynomial", f"a curve that stands still at t = {t:.4g}", "one that always goes on"
             )
+        # Made here, so that a curve that cannot be followed is refused before a mission and not in it.
+        self._row: Final = fitted_row(self)
 
     def evaluate(self, t: Any) -> PathPoint:
         """The point at t (float or array) in [0, 1]."""
@@ -52,7 +55,7 @@ class Polynomial:
 
     def row(self) -> list[float]:
         """FITTED and its pieces."""
-        return fitted_row(self)
+        return list(self._row)
 
 
 def slowest(north: Any, east: Any) -> float:

@@ -50,7 +50,9 @@ class Subpaths(dict[int, Row]):
 
     def __missing__(self, i: int) -> Row:
         with _LOCK:
-            row = self[i] = self._row(i)
+            row = self.get(i)
+            if row is None:
+                row = self[i] = self._row(i)
         return row
 
     def _row(self, i: int) -> Row:

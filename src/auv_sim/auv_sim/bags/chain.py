@@ -20,7 +20,7 @@ from auv_msgs_py.conversions import nanoseconds, navigation_from, water_velocity
 from auv_msgs_py.errors import ConfigurationError, MessageRefused
 from auv_msgs_py.frames import FrameTable, flip_yaw
 from auv_msgs_py.stamps import StampGuard, Verdict
-from auv_msgs_py.types import WaterVelocity
+from auv_msgs_py.types import NO_WATER, WaterVelocity
 from auv_path_following.control import autopilot
 from auv_path_following.guidance import current_observer, guide
 from auv_path_following.guidance import mission_state as states
@@ -151,7 +151,7 @@ class _Chain:
         if verdict is Verdict.RESTART:
             self._state = first_state(self._config, empty_approach())
         self._guide(self._state.guide._replace(mission=_in_phase(mission, phase)))
-        measured = Measured(navigation, water or _UNKNOWN, water is not None, False, 0.0, step.stamp * 1e-9)
+        measured = Measured(navigation, water or NO_WATER, water is not None, False, 0.0, step.stamp * 1e-9)
         self._state, out = pilot(self._config, self._rows, self._state, measured, dt)
         (rudder, thrust), guided = out.command, out.guidance
         yaw = flip_yaw(guided.psi_d)
@@ -164,9 +164,6 @@ class _Chain:
         if message is None:
             return None
         return water_velocity_from(message, self._frames, topics.WATER_VELOCITY.name)
-
-
-_UNKNOWN = WaterVelocity(0.0, 0.0)
 
 
 def _in_phase(mission: states.Mission, phase: _Phase) -> states.Mission:
