@@ -82,13 +82,13 @@ class _Chunk(NamedTuple):
 
     Attributes:
         places: among the scenarios.
-        example: a flight of their layout; None: at sea.
+        example: a flight of their layout; at sea, the flight.
         course: the path.
-        configs, which: rows of numbers, and the row of each flight.
+        configs, which: rows of numbers, and the row of each flight; not used at sea.
     """
 
     places: Sequence[int]
-    example: Flight | None
+    example: Flight
     course: Course
     configs: Any
     which: Any
@@ -96,8 +96,8 @@ class _Chunk(NamedTuple):
     def fly(self, scenarios: Sequence[Scenario]) -> dict[str, Any]:
         """Return the figures by the names of `Flights`, one row for each flight."""
         flown = [scenarios[place] for place in self.places]
-        if self.example is None:
-            return _at_sea(flown[0], self.course)
+        if flown[0].sea is not None:
+            return _at_sea(flown[0], self.course, self.example)
         n, m = len(flown), self.course.path.n
         starts = np.array([scenario.initial or start_of(scenario.path) for scenario in flown], np.float64)
         currents = np.array([scenario.current for scenario in flown], np.float64)
@@ -129,9 +129,9 @@ def _chunks(scenarios: Sequence[Scenario], largest: int) -> list[_Chunk]:
         if id(path) not in courses:
             courses[id(path)] = course_of(path)
         course = courses[id(path)]
-        example = preparation.flights[members[0][1]] if scenario.sea is None else None
+        example = preparation.flights[members[0][1]]
         different = sorted({row for _, row in members})
-        configs = preparation.rows(different) if example is not None else None
+        configs = preparation.rows(different) if scenario.sea is None else None
         which = np.searchsorted(different, [row for _, row in members])
         for first in range(0, len(members), size):
             places = [place for place, _ in members[first : first + size]]
@@ -165,26 +165,25 @@ def track(scenario: Scenario, every: int = 1) -> Run:
     """
     if scenario.sea is not None and not COMPILED:
         return closed_loop.fly(scenario).select(slice(None, None, every))
-    *_, rows = _flown(scenario, course_of(scenario.path), every)
+    *_, rows = _flown(scenario, course_of(scenario.path), flight_of(scenario), every)
     step_ns = round(scenario.step * 1e9)
     t = [(topics.FIRST_STAMP_NS + int(k) * step_ns) * 1e-9 for k in rows[:, 0]]
     names = _TRACK if scenario.sea is None else (*_TRACK, *_TRUTH)
     return Run.from_columns({"t": t} | {name: rows[:, j] for j, name in enumerate(names, 1)})
 
 
-def _at_sea(scenario: Scenario, course: Course) -> dict[str, Any]:
+def _at_sea(scenario: Scenario, course: Course, flight: Flight) -> dict[str, Any]:
     """Return the figures of one flight at sea, one row of each."""
     if not COMPILED:
         return {
             name: np.array([value]) for name, value in judged(closed_loop.fly(scenario), scenario).items()
         }
-    whole, subpaths, end, _ = _flown(scenario, course, 0)
+    whole, subpaths, end, _ = _flown(scenario, course, flight, 0)
     return figures_of(end[None], whole[None], subpaths[None], np.array([round(scenario.step * 1e9) * 1e-9]))
 
 
-def _flown(scenario: Scenario, course: Course, every: int) -> tuple[Any, Any, Any, Any]:
+def _flown(scenario: Scenario, course: Course, flight: Flight, every: int) -> tuple[Any, Any, Any, Any]:
     """Fly one scenario; return its tallies, those of its subpaths, its end, and every `every`-th row."""
-    flight = flight_of(scenario)
     start = PlantState(*map(float, scenario.initial or start_of(scenario.path)))
     constant = Current(*map(float, scenario.current))
     whole, end = np.empty(tally.FLIGHT_TALLIES), np.empty(tally.ENDS)

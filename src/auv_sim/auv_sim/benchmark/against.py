@@ -75,7 +75,7 @@ def _contenders(theirs: str, scale: Scale) -> Iterator[dict[str, Contender]]:
         "our closed_loop": (ours, "closed_loop", "-", 1, whole, 1),
         "our batch": (ours, "batch", "-", most, flight, threads),
         "their closed_loop at sea": (theirs, "closed_loop", _SEA, 1, whole, 1),
-        "our batch at sea": (ours, "batch", _SEA, max(most // 100, 2), flight, 1),
+        "our batch at sea": (ours, "batch", _SEA, max(most // 1000, 2), whole, 1),
     }
     with ExitStack() as stack:
         found = {}
