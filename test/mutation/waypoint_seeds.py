@@ -124,5 +124,7 @@ def files(suffix: str) -> list[bytes]:
         return [text.encode() for text in TEXTS[suffix]]
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("doc.kml", TEXTS["kml"][0])
+        # A fixed date: the same bytes at any time, and so the same spoiled files.
+        archive.writestr(zipfile.ZipInfo("doc.kml"), TEXTS["kml"][0], zipfile.ZIP_DEFLATED)
+        archive.writestr(zipfile.ZipInfo("images/pin.png"), bytes(range(256)))
     return [packed.getvalue()]
