@@ -32,6 +32,7 @@ def yaw_of_quaternion(x: Any, y: Any, z: Any, w: Any) -> Any:
     return functions_of(w).atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 
+@pure
 def quaternion_of_yaw(yaw: float) -> tuple[float, float]:
     """(z, w) of the unit quaternion that turns about z by `yaw`; x and y are 0."""
     return math.sin(0.5 * yaw), math.cos(0.5 * yaw)
@@ -40,9 +41,10 @@ def quaternion_of_yaw(yaw: float) -> tuple[float, float]:
 @pure
 def heading_over_the_wire(psi: float) -> float:
     """Return a heading after its way over the wire in an odometry: the same but for its last bits."""
-    yaw = math.pi / 2.0 - psi
-    z, w = math.sin(0.5 * yaw), math.cos(0.5 * yaw)
-    return math.pi / 2.0 - math.atan2(2.0 * (w * z), 1.0 - 2.0 * (z * z))
+    z, w = quaternion_of_yaw(flip_yaw(psi))
+    # As `yaw_of_quaternion`, which serves arrays too and therefore does not compile.
+    yaw: float = flip_yaw(math.atan2(2.0 * (w * z), 1.0 - 2.0 * (z * z)))
+    return yaw
 
 
 class Convention(enum.Enum):

@@ -63,6 +63,13 @@ def first_state(config: Pilot, approach: Any) -> PilotState:
 
 
 @pure
+def begun(config: Pilot, approach: Any) -> PilotState:
+    """Return the state of a pilot whose mission has just been started; `approach` as in `first_state`."""
+    observer, guiding, steering = first_state(config, approach)
+    return PilotState(observer, guidance.start(config.guide, guiding), steering)
+
+
+@pure
 def pilot(
     config: Pilot, path: PathRows, state: PilotState, measured: Measured, dt: float
 ) -> tuple[PilotState, PilotOutput]:

@@ -21,7 +21,7 @@ from auv_path_following.guidance.current_observer import CurrentObserverConfig
 from auv_path_following.guidance.guide import Measured
 from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.paths.composite import CompositePath
-from auv_path_following.pilot import Pilot, PilotState, first_state, pilot
+from auv_path_following.pilot import Pilot, begun, pilot
 from auv_path_following.vehicle import Vehicle
 from auv_sim.analysis.run import Run
 from auv_sim.parameters import CRUISE
@@ -62,6 +62,16 @@ class Scenario:
     controller_vehicle: Vehicle | None = None
     time_limit: float = 3600.0
 
+    @property
+    def step_ns(self) -> int:
+        """Step in whole ns, as stamps have it."""
+        return round(self.step * 1e9)
+
+    @property
+    def dt(self) -> float:
+        """Step as the difference of two stamps, s."""
+        return self.step_ns * 1e-9
+
 
 _COLUMNS = (
     "t", "x", "y", "psi", "r", "ur", "vr", "rudder", "rudder_cmd", "thrust_cmd", "psi_d", "r_d",
@@ -86,14 +96,8 @@ def pilot_of(scenario: Scenario) -> Pilot:
     hull = c.controller_vehicle or c.vehicle
     guidance = guide.prepare(c.guidance, agility_of(hull, c.thrust), c.thrust)
     steering = autopilot.prepare(c.autopilot, hull)
-    observer = current_observer.prepare(c.observer, round(c.step * 1e9) * 1e-9)
+    observer = current_observer.prepare(c.observer, c.dt)
     return Pilot(observer, guidance, steering, math.inf, c.sea is not None)
-
-
-def begun(config: Pilot) -> PilotState:
-    """Return the state of a pilot whose mission has just been started."""
-    state = first_state(config, empty_approach())
-    return state._replace(guide=guide.start(config.guide, state.guide))
 
 
 def fly(scenario: Scenario, progress: Callable[[float], None] | None = None) -> Run:
@@ -107,11 +111,10 @@ def fly(scenario: Scenario, progress: Callable[[float], None] | None = None) -> 
         One row per step. A mission that was completed ends with the row at which it was.
     """
     c = scenario
-    step_ns = round(c.step * 1e9)
-    dt = step_ns * 1e-9
+    step_ns, dt = c.step_ns, c.dt
     vehicle = SimulatedVehicle(c.vehicle, c.initial or start_of(c.path), c.sea, c.seed, c.current, dt)
     config, path = pilot_of(c), c.path.rows
-    state = begun(config)
+    state = begun(config, empty_approach())
     at_sea, seen = c.sea is not None, vehicle.seen
     rows: list[tuple[float, ...]] = []
     for k in range(int(c.time_limit / c.step) + 1):

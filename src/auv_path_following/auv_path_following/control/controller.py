@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from auv_msgs_py.pure import bounded, pure
+from auv_path_following.vehicle import Vehicle
 
 
 class HeadingInputs(NamedTuple):
@@ -35,6 +36,11 @@ class RudderLimits(NamedTuple):
 
     max_angle: float
     max_rate: float
+
+
+def rudder_limits_of(vehicle: Vehicle) -> RudderLimits:
+    """Return the limits of a vehicle's rudder."""
+    return RudderLimits(vehicle.rudder.max_angle, vehicle.rudder.max_rate)
 
 
 @pure

@@ -7,7 +7,13 @@ from typing import NamedTuple
 
 from auv_msgs_py.pure import bounded, numbers, numbers_of, pure
 from auv_msgs_py.settings import setting, settings
-from auv_path_following.control.controller import ControllerOutput, HeadingInputs, RudderLimits, limited
+from auv_path_following.control.controller import (
+    ControllerOutput,
+    HeadingInputs,
+    RudderLimits,
+    limited,
+    rudder_limits_of,
+)
 from auv_path_following.registry import Law
 from auv_path_following.vehicle import Vehicle
 
@@ -64,8 +70,7 @@ def pid(config: Pid, state: PidState, inputs: HeadingInputs, dt: float) -> tuple
 
 def prepare(gains: PidConfig, vehicle: Vehicle) -> Pid:
     """Return the law's configuration."""
-    rudder = vehicle.rudder
-    return Pid(numbers_of(gains), RudderLimits(rudder.max_angle, rudder.max_rate))
+    return Pid(numbers_of(gains), rudder_limits_of(vehicle))
 
 
 LAW = Law("pid", "PID", PidConfig, Pid, PidState(), pid, prepare)

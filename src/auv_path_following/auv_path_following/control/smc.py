@@ -7,7 +7,13 @@ from typing import NamedTuple
 
 from auv_msgs_py.pure import bounded, numbers, numbers_of, pure
 from auv_msgs_py.settings import setting, settings
-from auv_path_following.control.controller import ControllerOutput, HeadingInputs, RudderLimits, limited
+from auv_path_following.control.controller import (
+    ControllerOutput,
+    HeadingInputs,
+    RudderLimits,
+    limited,
+    rudder_limits_of,
+)
 from auv_path_following.control.hull_model import (
     HullModel,
     SwayYaw,
@@ -94,8 +100,9 @@ def prepare(gains: SmcConfig, vehicle: Vehicle) -> Smc:
     Raises:
         ConfigurationError: the vehicle file has no hull.
     """
-    rudder = RudderLimits(vehicle.rudder.max_angle, vehicle.rudder.max_rate)
-    return Smc(numbers_of(gains), rudder, HullModel(vehicle).sway_yaw, vehicle.thrust_at(1.0))
+    return Smc(
+        numbers_of(gains), rudder_limits_of(vehicle), HullModel(vehicle).sway_yaw, vehicle.thrust_at(1.0)
+    )
 
 
 LAW = Law("smc", "conventional sliding mode", SmcConfig, Smc, SmcState(), smc, prepare)

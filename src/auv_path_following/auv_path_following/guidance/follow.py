@@ -97,6 +97,12 @@ def first_state(config: FollowerConfig, approach: Any) -> FollowerState:
     return FollowerState(first_progress(approach), config.law_begins)
 
 
+def reconfigured(config: FollowerConfig, state: FollowerState) -> FollowerState:
+    """Return the state for a new configuration: that of another law begins anew, all else is kept."""
+    is_same = type(state.law) is type(config.law_begins)
+    return state if is_same else state._replace(law=config.law_begins)
+
+
 @pure
 def follow(
     config: FollowerConfig,

@@ -138,11 +138,8 @@ def start(config: Guide, state: GuideState) -> GuideState:
 
 
 def reconfigured(config: Guide, state: GuideState) -> GuideState:
-    """Return the state for a new configuration: the law's own begins anew if the law is another one."""
-    begins = config.follower.law_begins
-    if type(state.follower.law) is type(begins):
-        return state
-    return state._replace(follower=state.follower._replace(law=begins))
+    """Return the state for a new configuration; the place on the path is kept."""
+    return state._replace(follower=following.reconfigured(config.follower, state.follower))
 
 
 @pure

@@ -107,10 +107,8 @@ class PathFollower:
 
     def configure(self, config: PathFollowerConfig) -> None:
         """Take new gains; the place on the path and, for the same law, its state are kept."""
-        prepared = prepare(config, self._agility)
-        if type(prepared.law) is not type(self.config.law):
-            self.state = self.state._replace(law=prepared.law_begins)
-        self.config = prepared
+        self.config = prepare(config, self._agility)
+        self.state = steps.reconfigured(self.config, self.state)
 
     def reset(self) -> None:
         """Return to the beginning of the path."""

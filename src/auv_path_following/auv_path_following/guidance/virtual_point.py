@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from auv_msgs_py.pure import pure
+from auv_msgs_py.pure import bounded, pure
 from auv_msgs_py.settings import setting, settings
 from auv_msgs_py.types import Current, Navigation, WaterVelocity
 from auv_path_following.paths.rows import LENGTH, SPEED, PathRows
@@ -48,7 +48,7 @@ def saturated(value: float, limit: float) -> float:
     xe' = -k sat(xe) + r_p ye. The terms with r_p cancel in V1' as before, and -k xe sat(xe) is negative for
     every xe other than 0.
     """
-    return limit if value > limit else -limit if value < -limit else value
+    return bounded(value, limit)
 
 
 @pure

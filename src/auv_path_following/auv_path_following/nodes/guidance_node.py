@@ -40,7 +40,7 @@ class GuidanceNode(SuiteNode):
         for notice in self.mission.notices:
             self.get_logger().info(notice)
         self.keeper.take_switching()
-        self.keeper.report.tell(self.keeper.state.mission)
+        self.keeper.report.publish(self.keeper.state.mission)
 
     def configure(self) -> None:
         self.keeper.configure()
@@ -80,7 +80,7 @@ class GuidanceNode(SuiteNode):
 
     def _publish(self) -> None:
         self._messages.publish()
-        self.keeper.report.tell(self.keeper.state.mission)
+        self.keeper.report.publish(self.keeper.state.mission)
         self.keeper.report.answered(self.keeper.report.word is State.RUNNING)
 
 

@@ -101,7 +101,7 @@ class MissionKeeper:
         response.success = self.state is not before
         if response.success:
             self._begin(True)
-        self.report.tell(self.state.mission)
+        self.report.publish(self.state.mission)
         response.message = self.report.reason if response.success else f"already {self.report.word}"
         return response
 
@@ -128,4 +128,4 @@ class MissionKeeper:
 
     def _become(self, mission: Mission) -> None:
         self.state = self.state._replace(mission=mission)
-        self.report.tell(mission)
+        self.report.publish(mission)

@@ -61,7 +61,7 @@ def fly(scenarios: Sequence[Scenario], threads: int = 1, done: Done | None = Non
         ConfigurationError: a scenario that cannot be flown.
     """
     # Mistakes are found before the first flight.
-    chunks = list(_chunks(scenarios, -(-len(scenarios) // (4 * threads))))
+    chunks = _chunks(scenarios, -(-len(scenarios) // (4 * threads)))
 
     def one(chunk: _Chunk) -> tuple[Sequence[int], dict[str, Any]]:
         figures = chunk.fly(scenarios)
@@ -106,9 +106,9 @@ class _Chunk(NamedTuple):
         with np.errstate(all="ignore"):  # a state that runs away is a result
             fly_many(
                 self.example, self.configs, self.which, starts, currents, self.course,
-                scratch_of(self.course), whole, subpaths, ends, 0, n,
+                scratch_of(self.course), whole, subpaths, ends,
             )  # fmt: skip
-        dt = np.array([round(scenario.step * 1e9) * 1e-9 for scenario in flown])
+        dt = np.array([scenario.dt for scenario in flown])
         return figures_of(ends, whole, subpaths, dt)
 
 
@@ -166,8 +166,7 @@ def track(scenario: Scenario, every: int = 1) -> Run:
     if scenario.sea is not None and not COMPILED:
         return closed_loop.fly(scenario).select(slice(None, None, every))
     *_, rows = _flown(scenario, course_of(scenario.path), flight_of(scenario), every)
-    step_ns = round(scenario.step * 1e9)
-    t = [(topics.FIRST_STAMP_NS + int(k) * step_ns) * 1e-9 for k in rows[:, 0]]
+    t = [(topics.FIRST_STAMP_NS + int(k) * scenario.step_ns) * 1e-9 for k in rows[:, 0]]
     names = _TRACK if scenario.sea is None else (*_TRACK, *_TRUTH)
     return Run.from_columns({"t": t} | {name: rows[:, j] for j, name in enumerate(names, 1)})
 
@@ -179,7 +178,7 @@ def _at_sea(scenario: Scenario, course: Course, flight: Flight) -> dict[str, Any
             name: np.array([value]) for name, value in judged(closed_loop.fly(scenario), scenario).items()
         }
     whole, subpaths, end, _ = _flown(scenario, course, flight, 0)
-    return figures_of(end[None], whole[None], subpaths[None], np.array([round(scenario.step * 1e9) * 1e-9]))
+    return figures_of(end[None], whole[None], subpaths[None], np.array([scenario.dt]))
 
 
 def _flown(scenario: Scenario, course: Course, flight: Flight, every: int) -> tuple[Any, Any, Any, Any]:

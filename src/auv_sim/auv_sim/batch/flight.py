@@ -10,12 +10,10 @@ import numpy.typing as npt
 
 from auv_msgs_py.frames import heading_over_the_wire
 from auv_msgs_py.types import Command, Current, Navigation
-from auv_path_following import pilot as piloting
-from auv_path_following.guidance import guide
 from auv_path_following.guidance.approach import empty_approach
 from auv_path_following.guidance.guide import Measured
 from auv_path_following.paths.rows import PathRows
-from auv_path_following.pilot import Pilot, PilotState, pilot
+from auv_path_following.pilot import Pilot, begun, pilot
 from auv_sim.analysis.flown_share import Cells
 from auv_sim.batch import same_bits, tally  # noqa: F401 - before anything is compiled
 from auv_sim.batch.compiled import compiled, take_over_pure
@@ -74,9 +72,9 @@ def scratch_of(course: Course) -> Scratch:
 @compiled
 def fly_many(
     example: Flight, configs: Array, which: Array, starts: Array, currents: Array,
-    course: Course, scratch: Scratch, whole: Array, subpaths: Array, ends: Array, first: int, end: int,
+    course: Course, scratch: Scratch, whole: Array, subpaths: Array, ends: Array,
 ) -> None:  # fmt: skip
-    """Fly flights `first` to `end` - 1 of one course.
+    """Fly n flights of one course.
 
     Args:
         example: a flight of the same layout.
@@ -87,10 +85,9 @@ def fly_many(
         course: the path.
         scratch: used by each flight in turn.
         whole, subpaths, ends: written; shapes (n, FLIGHT_TALLIES), (n, m, SUBPATH_TALLIES), (n, ENDS).
-        first, end: range of flights.
     """
     none = np.empty((0, TRACK_COLUMNS))
-    for k in range(first, end):
+    for k in range(len(which)):
         flight = unpack(example, configs[which[k]])
         row = starts[k]
         start = Afloat(PlantState(row[0], row[1], row[2], row[3], row[4], row[5]), ServoState(0.0))
@@ -119,8 +116,7 @@ def fly_one(
     flown = scratch.flown
     flown[:] = False
     tally.begin(whole, subpaths)
-    flying = piloting.first_state(c.pilot, scratch.approach)
-    flying = PilotState(flying.observer, guide.start(c.pilot.guide, flying.guide), flying.autopilot)
+    flying = begun(c.pilot, scratch.approach)
     commanded = 0.0
     i, clear, s, finite = -1, 0.0, 0.0, True
     odometries = c.steps

@@ -51,7 +51,7 @@ def _restored(example: Any, numbers: Iterator[float]) -> Any:
 
 @overloads(unpack)
 def _compiled_unpack(example: Any, row: Any) -> Any:
-    """Return the source of `unpack` for a layout, written out number by number."""
+    """Return `unpack` for a layout, written out number by number."""
     classes: dict[str, Any] = {}
     count = 0
 

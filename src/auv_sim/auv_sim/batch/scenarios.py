@@ -25,7 +25,7 @@ def flight_of(scenario: Scenario) -> Flight:
     return Flight(
         pilot=pilot_of(scenario),
         plant=plant_of(scenario.vehicle),
-        dt=round(scenario.step * 1e9) * 1e-9,
+        dt=scenario.dt,
         steps=int(scenario.time_limit / scenario.step) + 1,
     )
 

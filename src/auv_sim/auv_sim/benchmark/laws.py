@@ -59,7 +59,7 @@ def vehicles(scale: Scale) -> tuple[int, ...]:
 def batch_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
     """Vehicle-steps per second of the batch engine, all cores, by number of vehicles.
 
-    All numbers of vehicles fly the same time. What is done once for each flight is told apart by flights that
+    All numbers of vehicles fly the same time. What is done once for each flight is separated by flights that
     are a tenth as long: `fixed_us` is what a flight without steps would take, `step_us` what each step adds.
     """
     threads = len(os.sched_getaffinity(0))

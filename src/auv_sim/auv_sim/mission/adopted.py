@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import ctypes
 import json
 import os
 import signal
@@ -15,10 +14,9 @@ from collections.abc import Mapping, Sequence
 from types import TracebackType
 
 from auv_msgs_py.start_gate import OPEN
+from auv_sim.mission.kin import adopt_orphans
 from auv_sim.mission.outcome import MissionFailed
 
-_PR_SET_CHILD_SUBREAPER = 36
-_LIBC = ctypes.CDLL(None)
 #: Arguments of no meaning: the nodes write their own command line in this place, for `ps`.
 _ROOM = ("." * 250,)
 
@@ -73,7 +71,7 @@ class Loader:
     def __init__(self) -> None:
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - closed on exit
         # The nodes that the loader leaves behind become children of this process.
-        _LIBC.prctl(_PR_SET_CHILD_SUBREAPER, 1)
+        adopt_orphans(True)
         # Linear algebra needs no threads here, and a process without threads can fork.
         environment = {**os.environ, "PYTHONUNBUFFERED": "1", "OPENBLAS_NUM_THREADS": "1"}
         self._process = subprocess.Popen(  # noqa: S603 - our own interpreter, our own module
@@ -139,4 +137,4 @@ class Loader:
         self._process.kill()
         with self._process:  # closes its pipes and waits
             self._errors.close()
-        _LIBC.prctl(_PR_SET_CHILD_SUBREAPER, 0)
+        adopt_orphans(False)

@@ -22,7 +22,6 @@ import importlib
 import inspect
 import json
 import os
-import signal
 import sys
 import time
 from collections.abc import Sequence
@@ -30,6 +29,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from auv_msgs_py.start_gate import GATE
+from auv_sim.mission.kin import end_with_parent
 
 #: Modules without rclpy that nodes import, in the order of their weight.
 LOADED = (
@@ -50,8 +50,6 @@ LOADED = (
     "type_description_interfaces.srv",
     "rosidl_generator_py",
 )
-_PR_SET_PDEATHSIG = 1
-_LIBC = ctypes.CDLL(None)
 
 
 class Order(NamedTuple):
@@ -80,7 +78,7 @@ def load() -> None:
 def main() -> int:
     """Load, read the order and fork. It returns in each node's process, with the node's exit code."""
     launcher = os.getppid()
-    _end_with_parent(launcher)
+    _end_with(launcher)
     load()
     line = _read_line()
     if not line:  # the launcher has given up
@@ -94,7 +92,7 @@ def main() -> int:
             os.setsid()  # Ctrl-C reaches only the launcher
             while os.getppid() == loader:
                 time.sleep(0.001)
-            _end_with_parent(launcher)
+            _end_with(launcher)
             report = _write_to(log)
             os.environ.update(order.environment, **{GATE: str(report)})
             return _run(module, arguments, has_threads)
@@ -111,9 +109,9 @@ def _read_line() -> bytes:
     return line
 
 
-def _end_with_parent(parent: int) -> None:
-    """Have this process end when its parent does, however that ends."""
-    _LIBC.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+def _end_with(parent: int) -> None:
+    """Have this process end when its parent does, or at once if that has ended before."""
+    end_with_parent()
     if os.getppid() != parent:
         raise SystemExit(1)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import os
 import signal
 import subprocess
@@ -14,14 +13,7 @@ from pathlib import Path
 from typing import Protocol
 
 from auv_sim.mission.adopted import Adopted, Loader
-
-_PR_SET_PDEATHSIG = 1
-_LIBC = ctypes.CDLL(None)
-
-
-def _die_with_parent() -> None:
-    """Runs in the child: even a launcher that is killed with -9 leaves nothing running."""
-    _LIBC.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+from auv_sim.mission.kin import end_with_parent
 
 
 class Process(Protocol):
@@ -79,7 +71,7 @@ class Children:
                 stderr=subprocess.STDOUT,
                 env={**os.environ, **self._environment, "PYTHONUNBUFFERED": "1"},
                 start_new_session=True,
-                preexec_fn=_die_with_parent,
+                preexec_fn=end_with_parent,
             )
         self._children[name] = Child(name, process, log)
 

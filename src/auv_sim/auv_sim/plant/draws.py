@@ -107,7 +107,7 @@ class Draws:
         return self._row(generator, "random", count * self._samples(rate))
 
     def exponentials(self, generator: np.random.Generator, mean: float) -> Row:
-        """Lay out exponential numbers, one for every `mean` seconds: to twelve standard deviations."""
+        """Lay out exponential numbers, one for every `mean` seconds and ample ones more."""
         expected = self.steps * self.step / mean
         return self._row(
             generator, "standard_exponential", math.ceil(expected + 12.0 * math.sqrt(expected)) + 20
