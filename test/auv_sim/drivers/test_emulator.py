@@ -8,10 +8,11 @@ from collections import Counter
 from typing import Any
 
 import pytest
+from pymavlink.dialects.v20 import common as mavlink
 
 from auv_msgs_py.types import STOP, Command, Current
 from auv_path_following import vehicle
-from auv_sim.drivers.emulator import BOOT_MS, CHANNELS, Channel, Emulator, Line
+from auv_sim.drivers.emulator import ANSWERS, BOOT_MS, CHANNELS, LINES, Channel, Emulator, Line
 from auv_sim.drivers.mavlink_mapping import Limits, manual_control
 from auv_sim.plant.remus import PlantState
 
@@ -101,3 +102,23 @@ def test_a_line_delays_shuffles_and_loses() -> None:
 
 def test_every_period_is_a_multiple_of_the_step() -> None:
     assert all(channel.period % 10 == 0 for channel in CHANNELS.values())
+
+
+def test_messages_of_one_line_keep_their_order() -> None:
+    """Signatures have to rise on a line: what overtakes there is refused as a replay."""
+    assert len(set(LINES.values())) == len(CHANNELS) + 1
+    way, dice = Line(0.0, random.Random(3)), random.Random(4)
+    arrived: dict[Channel, list[int]] = {channel: [] for channel in LINES}
+    for now in range(0, 20_000, 10):
+        for channel in LINES:
+            due = dice.random() < 0.3 if channel is ANSWERS else now % channel.period == 0
+            for number in range(int(due) * (1 + (channel is ANSWERS))):
+                way.put(float(now), channel, (channel, 2 * now + number))
+        for channel, number in way.take(float(now)):
+            arrived[channel].append(number)
+    assert all(numbers and numbers == sorted(numbers) for numbers in arrived.values())
+
+
+def test_what_the_vehicle_says_at_any_time_has_a_line_of_its_own(emulator: Emulator) -> None:
+    emulator.hear(mavlink.MAVLink_timesync_message(0, 5))
+    assert [channel for channel, _ in emulator.said] == [ANSWERS]

@@ -61,8 +61,10 @@ CHANNELS = {
     "servo": Channel(100, 30.0, 10.0),
     "heartbeat": Channel(1000, 20.0, 5.0),
 }
-#: Signatures have to rise on each line, and these messages overtake each other.
-_LINES = {channel: number for number, channel in enumerate(CHANNELS.values())}
+#: Answers and warnings come at any time: with a delay that varied they would overtake each other.
+ANSWERS = Channel(0, 20.0, 0.0)
+#: Signatures have to rise on each line, and messages of different channels overtake each other.
+LINES = {channel: number for number, channel in enumerate((*CHANNELS.values(), ANSWERS))}
 #: What the vehicle hears: commands and questions.
 UPLINK = Channel(0, 20.0, 5.0)
 
@@ -99,7 +101,7 @@ class Emulator:
                 self.in_tube = False
         elif kind == "TIMESYNC" and message.tc1 == 0:
             answer = mavlink.MAVLink_timesync_message(self.now_ms * 1_000_000, message.ts1)
-            self.said.append((CHANNELS["heartbeat"], answer))
+            self.said.append((ANSWERS, answer))
 
     def step(self) -> None:
         """Measure and say so, then let one step pass."""
@@ -111,7 +113,7 @@ class Emulator:
             self.failsafes += 1
             text = f"failsafe: no command for {COMMAND_TIMEOUT_MS / 1000:g} s".encode()
             message = mavlink.MAVLink_statustext_message(mavlink.MAV_SEVERITY_CRITICAL, text)
-            self.said.append((CHANNELS["heartbeat"], message))
+            self.said.append((ANSWERS, message))
         command: Command = STOP if self.failsafe else self._command
         if not self.in_tube:
             self.plant.advance(command, STEP_MS * 1e-3)
@@ -208,7 +210,7 @@ def live(emulator: Emulator, link: MavlinkLink, speed: float, loss: float, seed:
             next_step = max(next_step, now - _PATIENCE / speed)
         for channel, message in emulator.said:
             component = WATER_LOG if message.get_type() == "ODOMETRY" else None
-            data = link.pack(message, component, line=_LINES[channel])
+            data = link.pack(message, component, line=LINES[channel])
             down.put(emulator.now_ms, channel, (channel, data))
         emulator.said.clear()
         for channel, data in down.take(emulator.now_ms):
