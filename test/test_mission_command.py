@@ -17,7 +17,7 @@ from auv_sim.mission import plan
 from auv_sim.mission.cli import main
 from auv_sim.mission.launcher import domain_of
 from auv_sim.mission.options import Options
-from bag_watch import recorded
+from auv_sim.recording.bag_watch import recorded
 
 CommandLine = Callable[..., list[str]]
 Spawn = Callable[[list[str]], "subprocess.Popen[str]"]

@@ -195,7 +195,6 @@ def test_the_manifest_names_what_the_tests_import(name: str) -> None:
     tops = imported(ROOT / "test" / name) - {
         *PACKAGES,
         "node_bench",
-        "bag_watch",
         "golden_flights",
         "golden_tracks",
         "hulls",

@@ -27,8 +27,8 @@ from std_msgs.msg import Float64, String
 
 from auv_msgs_py import qos, topics
 from auv_sim.recording.bag import read_bag
+from auv_sim.recording.bag_watch import recorded
 from auv_sim.recording.repair import repair
-from bag_watch import recorded
 
 #: What a crash may lose at most, s.
 BOUND = 1.0

@@ -13,7 +13,7 @@ from pathlib import Path
 from auv_msgs_py import topics
 from auv_sim.benchmark.children import BenchmarkFailed, interruptible
 from auv_sim.benchmark.rig import NAMESPACE
-from auv_sim.recording.bag import read_bag
+from auv_sim.recording.bag_watch import recorded
 
 _PATIENCE = 90.0
 _TOPIC = topics.full_name(NAMESPACE, topics.RUDDER_CMD.name)
@@ -53,7 +53,7 @@ def first_command(python: str = sys.executable, composed: bool = False) -> float
             start_new_session=True,  # Ctrl-C is passed on, once
         )
         try:
-            while not _is_commanded(run / "bag"):
+            while not recorded(run / "bag", _TOPIC):
                 if launcher.poll() is not None or time.monotonic() - begin > _PATIENCE:
                     raise BenchmarkFailed("the launcher did not bring up a mission")
                 if stop.requested:
@@ -67,10 +67,3 @@ def first_command(python: str = sys.executable, composed: bool = False) -> float
             except subprocess.TimeoutExpired:
                 launcher.kill()
                 launcher.wait()
-
-
-def _is_commanded(bag: Path) -> bool:
-    if not any(bag.glob("*.mcap")):
-        return False
-    found = read_bag(bag).topics.get(_TOPIC)
-    return found is not None and found.count > 0

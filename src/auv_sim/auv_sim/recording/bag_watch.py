@@ -1,4 +1,4 @@
-"""Looking into a bag while it is being written."""
+"""Look into a bag while it is being written."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from auv_sim.recording.bag import read_bag
 
 
 def recorded(directory: Path, topic: str) -> bool:
-    """Whether the bag has a message of a topic (its full name) by now."""
-    if not any(directory.glob("*.mcap")):
+    """Return whether a bag has a message of a topic (its full name) by now; a file just made has none."""
+    if not any(file.stat().st_size for file in directory.glob("*.mcap")):
         return False
     found = read_bag(directory).topics.get(topic)
     return found is not None and found.count > 0
