@@ -31,13 +31,8 @@ from auv_sim.parameters import SUITE, FaultRelayParameters
 from auv_sim.planning import cli as plan_cli
 from auv_sim.plant import sea
 from conftest import SHORT_MISSION
+from doc_pages import PAGES, ROOT, listings
 
-ROOT = Path(__file__).resolve().parents[1]
-PAGES = (
-    "README.md",
-    "CONTRIBUTING.md",
-    *(f"docs/{page.name}" for page in sorted((ROOT / "docs").glob("*.md"))),
-)
 #: Script -> the module with its parser.
 PARSERS = {
     "bag": "auv_sim.bags.cli",
@@ -167,7 +162,8 @@ def test_a_node_that_ros2_runs_has_these_parameters(line: Line) -> None:
 
 def test_the_nodes_that_are_started_by_hand_follow_the_simulator() -> None:
     """The simulator's clock starts at 1 s: a node on wall time would refuse all of its stamps."""
-    started = [line.text for line in LINES if line.page == "README.md" and line.text.startswith("ros2 run")]
+    page = "docs/ros2_workspace.md"
+    started = [line.text for line in LINES if line.page == page and line.text.startswith("ros2 run")]
     assert len(started) == 5
     assert all("use_sim_time:=true" in text or "remus_plant" in text for text in started)
 
@@ -182,13 +178,15 @@ def shortened(line: Line, directory: Path) -> list[str]:
     return [*words, "--composed", "--quiet", "--out", str(directory)]
 
 
-def flown_here(line: Line) -> bool:
-    """Not those for a vehicle that is not there (test_foreign_vehicle.py, test_mavlink_driver.py)."""
+def flown_here() -> list[Line]:
+    """Each command for the simulator once; test_foreign_vehicle.py, test_mavlink_driver.py fly the others."""
     elsewhere = {"--no-sim", "--vehicle-driver", "--help", "MISSION"}
-    return line.page == "README.md" and not elsewhere & set(shlex.split(line.text))
+    pages = ("README.md", "docs/flying.md")
+    flown = {line.text: line for line in chosen("mission") if line.page in pages}
+    return [line for text, line in flown.items() if not elsewhere & set(shlex.split(text))]
 
 
-@pytest.mark.parametrize("line", [line for line in chosen("mission") if flown_here(line)], ids=str)
+@pytest.mark.parametrize("line", flown_here(), ids=str)
 def test_a_mission_flies(line: Line, tmp_path: Path, domain: int) -> None:
     program = [
         sys.executable,
@@ -223,13 +221,8 @@ def test_a_bag_is_looked_into(line: Line, recorded: Path) -> None:
     assert bag_cli.main(words_of(line, recorded)) == 0
 
 
-def listings(page: str, language: str) -> list[str]:
-    text = (ROOT / page).read_text(encoding="utf-8")
-    return re.findall(rf"^```{language}\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
-
-
-def test_the_readmes_python_flies_what_the_launcher_flies() -> None:
-    (code,) = listings("README.md", "python")
+def test_the_python_of_the_page_flies_what_the_launcher_flies() -> None:
+    (code,) = listings("docs/python.md", "python")
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     duration, distance = map(float, re.findall(r"[\d.]+", done.stdout))
     assert 600.0 < duration < 700.0
