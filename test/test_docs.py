@@ -119,6 +119,7 @@ def test_there_is_nothing_that_no_test_looks_at() -> None:
         line for line in rest if script_of(line) not in PARSERS and not line.text.startswith("ros2 run")
     ]
     assert {line.text for line in others} == {
+        "python3 scripts/api_docs.py",  # test_api_docs.py
         "python3 scripts/test.py",
         "python3 scripts/test.py -k fermat -x",
         "python3 my_driver.py --ros-args -r __ns:=/auv",  # test_driver_doc.py

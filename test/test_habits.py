@@ -1,0 +1,48 @@
+"""The files that keep the repository's habits agree with each other."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+import yaml
+
+from doc_pages import ROOT
+
+TEMPLATES = sorted((ROOT / ".github" / "ISSUE_TEMPLATE").glob("*.yml"))
+
+
+def pins(name: str) -> dict[str, str]:
+    text = (ROOT / "requirements" / name).read_text(encoding="utf-8")
+    return {pair[1].lower(): pair[2] for pair in re.finditer(r"(?m)^([\w.-]+)==(\S+)$", text)}
+
+
+def test_pre_commit_uses_the_pinned_versions() -> None:
+    hooks = yaml.safe_load((ROOT / ".pre-commit-config.yaml").read_text(encoding="utf-8"))["repos"][0][
+        "hooks"
+    ]
+    asked = [line for hook in hooks for line in hook["additional_dependencies"]]
+    fixed = pins("constraints.txt") | pins("ros.txt")
+    assert {line.split("==")[0] for line in asked} >= {"ruff", "mypy"}
+    for line in asked:
+        name, version = line.split("==")
+        assert fixed[name.lower()] == version, f".pre-commit-config.yaml: {line}"
+
+
+@pytest.mark.parametrize("path", TEMPLATES, ids=lambda path: path.name)
+def test_issue_templates_are_whole(path: Path) -> None:
+    form = yaml.safe_load(path.read_text(encoding="utf-8"))
+    if "body" not in form:
+        return
+    assert form["name"] and form["description"]
+    identities = [item["id"] for item in form["body"] if item["type"] != "markdown"]
+    assert len(set(identities)) == len(identities) > 0
+
+
+def test_the_quality_declaration_is_linked_and_names_the_version() -> None:
+    declaration = (ROOT / "QUALITY_DECLARATION.md").read_text(encoding="utf-8")
+    manifest = (ROOT / "src" / "auv_sim" / "package.xml").read_text(encoding="utf-8")
+    (version,) = re.findall(r"<version>(.*)</version>", manifest)
+    assert f"version is {version}" in declaration
+    assert "(QUALITY_DECLARATION.md)" in (ROOT / "README.md").read_text(encoding="utf-8")
