@@ -44,13 +44,8 @@ class PilotState(NamedTuple):
     autopilot: AutopilotState
 
 
-class PilotOutput(NamedTuple):
-    """The estimated current (NED, m/s), the result of guidance, its request to the autopilot, the command."""
-
-    current: Current
-    guidance: GuidanceOutput
-    reference: Reference
-    command: Command
+#: The estimated current (NED, m/s), the result of guidance, its request to the autopilot, the command.
+PilotOutput = tuple[Current, GuidanceOutput, Reference, Command]
 
 
 @pure
@@ -94,4 +89,4 @@ def pilot(
     if moved or dt > config.longest_gap:
         steering = autopilot.first_state(config.autopilot)
     steering, command, _ = steer(config.autopilot, steering, navigation, reference, dt)
-    return PilotState(observer, guiding, steering), PilotOutput(current, output, reference, command)
+    return PilotState(observer, guiding, steering), (current, output, reference, command)

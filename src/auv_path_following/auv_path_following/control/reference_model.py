@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from auv_msgs_py.angles import wrap
 from auv_msgs_py.errors import ConfigurationError
-from auv_msgs_py.pure import bounded, pure, squared
+from auv_msgs_py.pure import bounded, pure
 from auv_msgs_py.settings import setting, settings
 from auv_path_following.control.hull_model import LEAST_EFFECT, rudder_effect, tightest_turn
 from auv_path_following.vehicle import Vehicle
@@ -54,13 +54,8 @@ class Limits(NamedTuple):
     jerk: float
 
 
-class Shaped(NamedTuple):
-    """The shaped psi_d (rad), its exact rate r_d (rad/s) and acceleration r_d_dot (rad/s^2)."""
-
-    psi_d: float
-    r_d: float
-    r_d_dot: float
-
+#: The shaped psi_d (rad), its exact rate r_d (rad/s) and acceleration r_d_dot (rad/s^2).
+Shaped = tuple[float, float, float]
 
 #: Share of the jerk of a rudder at its greatest rate; the rest is left to the controller.
 JERK_SHARE = 0.9
@@ -116,11 +111,20 @@ def _derived(config: ReferenceConfig, vehicle: Vehicle, b: float, rudder_rate: f
 
 
 class Shaping(NamedTuple):
-    """Configuration of the reference model: whether it shapes at all, bandwidth, damping, and limits."""
+    """Configuration of the reference model.
+
+    Attributes:
+        enabled: whether it shapes at all.
+        bandwidth: of the linear law, 1/s.
+        stiffness: 4 damping^2 bandwidth: acceleration of the reference over the lack of its rate, 1/s.
+        linear: largest gap that the linear law closes within the limits, rad.
+        limits: of the reference.
+    """
 
     enabled: bool
     bandwidth: float
-    damping: float
+    stiffness: float
+    linear: float
     limits: Limits
 
 
@@ -136,11 +140,13 @@ def prepare(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> Sh
         ConfigurationError: as `limits_of`.
     """
     limits = limits_of(config, vehicle, rudder_rate) if config.enabled else Limits(0.0, 0.0, 0.0)
-    return Shaping(config.enabled, float(config.bandwidth), float(config.damping), limits)
+    w = float(config.bandwidth)
+    stiffness = 4.0 * float(config.damping) ** 2 * w
+    return Shaping(config.enabled, w, stiffness, float(limits.acceleration) / (w * w), limits)
 
 
 class ReferenceState(NamedTuple):
-    """Angle (rad), rate (rad/s) and acceleration (rad/s^2) of the reference, once it has begun."""
+    """The shaped psi_d (rad), its exact rate (rad/s) and acceleration (rad/s^2), once it has begun."""
 
     begun: bool = False
     angle: float = 0.0
@@ -151,44 +157,42 @@ class ReferenceState(NamedTuple):
 @pure
 def shape(
     config: Shaping, state: ReferenceState, psi: float, r: float, psi_d: float, r_d: float, dt: float
-) -> tuple[ReferenceState, Shaped]:
+) -> ReferenceState:
     """Follow psi_d with limited rate, acceleration and jerk, from the vehicle's own heading and rate.
 
-    The acceleration chosen here is held until the next step, so that r_d and r_d_dot are the exact
-    derivatives of psi_d: a controller may feed them forward without differencing anything.
+    The acceleration chosen here is held until the next step, so that rate and acceleration are the exact
+    derivatives of the angle: a controller may feed them forward without differencing anything.
 
     Args:
-        config: bandwidth, damping, limits.
+        config: of the reference model.
         state: of the last step.
         psi, r: heading and yaw rate of the vehicle, where the reference starts (rad, rad/s).
         psi_d, r_d: request of guidance (rad, rad/s).
         dt: seconds since the last step.
     """
+    _, bandwidth, stiffness, linear, (largest_rate, largest, jerk) = config
     begun, angle, turning, held = state
-    largest_rate, largest, jerk = config.limits
     if begun:
         angle, turning = angle + turning * dt + 0.5 * held * dt * dt, turning + held * dt
     else:
         angle, turning = psi, r
-    closing = closing_rate(config, wrap(psi_d - angle), largest)
-    desired = bounded(r_d + closing, largest_rate)
-    pull = 4.0 * squared(config.damping) * config.bandwidth * (desired - turning)
+    closing = closing_rate(wrap(psi_d - angle), bandwidth, linear, largest)
+    pull = stiffness * (bounded(r_d + closing, largest_rate) - turning)
     held += bounded(bounded(pull, largest) - held, jerk * dt)
     angle = wrap(angle)
-    return ReferenceState(True, angle, turning, held), Shaped(angle, turning, held)
+    return ReferenceState(True, angle, turning, held)
 
 
 @pure
-def closing_rate(config: Shaping, gap: float, acceleration: float) -> float:
+def closing_rate(gap: float, bandwidth: float, linear: float, acceleration: float) -> float:
     """Return how fast to close the gap: in proportion near it, farther away such that braking is possible.
 
     Args:
-        config: bandwidth.
         gap: rad.
+        bandwidth: 1/s.
+        linear: largest gap that is closed in proportion, rad.
         acceleration: largest, rad/s^2.
     """
-    w = config.bandwidth
-    linear = acceleration / (w * w)
     if abs(gap) <= linear:
-        return w * gap
+        return bandwidth * gap
     return math.copysign(math.sqrt(2.0 * acceleration * (abs(gap) - 0.5 * linear)), gap)

@@ -22,6 +22,8 @@ _SHARPEST = math.radians(135.0)
 #: Exponent of tan(change/2): with 1 the turn ends on the new leg, with less it overshoots the leg by about as
 #: much as it cuts the corner. Fitted, like the share of Delta, to the best radii at corners of 30 to 120 deg.
 _SHARPNESS = 0.85
+#: More than tan(change/2)^0.85 of the sharpest change, which is 2.12.
+_MOST_TURN = 2.5
 #: Share of Delta by which line of sight turns late at a shallow corner, and early at a sharp one.
 _LOOKAHEAD_SHARE = 0.17
 #: By how much the heading lags behind its reference, s.
@@ -99,6 +101,22 @@ def acceptance_radius(
     turn = Ug / cornering.rate * math.pow(math.tan(0.5 * change), _SHARPNESS)
     radius = Ug * cornering.lead + turn + _LOOKAHEAD_SHARE * lookahead * math.cos(change)
     return min(max(radius, 0.0), corner.widest)
+
+
+@pure
+def reach(cornering: Cornering, lookahead: float, Ur: float, current: Current) -> float:
+    """Return an upper bound of `acceptance_radius` over all corners, m: farther away no radius is needed.
+
+    Each of its three terms is at its largest, with the current from astern.
+
+    Args:
+        cornering: of the vehicle.
+        lookahead: Delta, m.
+        Ur: speed through the water, m/s.
+        current: m/s, NED.
+    """
+    Ug = Ur + math.hypot(current.Vx, current.Vy)
+    return Ug * (cornering.lead + _MOST_TURN / cornering.rate) + _LOOKAHEAD_SHARE * lookahead
 
 
 @pure

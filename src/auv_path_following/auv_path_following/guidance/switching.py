@@ -8,7 +8,7 @@ from typing import Any, Literal, NamedTuple, get_args
 from auv_msgs_py.pure import pure
 from auv_msgs_py.settings import Auto, setting, settings
 from auv_msgs_py.types import NO_CURRENT, Current
-from auv_path_following.guidance.acceptance import Corner, Cornering, acceptance_radius
+from auv_path_following.guidance.acceptance import Corner, Cornering, acceptance_radius, reach
 from auv_path_following.paths.rows import (
     CHI_IN,
     CHI_OUT,
@@ -123,7 +123,10 @@ def reached(
     mode, joint = circles.mode, row[JOINT]
     if mode == OFF or joint == END or (mode == ONLY_CORNERS and joint != CORNER):
         return False
-    return math.hypot(row[JOINT_X] - x, row[JOINT_Y] - y) <= radius_at(circles, row, Ur, current)
+    distance = math.hypot(row[JOINT_X] - x, row[JOINT_Y] - y)
+    if circles.computed and distance > reach(circles.cornering, circles.lookahead, Ur, current):
+        return False
+    return distance <= radius_at(circles, row, Ur, current)
 
 
 _NO_CORNERING = Cornering(1.0, 0.0)

@@ -153,9 +153,9 @@ class _Chain:
         self._guide(self._state.guide._replace(mission=_in_phase(mission, phase)))
         measured = Measured(navigation, water or NO_WATER, water is not None, False, 0.0, step.stamp * 1e-9)
         self._state, out = pilot(self._config, self._rows, self._state, measured, dt)
-        (rudder, thrust), guided = out.command, out.guidance
+        _, guided, reference, (rudder, thrust) = out
         yaw = flip_yaw(guided.psi_d)
-        return Answer(rudder, thrust, yaw, -guided.r_d, out.reference.thrust, guided.s)
+        return Answer(rudder, thrust, yaw, -guided.r_d, reference.thrust, guided.s)
 
     def _guide(self, state: GuideState) -> None:
         self._state = self._state._replace(guide=state)

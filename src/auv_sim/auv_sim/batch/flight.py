@@ -21,7 +21,7 @@ from auv_sim.batch.distance import Outlines, distance_to
 from auv_sim.batch.flown_cells import pass_cells
 from auv_sim.batch.rows import unpack
 from auv_sim.plant.actuator import ServoState
-from auv_sim.plant.remus import Afloat, PlantInputs, PlantState
+from auv_sim.plant.remus import Afloat, PlantState
 from auv_sim.plant.simulated import vehicle_measure, vehicle_step
 
 take_over_pure()
@@ -120,7 +120,7 @@ def fly_one(
     commanded = 0.0
     i, clear, s, finite = -1, 0.0, 0.0, True
     odometries = c.steps
-    afloat, seen = vehicle_measure(vehicle, afloat, PlantInputs(Command(0.0, 0.0), constant, 1.0), 0.0)
+    afloat, seen = vehicle_measure(vehicle, afloat, (Command(0.0, 0.0), constant, 1.0), 0.0)
     for k in range(c.steps):
         since = c.dt if k > 0 else 0.0
         navigation, state, current = seen.navigation, seen.motion, seen.current
@@ -128,8 +128,7 @@ def fly_one(
             x, y, psi, r = navigation
             navigation = Navigation(x, y, heading_over_the_wire(psi), r)
         measured = Measured(navigation, seen.water, True, False, 0.0, k * c.dt)
-        flying, out = pilot(c.pilot, path, flying, measured, since)
-        guided, estimate, (command, thrust) = out.guidance, out.current, out.command
+        flying, (estimate, guided, _, (command, thrust)) = pilot(c.pilot, path, flying, measured, since)
         finished, s = guided.finished, guided.s
         if guided.i != i:
             i, clear = guided.i, 0.0
@@ -161,7 +160,7 @@ def fly_one(
         rudder = seen.rudder
         if k + 1 == c.steps:  # motion after the last odometry is not attributed to a subpath
             break
-        afloat, seen = vehicle_step(vehicle, afloat, PlantInputs(out.command, constant, 1.0), c.dt)
+        afloat, seen = vehicle_step(vehicle, afloat, ((command, thrust), constant, 1.0), c.dt)
         after = seen.motion
         covered = math.sqrt((after.x - state.x) ** 2 + (after.y - state.y) ** 2)
         clear -= covered

@@ -111,16 +111,17 @@ def measure_at_sea(config: VehicleAtSea, state: AtSea, inputs: PlantInputs, dt: 
         inputs: with the constant current, m/s, NED, that comes on top of the sea's own.
         dt: s.
     """
-    return _measure(config, state, state.afloat, state.propeller, inputs.current, dt)
+    _, constant, _ = inputs
+    return _measure(config, state, state.afloat, state.propeller, constant, dt)
 
 
 @pure
 def step_at_sea(config: VehicleAtSea, state: AtSea, inputs: PlantInputs, dt: float) -> tuple[AtSea, Seen]:
     """Let `dt` seconds pass under a held command, then measure: `measure_at_sea`."""
-    own, constant = state.own, inputs.current
+    own, (command, constant, _) = state.own, inputs
     propeller, error = noise(config.propeller, state.propeller, config.memory, dt)
     current = Current(constant.Vx + own.Vx, constant.Vy + own.Vy)
-    inside = PlantInputs(inputs.command, current, max(1.0 + error, 0.0))
+    inside = command, current, max(1.0 + error, 0.0)
     afloat, _ = plant_step(config.plant, state.afloat, inside, dt)
     return _measure(config, state, afloat, propeller, constant, dt)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from auv_msgs_py.pure import dispatched, pure
@@ -78,12 +79,12 @@ HullInputs = tuple[Deflection, float, Current]
 
 @pure
 def planar_slopes(
-    hull: PlanarHull, psi: float, ur: float, vr: float, r: float, delta: float, thrust: float
+    hull: Sequence[float], psi: float, ur: float, vr: float, r: float, delta: float, thrust: float
 ) -> tuple[float, float, float, float, float]:
     """Return x' and y' in still water, and ur', vr', r': Eqs. (14), (18), (19).
 
     Args:
-        hull: coefficients.
+        hull: a `PlanarHull`, or its numbers in that order.
         psi, ur, vr, r: as in `PlantState`.
         delta: rudder angle, rad.
         thrust: N.
@@ -109,20 +110,21 @@ def planar_step(
     config: PlanarHull, state: PlantState, inputs: HullInputs, dt: float
 ) -> tuple[PlantState, PlantState]:
     """One Runge-Kutta step, written flat; the output is the state."""
+    hull = config[:]  # plain: unpacking a plain tuple takes a quarter of the time of a named one
     x, y, psi, ur, vr, r = state
     (begin, middle, end), thrust, (Vx, Vy) = inputs
     half, sixth = 0.5 * dt, dt / 6.0
-    x1, y1, u1, v1, r1 = planar_slopes(config, psi, ur, vr, r, begin, thrust)
+    x1, y1, u1, v1, r1 = planar_slopes(hull, psi, ur, vr, r, begin, thrust)
     ra = r + half * r1
     x2, y2, u2, v2, r2 = planar_slopes(
-        config, psi + half * r, ur + half * u1, vr + half * v1, ra, middle, thrust
+        hull, psi + half * r, ur + half * u1, vr + half * v1, ra, middle, thrust
     )
     rb = r + half * r2
     x3, y3, u3, v3, r3 = planar_slopes(
-        config, psi + half * ra, ur + half * u2, vr + half * v2, rb, middle, thrust
+        hull, psi + half * ra, ur + half * u2, vr + half * v2, rb, middle, thrust
     )
     rc = r + dt * r3
-    x4, y4, u4, v4, r4 = planar_slopes(config, psi + dt * rb, ur + dt * u3, vr + dt * v3, rc, end, thrust)
+    x4, y4, u4, v4, r4 = planar_slopes(hull, psi + dt * rb, ur + dt * u3, vr + dt * v3, rc, end, thrust)
     state = PlantState(
         x + sixth * (x1 + Vx + 2.0 * (x2 + Vx + (x3 + Vx)) + (x4 + Vx)),
         y + sixth * (y1 + Vy + 2.0 * (y2 + Vy + (y3 + Vy)) + (y4 + Vy)),
@@ -160,12 +162,8 @@ class Afloat(NamedTuple):
     servo: Any
 
 
-class PlantInputs(NamedTuple):
-    """Command, current (m/s, NED), and the propeller's efficiency: 1 for the thrust as commanded."""
-
-    command: Command
-    current: Current
-    efficiency: float = 1.0
+#: Command, current (m/s, NED), and the propeller's efficiency: 1 for the thrust as commanded.
+PlantInputs = tuple[Command, Current, float]
 
 
 def plant_of(vehicle: Vehicle) -> Plant:
@@ -194,7 +192,8 @@ def plant_step(config: Plant, state: Afloat, inputs: PlantInputs, dt: float) -> 
     h = dt / substeps
     servo, rudder = servo_step(config.servo, servo, (order, True), h)
     hull, motion = hull_step(config.hull, hull, (rudder, thrust, current), h)
-    for _ in range(substeps - 1):
+    while substeps > 1:
+        substeps -= 1
         servo, rudder = servo_step(config.servo, servo, (order, False), h)
         hull, motion = hull_step(config.hull, hull, (rudder, thrust, current), h)
     return Afloat(hull, servo), motion

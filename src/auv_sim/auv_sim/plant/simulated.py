@@ -34,9 +34,9 @@ _BLOCK = 1000
 @pure
 def measure(config: Plant, state: Afloat, inputs: PlantInputs, dt: float) -> tuple[Afloat, Seen]:
     """Return ideal measurements; velocity over ground is not among them."""
-    hull = state.hull
+    hull, (_, current, _) = state.hull, inputs
     water = WaterVelocity(hull.ur, hull.vr)
-    seen = Seen(navigation_of(hull), water, True, math.nan, math.nan, hull, state.servo.angle, inputs.current)
+    seen = Seen(navigation_of(hull), water, True, math.nan, math.nan, hull, state.servo.angle, current)
     return state, seen
 
 
@@ -93,7 +93,7 @@ class SimulatedVehicle:
             self._config, self.state = at_sea_of(
                 self._vehicle, self._initial, self._sea, self._seed, self._draws
             )
-        inputs = PlantInputs(STOP, self.constant_current)
+        inputs = STOP, self.constant_current, 1.0
         self.state, self.seen = vehicle_measure(self._config, self.state, inputs, 0.0)
 
     def advance(self, command: Command, dt: float) -> Seen:
@@ -114,7 +114,7 @@ class SimulatedVehicle:
                 self._draws.refill(self._config.memory)
                 self._left = _BLOCK
             self._left -= 1
-        inputs = PlantInputs(command, self.constant_current)
+        inputs = command, self.constant_current, 1.0
         self.state, self.seen = vehicle_step(self._config, self.state, inputs, dt)
         return self.seen
 
@@ -123,9 +123,8 @@ class SimulatedVehicle:
         afloat = Afloat(motion, self._afloat.servo)
         self.state = afloat if self._sea is None else self.state._replace(afloat=afloat)
         if self._sea is None:
-            self.state, self.seen = vehicle_measure(
-                self._config, afloat, PlantInputs(STOP, self.constant_current), 0.0
-            )
+            inputs = STOP, self.constant_current, 1.0
+            self.state, self.seen = vehicle_measure(self._config, afloat, inputs, 0.0)
 
     @property
     def _afloat(self) -> Afloat:
