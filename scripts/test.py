@@ -25,7 +25,7 @@ CHECKS = {
 
 
 def main(arguments: list[str]) -> int:
-    from auv_sim.mission.domains import free_domain  # not before there is an environment
+    from auv_sim.launch.processes.domains import free_domain  # not before there is an environment
 
     checks = {"tests": ("pytest", *arguments)} if arguments else CHECKS
     environment = {

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 import rclpy
 
-from auv_sim.mission.domains import free_domain
+from auv_sim.launch.processes.domains import free_domain
 from node_bench import Bench
 
 REPOSITORY = Path(__file__).resolve().parents[1]
@@ -46,7 +46,7 @@ def domain(monkeypatch: pytest.MonkeyPatch) -> int:
 
 @pytest.fixture
 def command_line() -> Callable[..., list[str]]:
-    """`command_line("auv_sim.mission", "--help")`: run a module of the suite with this interpreter."""
+    """`command_line("auv_sim.cli.mission", "--help")`: run a module of the suite with this interpreter."""
     return lambda module, *arguments: [sys.executable, "-m", module, *map(str, arguments)]
 
 

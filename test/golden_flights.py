@@ -10,17 +10,18 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from auv_msgs_py import params_file, topics, yaml_file
-from auv_msgs_py.types import Current
+from auv_msgs_py.contract import topics
+from auv_msgs_py.settings import params_file, yaml_file
+from auv_msgs_py.values.types import Current
 from auv_path_following import config_files, vehicle
-from auv_path_following.paths import mission_file
-from auv_path_following.paths.composite import CompositePath
+from auv_path_following.curves.composite import CompositePath
+from auv_path_following.missions import mission_file
 from auv_path_following.vehicle import Vehicle
-from auv_sim.closed_loop import Scenario
+from auv_sim.flight.closed_loop import Scenario
 from auv_sim.parameters import CRUISE, SUITE
-from auv_sim.plant import sea
-from auv_sim.plant.remus import PlantState
-from auv_sim.reproduction.flights import changed
+from auv_sim.studies.paper.paper_flights import changed
+from auv_sim.vehicle import sea
+from auv_sim.vehicle.remus import PlantState
 from hulls import STABLE, drawn
 
 THRUST = 6.48

@@ -16,8 +16,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from auv_sim import closed_loop
-from auv_sim.analysis.run import Run
+from auv_sim.flight import closed_loop
+from auv_sim.flight.run_record import Run
 from golden_flights import FLIGHTS, Flight
 
 FILE = Path(__file__).parent / "data" / "golden_tracks.npz"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from auv_msgs_py.pure import Step
+from auv_msgs_py.values.pure import Step
 from auv_path_following.registry import Law
 
 

@@ -16,11 +16,11 @@ from rclpy.parameter import Parameter
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
-from auv_msgs_py import qos, topics
-from auv_msgs_py.conversions import fill_odometry, fill_water_velocity
-from auv_msgs_py.runtime import SuiteNode
-from auv_msgs_py.topics import Topic
-from auv_msgs_py.types import Navigation, WaterVelocity
+from auv_msgs_py.contract import qos, topics
+from auv_msgs_py.contract.conversions import fill_odometry, fill_water_velocity
+from auv_msgs_py.contract.topics import Topic
+from auv_msgs_py.node.runtime import SuiteNode
+from auv_msgs_py.values.types import Navigation, WaterVelocity
 
 #: Nodes that read odometry.
 _NAVIGATED = ("CurrentObserverNode", "GuidanceNode", "HeadingAutopilotNode")

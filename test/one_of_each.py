@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 
-from auv_path_following.paths.arc import Arc
-from auv_path_following.paths.archimedean import ArchimedeanSpiral
-from auv_path_following.paths.clothoid import Clothoid
-from auv_path_following.paths.fermat import FermatSpiral, MirroredFermatSpiral
-from auv_path_following.paths.line import Line
-from auv_path_following.paths.polynomial import Polynomial
-from auv_path_following.paths.reverse import Reversed
-from auv_path_following.paths.spline import Spline
+from auv_path_following.curves.kinds.arc import Arc
+from auv_path_following.curves.kinds.archimedean import ArchimedeanSpiral
+from auv_path_following.curves.kinds.clothoid import Clothoid
+from auv_path_following.curves.kinds.fermat import FermatSpiral, MirroredFermatSpiral
+from auv_path_following.curves.kinds.line import Line
+from auv_path_following.curves.kinds.polynomial import Polynomial
+from auv_path_following.curves.kinds.reverse import Reversed
+from auv_path_following.curves.kinds.spline import Spline
 
 POINTS = [(0.0, 0.0), (60.0, 5.0), (80.0, 70.0), (10.0, 90.0), (-40.0, 30.0)]
 SEGMENTS = [

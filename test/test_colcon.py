@@ -15,7 +15,7 @@ import pytest
 import rclpy
 from rclpy.node import Node
 
-from auv_sim.mission.domains import free_domain
+from auv_sim.launch.processes.domains import free_domain
 
 ROOT = Path(__file__).resolve().parents[1]
 EXECUTABLES = [

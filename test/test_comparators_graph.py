@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from auv_sim import closed_loop
-from auv_sim.mission import plan
-from auv_sim.mission.cli import main
-from auv_sim.mission.options import Options
-from auv_sim.recording.load import load
+from auv_sim.bags.reading.load import load
+from auv_sim.cli.mission import main
+from auv_sim.flight import closed_loop
+from auv_sim.launch import mission_plan
+from auv_sim.launch.options import Options
 
 _PARAMS = """
 /**/ailos_guidance:
@@ -35,7 +35,7 @@ def test_a_comparator_over_the_graph_equals_closed_loop(
     asked = ["--mission", str(short_mission), "--params", str(params), "--current", "0.1", "0.2"]
     assert main([*asked, "--quiet", "--composed", "--domain", str(domain), "--out", str(run)]) == 0
     options = Options(mission=str(short_mission), params=str(params), current=(0.1, 0.2))
-    reference = closed_loop.fly(plan.make(options, tmp_path).scenario())
+    reference = closed_loop.fly(mission_plan.make(options, tmp_path).scenario())
     flown = load(run / "bag")
     assert flown.steps == reference.steps
     for column in ("x", "y", "rudder_cmd", "psi_d", "s"):

@@ -18,34 +18,35 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from auv_msgs_py import params_file, topics, yaml_file
-from auv_msgs_py.settings import flattened, nested, validated
+from auv_msgs_py.contract import topics
+from auv_msgs_py.settings import params_file, yaml_file
+from auv_msgs_py.settings.schema import flattened, nested, validated
 from auv_path_following import config_files, vehicle
-from auv_path_following.paths import mission_file
-from auv_sim.bags import cli as bag_cli
-from auv_sim.batch import engine
-from auv_sim.campaign.plan import StudyPlan
+from auv_path_following.missions import mission_file
+from auv_sim.cli import bag as bag_cli
+from auv_sim.cli import mission as mission_cli
+from auv_sim.cli import plan as plan_cli
 from auv_sim.driver_parameters import MavlinkDriverParameters
-from auv_sim.mission import cli as mission_cli
+from auv_sim.flight.batch import engine
 from auv_sim.parameters import SUITE, FaultRelayParameters
-from auv_sim.planning import cli as plan_cli
-from auv_sim.plant import sea
+from auv_sim.studies.campaign.campaign_plan import StudyPlan
+from auv_sim.vehicle import sea
 from conftest import SHORT_MISSION
 from doc_pages import PAGES, ROOT, listings
 
 #: Script -> the module with its parser.
 PARSERS = {
-    "bag": "auv_sim.bags.cli",
-    "benchmark": "auv_sim.benchmark.cli",
-    "campaign": "auv_sim.mission.campaign",
-    "check_vehicle": "auv_sim.drivers.check_vehicle",
-    "fault_matrix": "auv_sim.faults.cli",
-    "gallery": "auv_sim.mission.gallery",
-    "mission": "auv_sim.mission.cli",
-    "plan": "auv_sim.planning.cli",
-    "reproduce_paper": "auv_sim.reproduction.cli",
-    "sea_trials": "auv_sim.mission.sea_trials",
-    "soak": "auv_sim.mission.soak_cli",
+    "bag": "auv_sim.cli.bag",
+    "benchmark": "auv_sim.cli.benchmark",
+    "campaign": "auv_sim.cli.campaign",
+    "check_vehicle": "auv_sim.cli.check_vehicle",
+    "fault_matrix": "auv_sim.cli.fault_matrix",
+    "gallery": "auv_sim.cli.gallery",
+    "mission": "auv_sim.cli.mission",
+    "plan": "auv_sim.cli.plan",
+    "reproduce_paper": "auv_sim.cli.reproduce_paper",
+    "sea_trials": "auv_sim.cli.sea_trials",
+    "soak": "auv_sim.cli.soak",
 }
 #: What the shell and other programs' commands begin with: they are no commands of this suite.
 FOREIGN = (
@@ -212,7 +213,7 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A run directory."""
     run = tmp_path_factory.mktemp("docs") / "run"
     words = ["--mission", str(SHORT_MISSION), "--composed", "--quiet", "--out", str(run)]
-    subprocess.run([sys.executable, "-m", "auv_sim.mission", *words], check=True, timeout=120)
+    subprocess.run([sys.executable, "-m", "auv_sim.cli.mission", *words], check=True, timeout=120)
     return run
 
 

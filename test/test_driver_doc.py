@@ -13,11 +13,11 @@ from pathlib import Path
 
 import pytest
 
-from auv_msgs_py.types import STOP, Command, Current
+from auv_msgs_py.values.types import STOP, Command, Current
 from auv_path_following import vehicle
-from auv_sim.mission.vehicle_driver import free_port
-from auv_sim.plant.remus import PlantState
-from auv_sim.plant.simulated import SimulatedVehicle
+from auv_sim.launch.vehicle_driver import free_port
+from auv_sim.vehicle.remus import PlantState
+from auv_sim.vehicle.simulated import SimulatedVehicle
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "driver.md"
 KNOT = 1852.0 / 3600.0
@@ -93,7 +93,7 @@ def test_the_listing_is_a_driver(
     python = command_line("x")[0]
     spawn([python, str(file), "--ros-args", "-r", "__ns:=/auv", "-p", f"port:={json_vehicle.port}"])
     asked = ["--wiggle", "--yes-the-vehicle-may-move", "--wait", "90", "--json"]
-    checker = spawn(command_line("auv_sim.drivers.check_vehicle", *asked))
+    checker = spawn(command_line("auv_sim.cli.check_vehicle", *asked))
     out, err = checker.communicate(timeout=240)  # type: ignore[attr-defined]
     assert out, err
     items = {item["item"]: item for item in json.loads(out)["items"]}

@@ -22,16 +22,16 @@ from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64, String
 from std_srvs.srv import Trigger
 
-from auv_msgs_py import qos, topics
-from auv_msgs_py.conversions import fill_odometry, fill_water_velocity, set_stamp
-from auv_msgs_py.types import Command, Current
+from auv_msgs_py.contract import qos, topics
+from auv_msgs_py.contract.conversions import fill_odometry, fill_water_velocity, set_stamp
+from auv_msgs_py.values.types import Command, Current
 from auv_path_following import vehicle
+from auv_path_following.missions import mission_file
 from auv_path_following.nodes.current_observer_node import CurrentObserverNode
 from auv_path_following.nodes.guidance_node import GuidanceNode
 from auv_path_following.nodes.heading_autopilot_node import HeadingAutopilotNode
-from auv_path_following.paths import mission_file
-from auv_sim.closed_loop import start_of
-from auv_sim.plant.simulated import SimulatedVehicle
+from auv_sim.flight.closed_loop import start_of
+from auv_sim.vehicle.simulated import SimulatedVehicle
 
 CURRENT = Current(0.1, -0.1)
 SENSOR = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)

@@ -16,13 +16,13 @@ import numpy as np
 import pytest
 from rosbags.highlevel import AnyReader
 
-from auv_msgs_py import topics
-from auv_sim import closed_loop
-from auv_sim.mission import plan
-from auv_sim.mission.cli import main
-from auv_sim.mission.domains import free_domain
-from auv_sim.mission.options import Options
-from auv_sim.recording.load import load, load_messages
+from auv_msgs_py.contract import topics
+from auv_sim.bags.reading.load import load, load_messages
+from auv_sim.cli.mission import main
+from auv_sim.flight import closed_loop
+from auv_sim.launch import mission_plan
+from auv_sim.launch.options import Options
+from auv_sim.launch.processes.domains import free_domain
 
 CommandLine = Callable[..., list[str]]
 
@@ -50,7 +50,7 @@ def paper_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
         """Start a second launcher, of another namespace, when the first one's nodes are there."""
         while not (run / "bag").exists():
             time.sleep(0.05)
-        command = [sys.executable, "-m", "auv_sim.mission", "--namespace", "/auv2", *asked, f"{run}2"]
+        command = [sys.executable, "-m", "auv_sim.cli.mission", "--namespace", "/auv2", *asked, f"{run}2"]
         second.append(subprocess.run(command, capture_output=True, text=True, timeout=120, check=False))
 
     intruder = threading.Thread(target=intrude, daemon=True)
@@ -63,7 +63,7 @@ def paper_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_the_papers_mission_over_the_graph_equals_closed_loop(paper_run: Path, tmp_path: Path) -> None:
     options = Options(params="paper", current=(0.1, 0.2))
-    reference = closed_loop.fly(plan.make(options, tmp_path).scenario())
+    reference = closed_loop.fly(mission_plan.make(options, tmp_path).scenario())
     flown = load(paper_run / "bag")
     assert flown.steps == reference.steps
     for column in ("x", "y", "psi", "rudder", "rudder_cmd", "s", "xe", "ye", "Vx_est", "Vy_est"):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from auv_msgs_py import topics
+from auv_msgs_py.contract import topics
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "interface.md"
 ROW = re.compile(r"^\| `([^`]+)` \| ([a-z_]+/msg/\w+) \|(?: (\w+) \|)?", re.MULTILINE)

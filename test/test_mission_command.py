@@ -12,12 +12,12 @@ from pathlib import Path
 
 import pytest
 
-from auv_path_following.paths import mission_file
-from auv_sim.mission import plan
-from auv_sim.mission.cli import main
-from auv_sim.mission.launcher import domain_of
-from auv_sim.mission.options import Options
-from auv_sim.recording.bag_watch import recorded
+from auv_path_following.missions import mission_file
+from auv_sim.bags.reading.bag_watch import recorded
+from auv_sim.cli.mission import main
+from auv_sim.launch import mission_plan
+from auv_sim.launch.launcher import domain_of
+from auv_sim.launch.options import Options
 
 CommandLine = Callable[..., list[str]]
 Spawn = Callable[[list[str]], "subprocess.Popen[str]"]
@@ -50,7 +50,7 @@ def test_a_mission_is_flown_recorded_and_drawn(
     command_line: CommandLine, spawn: Spawn, node_processes: Look, short_mission: Path, tmp_path: Path
 ) -> None:
     run = tmp_path / "run"
-    launcher = spawn(command_line("auv_sim.mission", "--mission", short_mission, "--out", run))
+    launcher = spawn(command_line("auv_sim.cli.mission", "--mission", short_mission, "--out", run))
     wait_for(lambda: set(node_processes(launcher.pid)) >= NODES, "one process for each node")
     out, err = launcher.communicate(timeout=120)
     assert (launcher.returncode, err) == (0, "")
@@ -85,7 +85,7 @@ def test_a_node_that_dies_ends_the_mission_with_its_name_and_leaves_nothing_runn
     victim: str, command_line: CommandLine, spawn: Spawn, node_processes: Look, tmp_path: Path
 ) -> None:
     run = tmp_path / "run"
-    launcher = spawn(command_line("auv_sim.mission", "--out", run, "--speed", "5"))
+    launcher = spawn(command_line("auv_sim.cli.mission", "--out", run, "--speed", "5"))
     wait_for(lambda: under_way(run), "a mission under way")
     nodes = node_processes(launcher.pid)
     os.kill(nodes[victim], signal.SIGKILL)
@@ -111,7 +111,7 @@ def test_in_lockstep_a_node_that_hangs_is_named(
 ) -> None:
     run, params = tmp_path / "run", tmp_path / "params.yaml"
     params.write_text("/**/remus_plant: {ros__parameters: {answer_timeout: 3.0}}\n")
-    launcher = spawn(command_line("auv_sim.mission", "--out", run, "--params", params))
+    launcher = spawn(command_line("auv_sim.cli.mission", "--out", run, "--params", params))
     wait_for(lambda: under_way(run), "a mission under way")
     nodes = node_processes(launcher.pid)
     os.kill(nodes[frozen], signal.SIGSTOP)
@@ -128,7 +128,7 @@ def test_ctrl_c_ends_cleanly_with_what_was_flown(
     command_line: CommandLine, spawn: Spawn, node_processes: Look, tmp_path: Path
 ) -> None:
     run = tmp_path / "run"
-    launcher = spawn(command_line("auv_sim.mission", "--out", run))
+    launcher = spawn(command_line("auv_sim.cli.mission", "--out", run))
     wait_for(lambda: under_way(run), "a mission under way")
     nodes = node_processes(launcher.pid)
     launcher.send_signal(signal.SIGINT)
@@ -144,7 +144,7 @@ def test_a_launcher_that_is_killed_takes_its_nodes_along(
     command_line: CommandLine, spawn: Spawn, node_processes: Look, tmp_path: Path
 ) -> None:
     run = tmp_path / "run"
-    launcher = spawn(command_line("auv_sim.mission", "--out", run))
+    launcher = spawn(command_line("auv_sim.cli.mission", "--out", run))
     wait_for(lambda: under_way(run), "a mission under way")
     nodes = node_processes(launcher.pid)
     launcher.kill()
@@ -207,7 +207,7 @@ def test_a_vehicles_ros_domain_is_the_shells(
     monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)
     if named is not None:
         monkeypatch.setenv("ROS_DOMAIN_ID", named)
-    assert domain_of(plan.make(Options(no_sim=True), tmp_path)) == number
+    assert domain_of(mission_plan.make(Options(no_sim=True), tmp_path)) == number
 
 
 def test_a_plan_is_flown_and_leaves_a_mission_file_that_flies_the_same(

@@ -23,7 +23,7 @@ from catkin_pkg.package import Package, parse_package
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
-from auv_msgs_py import topics
+from auv_msgs_py.contract import topics
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGES = ("auv_msgs_py", "auv_path_following", "auv_sim")

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from auv_msgs_py import topics
-from auv_sim import closed_loop
-from auv_sim.analysis.run import Run
-from auv_sim.mission import plan
-from auv_sim.mission.cli import main
-from auv_sim.mission.options import Options
-from auv_sim.recording.load import load, load_messages
+from auv_msgs_py.contract import topics
+from auv_sim.bags.reading.load import load, load_messages
+from auv_sim.cli.mission import main
+from auv_sim.flight import closed_loop
+from auv_sim.flight.run_record import Run
+from auv_sim.launch import mission_plan
+from auv_sim.launch.options import Options
 
 SEA = str(Path(__file__).parent / "data" / "sea.yaml")
 _FRAMES = """
@@ -37,7 +37,7 @@ def test_a_sea_over_the_graph_equals_closed_loop(short_mission: Path, tmp_path: 
     asked += ["--flown", "0"]  # the odometry is off by more than a flown cell may be
     assert main([*asked, "--quiet", "--composed", "--domain", str(domain), "--out", str(run)]) == 0
     options = Options(mission=str(short_mission), sea=SEA, seed=3, current=(0.0, 0.05))
-    reference = closed_loop.fly(plan.make(options, tmp_path).scenario())
+    reference = closed_loop.fly(mission_plan.make(options, tmp_path).scenario())
     flown = load(run / "bag")
     assert flown.steps == reference.steps
     for column in (
@@ -63,7 +63,7 @@ def test_a_sea_over_the_graph_equals_closed_loop(short_mission: Path, tmp_path: 
         vehicle=str(run / "config" / "vehicle.yaml"),
         params=str(run / "config" / "params.yaml"),
     )
-    second = closed_loop.fly(plan.make(again, tmp_path).scenario())
+    second = closed_loop.fly(mission_plan.make(again, tmp_path).scenario())
     assert (second.x_true == reference.x_true).all()
 
 

@@ -19,7 +19,7 @@ from pathlib import Path
 
 import pytest
 
-from auv_sim.mission.domains import free_domain
+from auv_sim.launch.processes.domains import free_domain
 from test_graph import messages
 
 #: How a launcher may fly -> its arguments.
@@ -40,7 +40,7 @@ def launch(
     """The command line of one launcher."""
     fixed = ["--quiet", "--mission", mission, "--domain", domain, "--namespace", namespace, "--out", out]
     fixed += ["--flown", "0.5"]  # free running on a busy machine a mission this short misses metres
-    return command_line("auv_sim.mission", *fixed, *KINDS[kind])
+    return command_line("auv_sim.cli.mission", *fixed, *KINDS[kind])
 
 
 def until(condition: Callable[[], object], patience: float = 120.0) -> None:
@@ -57,7 +57,7 @@ def alone(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[Path],
 
     def fly(mission: Path) -> dict[str, list[bytes]]:
         if mission not in found:
-            from auv_sim.mission.cli import main
+            from auv_sim.cli.mission import main
 
             out = tmp_path_factory.mktemp("alone") / "run"
             asked = ["--quiet", "--flown", "0", "--mission", str(mission), "--out", str(out)]

@@ -21,7 +21,7 @@ setup(
     maintainer=maintainer.text,
     maintainer_email=maintainer.get("email"),
     packages=find_packages(include=[name, f"{name}.*"]),
-    package_data={name: ["py.typed", "bags/page/*.html", "mission/*.xml"]},
+    package_data={name: ["py.typed", "bags/showing/page/*.html", "launch/processes/*.xml"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{name}"]),
         (f"share/{name}", ["package.xml"]),
@@ -54,11 +54,11 @@ setup(
         "console_scripts": [
             "remus_plant = auv_sim.nodes.plant_node:main",
             "recorder = auv_sim.nodes.recorder_node:main",
-            "fault_relay = auv_sim.faults.relay:main",
-            "check_vehicle = auv_sim.drivers.check_vehicle:main",
-            "mavlink_driver = auv_sim.drivers.mavlink_driver:main",
-            "mavlink_emulator = auv_sim.drivers.emulator:main",
-            "mavlink_strangers = auv_sim.faults.strangers:main",
+            "fault_relay = auv_sim.nodes.fault_relay:main",
+            "check_vehicle = auv_sim.cli.check_vehicle:main",
+            "mavlink_driver = auv_sim.nodes.mavlink.driver:main",
+            "mavlink_emulator = auv_sim.nodes.mavlink.emulator:main",
+            "mavlink_strangers = auv_sim.checks.faults.strangers:main",
         ]
     },
 )

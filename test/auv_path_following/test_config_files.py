@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
 
 

@@ -7,7 +7,7 @@ import math
 
 import pytest
 
-from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files, vehicle
 
 GOOD = config_files.find("vehicles", "remus100").read_text(encoding="utf-8")

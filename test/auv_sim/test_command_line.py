@@ -18,8 +18,9 @@ from pathlib import Path
 import pytest
 from rich.table import Table
 
-from auv_msgs_py.errors import ConfigurationError, MessageRefused, SuiteError
-from auv_sim import command_line, pages, terminal
+from auv_msgs_py.values.errors import ConfigurationError, MessageRefused, SuiteError
+from auv_sim import command_line, terminal
+from auv_sim.views import doc_pages
 
 ROOT = Path(__file__).resolve().parents[2]
 #: Script -> the module whose `main` it starts.
@@ -218,16 +219,16 @@ def test_every_command_makes_its_directory_first(
 
 def test_a_page_is_renewed_between_its_marks(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
-    begin, end = pages.marks("table")
+    begin, end = doc_pages.marks("table")
     page.write_text(f"before\n{begin}\nold\n{end}\nbehind\n", encoding="utf-8")
-    pages.renew(page, "table", "new")
+    doc_pages.renew(page, "table", "new")
     assert page.read_text(encoding="utf-8") == f"before\n{begin}\nnew\n{end}\nbehind\n"
     with pytest.raises(
         ConfigurationError, match=r"--page: found .*, expected a page with <!-- figures: begin"
     ):
-        pages.check(page, "figures")
+        doc_pages.check(page, "figures")
     with pytest.raises(ConfigurationError, match="--page: found "):
-        pages.check(tmp_path / "none.md", "table")
+        doc_pages.check(tmp_path / "none.md", "table")
 
 
 def test_a_printed_command_is_the_same_after_the_shell_has_read_it() -> None:

@@ -11,13 +11,13 @@ import pyarrow as pa
 import pytest
 from matplotlib.figure import Figure
 
-from auv_msgs_py import yaml_file
-from auv_msgs_py.errors import SuiteError
-from auv_msgs_py.result_files import write_text
-from auv_sim.analysis.plot_style import save
-from auv_sim.campaign import store
-from auv_sim.planning import cli as plan_command
-from auv_sim.recording import metadata
+from auv_msgs_py.settings import yaml_file
+from auv_msgs_py.settings.result_files import write_text
+from auv_msgs_py.values.errors import SuiteError
+from auv_sim.bags import metadata
+from auv_sim.cli import plan as plan_command
+from auv_sim.studies.campaign import store
+from auv_sim.views.plot_style import save
 
 LIMIT = 4096
 

@@ -24,12 +24,12 @@ def imported(code: str) -> set[str]:
 @pytest.mark.parametrize(
     "module",
     [
-        "auv_sim.bags.cli",
-        "auv_sim.benchmark.cli",
-        "auv_sim.faults.cli",
-        "auv_sim.mission.cli",
-        "auv_sim.mission.soak_cli",
-        "auv_sim.planning.cli",
+        "auv_sim.cli.bag",
+        "auv_sim.cli.benchmark",
+        "auv_sim.cli.fault_matrix",
+        "auv_sim.cli.mission",
+        "auv_sim.cli.soak",
+        "auv_sim.cli.plan",
     ],
 )
 def test_help_needs_no_library(module: str) -> None:
@@ -38,6 +38,6 @@ def test_help_needs_no_library(module: str) -> None:
 
 
 def test_what_draws_and_what_reads_bags_is_loaded_after_the_flight() -> None:
-    assert imported("from auv_sim.mission import flight, monitor") == {
+    assert imported("from auv_sim.launch import mission_flight, monitor") == {
         "numpy", "pydantic", "rclpy", "rich", "yaml",
     }  # fmt: skip

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from auv_msgs_py.errors import ConfigurationError
-from auv_msgs_py.settings import SettingInfo, leaves, nested, validated
+from auv_msgs_py.settings.schema import SettingInfo, leaves, nested, validated
+from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.parameters import SUITE, FaultRelayParameters
 
 #: Parameters of the laws are gains: any positive value is a law, if a poor one.

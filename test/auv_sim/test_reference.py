@@ -7,7 +7,7 @@ from typing import Literal
 
 import pytest
 
-from auv_msgs_py.settings import leaves, setting, settings
+from auv_msgs_py.settings.schema import leaves, setting, settings
 from auv_sim import reference
 from auv_sim.parameters import SUITE
 

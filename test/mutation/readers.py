@@ -11,15 +11,15 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from auv_msgs_py import params_file
-from auv_msgs_py.errors import SuiteError
+from auv_msgs_py.settings import params_file
+from auv_msgs_py.values.errors import SuiteError
 from auv_path_following import config_files, vehicle
-from auv_path_following.paths import mission_file
-from auv_sim.bags import cli as bag_command
-from auv_sim.campaign.plan import StudyPlan
+from auv_path_following.missions import mission_file
+from auv_sim.cli import bag as bag_command
+from auv_sim.cli import plan as plan_command
 from auv_sim.parameters import SUITE
-from auv_sim.planning import cli as plan_command
-from auv_sim.plant import sea
+from auv_sim.studies.campaign.campaign_plan import StudyPlan
+from auv_sim.vehicle import sea
 from mutation import seeds, waypoint_seeds
 from mutation.mutate import mutate
 

@@ -13,8 +13,8 @@ from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, W
 from rosbags.typesys import Stores, get_typestore
 
 from auv_path_following import config_files
-from auv_sim.recording.bag_writer import BagWriter
-from auv_sim.recording.definitions import typestore
+from auv_sim.bags.definitions import typestore
+from auv_sim.bags.writing.bag_writer import BagWriter
 
 #: The mission beside each waypoint file, and what it takes of the file.
 AROUND = (

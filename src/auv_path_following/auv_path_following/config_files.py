@@ -6,8 +6,8 @@ from importlib import resources
 from pathlib import Path
 from typing import Literal
 
-from auv_msgs_py import user_files
-from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.settings import user_files
+from auv_msgs_py.values.errors import ConfigurationError
 
 Kind = Literal["missions", "vehicles", "params", "seas", "studies"]
 

@@ -5,18 +5,18 @@ from __future__ import annotations
 import dataclasses
 from typing import TYPE_CHECKING
 
-from auv_msgs_py.frames import FrameIds
-from auv_msgs_py.settings import setting, settings
+from auv_msgs_py.contract.frames import FrameIds
+from auv_msgs_py.settings.schema import setting, settings
 from auv_path_following.control.autopilot import AutopilotConfig
-from auv_path_following.guidance.current_observer import CurrentObserverConfig
-from auv_path_following.guidance.limits import LimitsConfig
-from auv_path_following.guidance.mission_state import HoldingConfig
 from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.guidance.switching import with_overrides
-from auv_path_following.navigation_gate import NavigationGateConfig
+from auv_path_following.missions.limits import LimitsConfig
+from auv_path_following.missions.mission_state import HoldingConfig
+from auv_path_following.navigation.current_observer import CurrentObserverConfig
+from auv_path_following.navigation.navigation_gate import NavigationGateConfig
 
 if TYPE_CHECKING:  # reading missions is guidance's affair; the other nodes start faster without it
-    from auv_path_following.paths.mission_file import Mission
+    from auv_path_following.missions.mission_file import Mission
 
 
 @settings

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from auv_msgs_py.frames import flip_yaw
-from auv_msgs_py.pure import pure
-from auv_msgs_py.types import NO_CURRENT, Command, Current, Reference
+from auv_msgs_py.contract.frames import flip_yaw
+from auv_msgs_py.values.pure import pure
+from auv_msgs_py.values.types import NO_CURRENT, Command, Current, Reference
 from auv_path_following.control import autopilot
 from auv_path_following.control.autopilot import Autopilot, AutopilotState, steer
+from auv_path_following.curves.rows import PathRows
 from auv_path_following.guidance import guide as guidance
-from auv_path_following.guidance.current_observer import (
+from auv_path_following.guidance.follow import GuidanceOutput
+from auv_path_following.guidance.guide import Guide, GuideState, Measured, guide
+from auv_path_following.navigation.current_observer import (
     ObserverState,
     observe,
     relocated,
 )
-from auv_path_following.guidance.follow import GuidanceOutput
-from auv_path_following.guidance.guide import Guide, GuideState, Measured, guide
-from auv_path_following.paths.rows import PathRows
 
 
 class Pilot(NamedTuple):

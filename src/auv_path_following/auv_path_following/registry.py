@@ -10,8 +10,8 @@ import inspect
 from collections.abc import Callable, Sequence
 from typing import Any, Literal, NamedTuple, TypeVar, dataclass_transform
 
-from auv_msgs_py.pure import Step, dispatched, numbers_of
-from auv_msgs_py.settings import setting, settings
+from auv_msgs_py.settings.schema import setting, settings
+from auv_msgs_py.values.pure import Step, dispatched, numbers_of
 
 T = TypeVar("T")
 

@@ -8,10 +8,10 @@ from typing import Literal
 import pydantic
 from pydantic_core import PydanticCustomError
 
-from auv_msgs_py import yaml_file
-from auv_msgs_py.errors import ConfigurationError
-from auv_msgs_py.pure import numbers
-from auv_msgs_py.settings import setting, settings
+from auv_msgs_py.settings import yaml_file
+from auv_msgs_py.settings.schema import setting, settings
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_msgs_py.values.pure import numbers
 from auv_path_following import config_files
 
 

@@ -13,9 +13,15 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NoReturn, ParamSpec
 
-from auv_msgs_py.errors import ConfigurationError, MessageRefused, SuiteError, printable, printable_lines
-from auv_msgs_py.log_directory import ensure_log_directory
-from auv_sim.analysis.least_share import LEAST_SHARE, LEAST_SHARE_AT_SEA
+from auv_msgs_py.node.log_directory import ensure_log_directory
+from auv_msgs_py.values.errors import (
+    ConfigurationError,
+    MessageRefused,
+    SuiteError,
+    printable,
+    printable_lines,
+)
+from auv_sim.flight.least_share import LEAST_SHARE, LEAST_SHARE_AT_SEA
 
 P = ParamSpec("P")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from auv_msgs_py.settings import setting, settings
+from auv_msgs_py.settings.schema import setting, settings
 from auv_path_following.parameters import NodeParameters
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from auv_msgs_py import topics
-from auv_msgs_py.errors import ConfigurationError, MessageRefused
-from auv_msgs_py.frames import FrameIds, FrameTable
-from auv_msgs_py.settings import setting, settings
-from auv_msgs_py.types import Current
+from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.frames import FrameIds, FrameTable
+from auv_msgs_py.settings.schema import setting, settings
+from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
+from auv_msgs_py.values.types import Current
 from auv_path_following.parameters import (
     AutopilotParameters,
     GuidanceParameters,
@@ -16,7 +16,7 @@ from auv_path_following.parameters import (
     ObserverParameters,
 )
 from auv_sim.driver_parameters import MavlinkDriverParameters
-from auv_sim.plant.remus import PlantState
+from auv_sim.vehicle.remus import PlantState
 
 #: Speed through the water with which a simulated vehicle begins, m/s.
 CRUISE = 1.9
@@ -119,7 +119,7 @@ class RecorderParameters(NodeParameters):
     )
 
 
-#: What `fault_relay` can do to a topic; `auv_sim.faults.injection` says what each does.
+#: What `fault_relay` can do to a topic; `auv_sim.nodes.fault_injection` says what each does.
 Fault = Literal[
     "none",
     "stop",

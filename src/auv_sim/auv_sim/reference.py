@@ -13,12 +13,12 @@ import typing
 from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
+from auv_path_following.missions.mission_file import MissionSpec
 from auv_path_following.parameters import NavigationParameters, NodeParameters
-from auv_path_following.paths.mission_file import MissionSpec
 from auv_path_following.vehicle import Vehicle
-from auv_sim.campaign.spec import Study
 from auv_sim.parameters import SUITE, FaultRelayParameters
-from auv_sim.plant.sea import Sea
+from auv_sim.studies.campaign.study_file import Study
+from auv_sim.vehicle.sea import Sea
 
 _HEAD = """# Parameters and keys
 

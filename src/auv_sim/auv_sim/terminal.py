@@ -12,7 +12,7 @@ from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.segment import Segment
 
-from auv_msgs_py.errors import printable_lines
+from auv_msgs_py.values.errors import printable_lines
 from auv_sim.command_line import discard_output
 
 

@@ -11,10 +11,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from auv_msgs_py import params_file, topics
-from auv_msgs_py.errors import ConfigurationError
-from auv_msgs_py.pure import DISPATCHED
-from auv_msgs_py.types import STOP, Navigation, Reference
+from auv_msgs_py.contract import topics
+from auv_msgs_py.settings import params_file
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_msgs_py.values.pure import DISPATCHED
+from auv_msgs_py.values.types import STOP, Navigation, Reference
 from auv_path_following import config_files, vehicle
 from auv_path_following.control.autopilot import HeadingAutopilot, controller_step, first_state
 from auv_path_following.control.controller import ControllerOutput

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from auv_msgs_py.pure import numbers_of
+from auv_msgs_py.values.pure import numbers_of
 from auv_path_following.control.controller import HeadingInputs
 from auv_path_following.control.nism import Nism, NismConfig, NismState, nism
 from laws import Stepped

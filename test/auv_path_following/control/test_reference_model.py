@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from auv_msgs_py.angles import wrap
-from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.values.angles import wrap
+from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import vehicle
 from auv_path_following.control.hull_model import HullModel, tightest_turn
 from auv_path_following.control.reference_model import (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from auv_msgs_py.types import Reference
+from auv_msgs_py.values.types import Reference
 from auv_path_following.control.reference_watch import ReferenceWatch
 
 DRIVE, REST = Reference(0.1, 0.0, 6.0), Reference(0.1, 0.0, 0.0)

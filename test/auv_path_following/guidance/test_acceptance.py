@@ -8,10 +8,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from auv_msgs_py import params_file, topics
-from auv_msgs_py.types import NO_CURRENT, Current
+from auv_msgs_py.contract import topics
+from auv_msgs_py.settings import params_file
+from auv_msgs_py.values.types import NO_CURRENT, Current
 from auv_path_following import config_files, vehicle
 from auv_path_following.control.autopilot import HeadingAutopilot
+from auv_path_following.curves.composite import CompositePath
+from auv_path_following.curves.kinds.line import Line
 from auv_path_following.guidance.acceptance import (
     Corner,
     Cornering,
@@ -22,8 +25,6 @@ from auv_path_following.guidance.acceptance import (
     reach,
 )
 from auv_path_following.parameters import AutopilotParameters, GuidanceParameters, ObserverParameters
-from auv_path_following.paths.composite import CompositePath
-from auv_path_following.paths.line import Line
 from auv_path_following.vehicle import Cruise, Turning, Vehicle
 from hulls import REMUS, STABLE
 

@@ -10,8 +10,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
+from auv_msgs_py.values.types import NO_CURRENT, Current, Navigation, WaterVelocity
 from auv_path_following import vehicle
+from auv_path_following.curves.composite import CompositePath
+from auv_path_following.curves.dubins import Pose, connect
+from auv_path_following.curves.kinds.line import Line
+from auv_path_following.curves.rows import AFTER, KIND, LENGTH, LINE, F, PathRows, evaluate
 from auv_path_following.guidance.acceptance import Cornering
 from auv_path_following.guidance.approach import (
     Agility,
@@ -26,10 +30,6 @@ from auv_path_following.guidance.approach import (
 from auv_path_following.guidance.follow import GuidanceOutput
 from auv_path_following.guidance.path_follower import PathFollower, PathFollowerConfig
 from auv_path_following.guidance.switching import SwitchingConfig
-from auv_path_following.paths.composite import CompositePath
-from auv_path_following.paths.dubins import Pose, connect
-from auv_path_following.paths.line import Line
-from auv_path_following.paths.rows import AFTER, KIND, LENGTH, LINE, F, PathRows, evaluate
 
 SPEED, DT = 1.9, 0.1
 AHEAD = WaterVelocity(SPEED, 0.0)

@@ -6,10 +6,10 @@ import time
 
 import pytest
 
-from auv_msgs_py.types import NO_CURRENT, Navigation, WaterVelocity
+from auv_msgs_py.values.types import NO_CURRENT, Navigation, WaterVelocity
+from auv_path_following.curves.composite import CompositePath
 from auv_path_following.guidance.path_follower import PathFollower
-from auv_path_following.paths.composite import CompositePath
-from auv_path_following.paths.smoothing import Smoothing, smooth
+from auv_path_following.missions.routes.smoothing import Smoothing, smooth
 
 _STEPS = 200
 

@@ -6,7 +6,9 @@ import math
 
 import pytest
 
-from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
+from auv_msgs_py.values.types import NO_CURRENT, Current, Navigation, WaterVelocity
+from auv_path_following.curves.composite import CompositePath
+from auv_path_following.curves.kinds.line import Line
 from auv_path_following.guidance.acceptance import Cornering
 from auv_path_following.guidance.approach import Agility, empty_approach
 from auv_path_following.guidance.follow import (
@@ -16,8 +18,6 @@ from auv_path_following.guidance.follow import (
     follow,
 )
 from auv_path_following.guidance.path_follower import PathFollowerConfig, prepare
-from auv_path_following.paths.composite import CompositePath
-from auv_path_following.paths.line import Line
 
 SPEED, DT = 1.9, 0.1
 AHEAD = WaterVelocity(SPEED, 0.0)

@@ -7,18 +7,18 @@ from typing import NamedTuple
 
 import pytest
 
-from auv_msgs_py.types import NO_CURRENT, Navigation, WaterVelocity
+from auv_msgs_py.values.types import NO_CURRENT, Navigation, WaterVelocity
 from auv_path_following import vehicle
+from auv_path_following.curves.composite import CompositePath
+from auv_path_following.curves.kinds.line import Line
 from auv_path_following.guidance import guide as guidance
-from auv_path_following.guidance import limits as bounds
-from auv_path_following.guidance import mission_state as m
 from auv_path_following.guidance.approach import agility_of, empty_approach
 from auv_path_following.guidance.follow import GuidanceOutput
 from auv_path_following.guidance.guide import Measured, guide, start
-from auv_path_following.guidance.limits import LimitsConfig
 from auv_path_following.guidance.path_follower import PathFollowerConfig
-from auv_path_following.paths.composite import CompositePath
-from auv_path_following.paths.line import Line
+from auv_path_following.missions import limits as bounds
+from auv_path_following.missions import mission_state as m
+from auv_path_following.missions.limits import LimitsConfig
 
 REMUS = vehicle.load("remus100")
 NORTH = CompositePath([Line(0.0, 0.0, 100.0, 0.0)])

@@ -8,21 +8,21 @@ import math
 import numpy as np
 import pytest
 
-from auv_msgs_py.angles import wrap
-from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
+from auv_msgs_py.values.angles import wrap
+from auv_msgs_py.values.types import NO_CURRENT, Current, Navigation, WaterVelocity
+from auv_path_following.curves.composite import CompositePath
+from auv_path_following.curves.kinds.arc import Arc
+from auv_path_following.curves.kinds.line import Line
+from auv_path_following.curves.kinds.spline import Spline
 from auv_path_following.guidance.acceptance import Cornering
-from auv_path_following.guidance.adaptive_lookahead import AdaptiveLookaheadConfig
-from auv_path_following.guidance.ailos import AilosConfig
 from auv_path_following.guidance.approach import Agility, ApproachConfig
-from auv_path_following.guidance.ilos import IlosConfig
-from auv_path_following.guidance.los import LosConfig
+from auv_path_following.guidance.laws.adaptive_lookahead import AdaptiveLookaheadConfig
+from auv_path_following.guidance.laws.ailos import AilosConfig
+from auv_path_following.guidance.laws.ilos import IlosConfig
+from auv_path_following.guidance.laws.los import LosConfig
 from auv_path_following.guidance.path_follower import PathFollower, PathFollowerConfig
 from auv_path_following.guidance.switching import SwitchingConfig
 from auv_path_following.guidance.virtual_point import VirtualPointConfig
-from auv_path_following.paths.arc import Arc
-from auv_path_following.paths.composite import CompositePath
-from auv_path_following.paths.line import Line
-from auv_path_following.paths.spline import Spline
 
 SPEED, DT = 1.9, 0.05
 STILL = WaterVelocity(0.0, 0.0)

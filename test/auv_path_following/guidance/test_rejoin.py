@@ -8,12 +8,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from auv_msgs_py.types import NO_CURRENT, Navigation, WaterVelocity
+from auv_msgs_py.values.types import NO_CURRENT, Navigation, WaterVelocity
+from auv_path_following.curves.composite import CompositePath
+from auv_path_following.curves.kinds.line import Line
 from auv_path_following.guidance.path_follower import PathFollower
 from auv_path_following.guidance.rejoin import closest_ahead
-from auv_path_following.paths import mission_file
-from auv_path_following.paths.composite import CompositePath
-from auv_path_following.paths.line import Line
+from auv_path_following.missions import mission_file
 
 NORTH_THEN_EAST = CompositePath([Line(0.0, 0.0, 100.0, 0.0), Line(100.0, 0.0, 100.0, math.pi / 2)])
 PAPER = mission_file.load("paper_composite").path

@@ -8,17 +8,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from auv_msgs_py.errors import ConfigurationError
-from auv_msgs_py.settings import validated
-from auv_msgs_py.types import Current
+from auv_msgs_py.settings.schema import validated
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_msgs_py.values.types import Current
+from auv_path_following.curves.composite import CompositePath
+from auv_path_following.curves.kinds.arc import Arc
+from auv_path_following.curves.kinds.line import Line
+from auv_path_following.curves.kinds.reverse import Reversed
+from auv_path_following.curves.kinds.spline import Spline
 from auv_path_following.guidance.acceptance import Cornering, acceptance_radius, corner_of
 from auv_path_following.guidance.switching import SwitchingConfig, circles_of, radius_at, reached
-from auv_path_following.paths.arc import Arc
-from auv_path_following.paths.composite import CompositePath
-from auv_path_following.paths.line import Line
-from auv_path_following.paths.mission_file import MissionSwitching
-from auv_path_following.paths.reverse import Reversed
-from auv_path_following.paths.spline import Spline
+from auv_path_following.missions.mission_file import MissionSwitching
 
 #: A corner (G0) at (40, 0), a smooth joint (G1) at (40, 20), and the end.
 PATH = CompositePath(

@@ -8,7 +8,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
+from auv_msgs_py.values.types import NO_CURRENT, Current, Navigation, WaterVelocity
+from auv_path_following.curves.composite import CompositePath
+from auv_path_following.curves.kinds.arc import Arc
+from auv_path_following.curves.kinds.line import Line
+from auv_path_following.curves.kinds.polynomial import Polynomial
+from auv_path_following.curves.rows import evaluate
 from auv_path_following.guidance.virtual_point import (
     VirtualPoint,
     driven,
@@ -17,11 +22,6 @@ from auv_path_following.guidance.virtual_point import (
     saturated,
     tangential_speed,
 )
-from auv_path_following.paths.arc import Arc
-from auv_path_following.paths.composite import CompositePath
-from auv_path_following.paths.line import Line
-from auv_path_following.paths.polynomial import Polynomial
-from auv_path_following.paths.rows import evaluate
 
 _place = st.floats(-100.0, 100.0)
 _angle = st.floats(-3.0, 3.0)

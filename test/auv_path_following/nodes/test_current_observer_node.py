@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from auv_msgs_py.types import Navigation
+from auv_msgs_py.values.types import Navigation
 from auv_path_following.nodes.current_observer_node import CurrentObserverNode
 from node_bench import NORTHWARD, Bench
 

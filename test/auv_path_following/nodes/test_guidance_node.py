@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from auv_msgs_py import qos, topics
-from auv_msgs_py.types import Navigation
+from auv_msgs_py.contract import qos, topics
+from auv_msgs_py.values.types import Navigation
 from auv_path_following.nodes.guidance_node import GuidanceNode
 from node_bench import Bench
 

@@ -9,8 +9,8 @@ import pytest
 from rclpy.duration import Duration
 from std_msgs.msg import String
 
-from auv_msgs_py import topics
-from auv_msgs_py.types import Navigation
+from auv_msgs_py.contract import topics
+from auv_msgs_py.values.types import Navigation
 from auv_path_following.nodes.heading_autopilot_node import HeadingAutopilotNode
 from node_bench import NORTHWARD, Bench
 

@@ -7,9 +7,9 @@ from collections.abc import Callable
 import pytest
 import rclpy
 
-from auv_msgs_py import qos, topics
-from auv_msgs_py.runtime import SuiteNode
-from auv_msgs_py.types import Navigation
+from auv_msgs_py.contract import qos, topics
+from auv_msgs_py.node.runtime import SuiteNode
+from auv_msgs_py.values.types import Navigation
 from auv_path_following.nodes.current_observer_node import CurrentObserverNode
 from auv_path_following.nodes.guidance_node import GuidanceNode
 from auv_path_following.nodes.heading_autopilot_node import HeadingAutopilotNode

@@ -11,10 +11,10 @@ import pytest
 from mcap.reader import make_reader
 from rosbags.highlevel import AnyReader
 
-from auv_sim.bags import cli
-from auv_sim.recording.bag import read_bag
-from auv_sim.recording.bag_writer import BagWriter
-from auv_sim.recording.definitions import typestore
+from auv_sim.bags.definitions import typestore
+from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.writing.bag_writer import BagWriter
+from auv_sim.cli import bag as bag_command
 
 FLOAT, STRING = "std_msgs/msg/Float64", "std_msgs/msg/String"
 TOTAL = 600
@@ -202,13 +202,13 @@ def test_what_is_readable_is_shown_and_repaired(
     prepare, says, at_least = READABLE[case]
     bag = tmp_path / "bag"
     prepare(bag)
-    assert cli.main(["inspect", str(bag), "--json"]) == 0
+    assert bag_command.main(["inspect", str(bag), "--json"]) == 0
     shown = json.loads(capsys.readouterr().out)
     assert shown["messages"] >= at_least
     assert shown["messages"] <= TOTAL
     assert any(says in note for note in shown["notes"]), shown["notes"]
     assert all("\n" not in note for note in shown["notes"])
-    assert cli.main(["inspect", str(bag)]) == 0
+    assert bag_command.main(["inspect", str(bag)]) == 0
     assert "Traceback" not in capsys.readouterr().out
 
     before = {
@@ -216,7 +216,7 @@ def test_what_is_readable_is_shown_and_repaired(
         for topic in read_bag(bag).topics.values()
         for at, data in zip(topic.log_ns, topic.messages, strict=True)
     }
-    assert cli.main(["repair", str(bag)]) == 0
+    assert bag_command.main(["repair", str(bag)]) == 0
     with AnyReader([bag]) as reader:
         after = {(c.topic, at): bytes(data) for c, at, data in reader.messages()}
     assert after == before
@@ -236,7 +236,7 @@ def test_what_is_no_recording_gets_one_line(
 ) -> None:
     prepare, says = UNREADABLE[case]
     prepare(tmp_path / "bag")
-    assert cli.main([verb, str(tmp_path / "bag")]) == 2
+    assert bag_command.main([verb, str(tmp_path / "bag")]) == 2
     told = capsys.readouterr().err
     assert says in told
     assert told.count("\n") == 1

@@ -14,11 +14,11 @@ import numpy as np
 import pytest
 from rosbags.interfaces import Nodetype
 
-from auv_msgs_py import topics
-from auv_sim.recording.bag import read_bag
-from auv_sim.recording.bag_writer import BagWriter
-from auv_sim.recording.definitions import typestore
-from auv_sim.recording.deserialize import deserializer
+from auv_msgs_py.contract import topics
+from auv_sim.bags.definitions import typestore
+from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.reading.deserialize import deserializer
+from auv_sim.bags.writing.bag_writer import BagWriter
 
 READER = Path(__file__).parents[2] / "node_reader"
 TYPES = {topic.name.strip("/"): topic.type for topic in topics.CONTRACT} | {

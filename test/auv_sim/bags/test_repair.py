@@ -11,12 +11,12 @@ from mcap.records import Schema
 from mcap.stream_reader import StreamReader
 from mcap.writer import IndexType, Writer
 
-from auv_sim.bags import cli
-from auv_sim.recording import repair as module
-from auv_sim.recording.bag import read_bag
-from auv_sim.recording.bag_writer import BagWriter
-from auv_sim.recording.definitions import definition, typestore
-from auv_sim.recording.journal import Journal
+from auv_sim.bags import mending as module
+from auv_sim.bags.definitions import definition, typestore
+from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.writing.bag_writer import BagWriter
+from auv_sim.bags.writing.journal import Journal
+from auv_sim.cli import bag as bag_command
 
 FLOAT = "std_msgs/msg/Float64"
 #: Topic: the schema's name, its encoding and its data, the messages' encoding. The bytes are no text.
@@ -93,7 +93,7 @@ def test_what_is_not_ours_comes_over_as_it_was(
     never_closed(file)
     damaged = file.read_bytes()
     asked = {"in its place": [bag], "a bare file": [file], "--out": [bag, "--out", tmp_path / "new"]}[place]
-    assert cli.main(["repair", *map(str, asked)]) == 0
+    assert bag_command.main(["repair", *map(str, asked)]) == 0
     assert f"whole, {total} messages" in capsys.readouterr().out
     made = {"in its place": bag, "a bare file": bag / "bag_0", "--out": tmp_path / "new"}[place]
     (whole,) = made.glob("*.mcap")
@@ -126,7 +126,7 @@ def test_a_tail_that_belongs_to_nothing_stays_beside(
     at = data.index(b"number 09") - 22 - 9
     data[at + 1 : at + 9] = b"\xff" * 8
     file.write_bytes(data)
-    assert cli.main(["repair", str(bag)]) == 0
+    assert bag_command.main(["repair", str(bag)]) == 0
     out = capsys.readouterr().out
     assert "whole, 9 messages" in out
     assert "bag_0.mcap.damaged: kept" in out
@@ -146,7 +146,7 @@ def test_two_types_on_one_topic_are_not_mixed(tmp_path: Path, capsys: pytest.Cap
             for k in range(3):
                 writer.add_message(number, k, encoding.encode(), k)
         writer.finish()
-    assert cli.main(["repair", str(bag)]) == 0
+    assert bag_command.main(["repair", str(bag)]) == 0
     out = capsys.readouterr().out
     assert "3 messages of a second type 'of cdr' on /a left out" in out
     assert "whole, 3 messages" in out
@@ -180,7 +180,7 @@ def test_a_disk_without_room_leaves_the_old_one_alone(
 
     monkeypatch.setattr(Journal, "commit", commit)
     monkeypatch.setattr(module, "HELD", 1)
-    assert cli.main(["repair", str(tmp_path / "bag")]) == 2
+    assert bag_command.main(["repair", str(tmp_path / "bag")]) == 2
     err = capsys.readouterr().err
     assert "No space left on device" in err and err.count("\n") == 1
     assert {path.name: path.read_bytes() for path in (tmp_path / "bag").iterdir()} == {file.name: before}
@@ -199,7 +199,7 @@ def test_what_did_not_come_over_is_told_and_nothing_is_deleted(
             write(writer, *arguments)  # type: ignore[arg-type]
 
     monkeypatch.setattr(BagWriter, "write", forgetful)
-    assert cli.main(["repair", str(tmp_path / "bag")]) == 0
+    assert bag_command.main(["repair", str(tmp_path / "bag")]) == 0
     out = capsys.readouterr().out
     assert "was damaged: 1 of 100 messages on /a could not be kept" in out
     assert "whole, 99 messages" in out
@@ -211,6 +211,6 @@ def test_an_older_damaged_file_is_not_written_over(tmp_path: Path) -> None:
     file.write_bytes(file.read_bytes() + b"\x05junk")
     older = file.with_name("bag_0.mcap.damaged")
     older.write_text("of an earlier repair")
-    assert cli.main(["repair", str(tmp_path / "bag")]) == 0
+    assert bag_command.main(["repair", str(tmp_path / "bag")]) == 0
     assert older.read_text() == "of an earlier repair"
     assert file.with_name("bag_0.mcap.damaged-2").read_bytes().endswith(b"\x05junk")

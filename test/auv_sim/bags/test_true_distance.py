@@ -13,15 +13,16 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from rich.console import Console
 
-from auv_path_following.paths import mission_file
-from auv_sim.analysis.by_odometry import by_odometry
-from auv_sim.analysis.run import Run
-from auv_sim.bags import compare, compare_picture, inspect_tables
-from auv_sim.bags.flight import Flight
-from auv_sim.bags.flown_settings import differences
-from auv_sim.bags.inspect import as_data
-from auv_sim.bags.report_data import page_data
-from auv_sim.recording.bag import Bag
+from auv_path_following.missions import mission_file
+from auv_sim.bags.content.flown_settings import differences
+from auv_sim.bags.content.recorded_mission import Flight
+from auv_sim.bags.reading.bag import Bag
+from auv_sim.bags.showing import compare_picture, inspect_tables
+from auv_sim.bags.showing.report_data import page_data
+from auv_sim.bags.verbs import compare
+from auv_sim.bags.verbs.inspect import as_data
+from auv_sim.flight.by_odometry import by_odometry
+from auv_sim.flight.run_record import Run
 
 #: How far beside the path the vehicle is, and assumes to be, m.
 TRUE, ASSUMED = 1.5, 0.25

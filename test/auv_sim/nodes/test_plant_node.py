@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from std_msgs.msg import Float64
 
-from auv_msgs_py import qos, topics
-from auv_msgs_py.conversions import nanoseconds
-from auv_msgs_py.topics import Topic
+from auv_msgs_py.contract import qos, topics
+from auv_msgs_py.contract.conversions import nanoseconds
+from auv_msgs_py.contract.topics import Topic
 from auv_sim.nodes.plant_node import RemusPlantNode
 from node_bench import Bench
 

@@ -10,12 +10,12 @@ import pytest
 import rclpy
 from std_msgs.msg import String
 
-from auv_msgs_py import qos, topics
-from auv_msgs_py.errors import ConfigurationError
+from auv_msgs_py.contract import qos, topics
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.writing import disk_room
 from auv_sim.nodes import recorder_node
 from auv_sim.nodes.recorder_node import RecorderNode
-from auv_sim.recording import room
-from auv_sim.recording.bag import read_bag
 from node_bench import Bench
 
 
@@ -25,7 +25,9 @@ class Disk:
     def __init__(self, monkeypatch: pytest.MonkeyPatch, free: int) -> None:
         self.free = free
         usage = shutil.disk_usage("/")
-        monkeypatch.setattr(room.shutil, "disk_usage", lambda _: usage._replace(free=self.free * 1_000_000))
+        monkeypatch.setattr(
+            disk_room.shutil, "disk_usage", lambda _: usage._replace(free=self.free * 1_000_000)
+        )
 
 
 def test_a_recording_is_closed_before_the_disk_is_full(

@@ -25,10 +25,10 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosbags.highlevel import AnyReader
 from std_msgs.msg import Float64, String
 
-from auv_msgs_py import qos, topics
-from auv_sim.recording.bag import read_bag
-from auv_sim.recording.bag_watch import recorded
-from auv_sim.recording.repair import repair
+from auv_msgs_py.contract import qos, topics
+from auv_sim.bags.mending import repair
+from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.reading.bag_watch import recorded
 
 #: What a crash may lose at most, s.
 BOUND = 1.0
@@ -202,7 +202,7 @@ def test_replay_repeats_messages_and_qos(tmp_path: Path, node: Node) -> None:
     stop(process)
     node.destroy_publisher(truth)
     process = start(tmp_path / "second")
-    code = "import sys; from auv_sim.bags.cli import main; sys.exit(main(sys.argv[1:]))"
+    code = "import sys; from auv_sim.cli.bag import main; sys.exit(main(sys.argv[1:]))"
     replay = [sys.executable, "-c", code, "replay", str(tmp_path / "first"), "--topics", "true_current"]
     done = subprocess.run(
         [*replay, "--rate", "2", "--delay", "5"], env=dict(os.environ), timeout=60, check=False

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from auv_msgs_py.angles import wrap
-from auv_msgs_py.pure import bounded, numbers_of, pure
-from auv_msgs_py.settings import setting
-from auv_msgs_py.types import STOP, Command, Navigation, Reference
+from auv_msgs_py.settings.schema import setting
+from auv_msgs_py.values.angles import wrap
+from auv_msgs_py.values.pure import bounded, numbers_of, pure
+from auv_msgs_py.values.types import STOP, Command, Navigation, Reference
 from auv_path_following.control import nism, pid, reference_model, smc
 from auv_path_following.control.controller import HeadingInputs
 from auv_path_following.control.derivative import DerivativeConfig, DerivativeState, derivative

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from auv_msgs_py.pure import bounded, pure
+from auv_msgs_py.values.pure import bounded, pure
 from auv_path_following.vehicle import Vehicle
 
 

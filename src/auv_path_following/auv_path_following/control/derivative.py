@@ -13,8 +13,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from auv_msgs_py.pure import numbers, pure
-from auv_msgs_py.settings import setting, settings
+from auv_msgs_py.settings.schema import setting, settings
+from auv_msgs_py.values.pure import numbers, pure
 
 
 @numbers

@@ -6,8 +6,8 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple
 
-from auv_msgs_py.errors import ConfigurationError
-from auv_msgs_py.pure import numbers_of, pure
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_msgs_py.values.pure import numbers_of, pure
 from auv_path_following.vehicle import Hull, Vehicle
 
 

@@ -11,10 +11,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from auv_msgs_py.angles import wrap
-from auv_msgs_py.errors import ConfigurationError
-from auv_msgs_py.pure import bounded, pure
-from auv_msgs_py.settings import setting, settings
+from auv_msgs_py.settings.schema import setting, settings
+from auv_msgs_py.values.angles import wrap
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_msgs_py.values.pure import bounded, pure
 from auv_path_following.control.hull_model import LEAST_EFFECT, rudder_effect, tightest_turn
 from auv_path_following.vehicle import Vehicle
 

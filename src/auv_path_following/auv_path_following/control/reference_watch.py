@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from auv_msgs_py.types import Reference
-from auv_path_following.guidance.mission_state import State
+from auv_msgs_py.values.types import Reference
+from auv_path_following.missions.mission_state import State
 
 
 class ReferenceWatch:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from auv_msgs_py.pure import bounded, numbers, numbers_of, pure
-from auv_msgs_py.settings import setting, settings
+from auv_msgs_py.settings.schema import setting, settings
+from auv_msgs_py.values.pure import bounded, numbers, numbers_of, pure
 from auv_path_following.control.controller import (
     ControllerOutput,
     HeadingInputs,

@@ -1,1 +1,1 @@
-"""Guidance: virtual point, line-of-sight laws, subpath switching, current observer, mission state."""
+"""Guidance along a path: virtual point, switching, approach, rejoining, line-of-sight laws. No ROS."""

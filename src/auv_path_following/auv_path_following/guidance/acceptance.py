@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from auv_msgs_py.angles import wrap
-from auv_msgs_py.pure import pure
-from auv_msgs_py.types import NO_CURRENT, Current
+from auv_msgs_py.values.angles import wrap
+from auv_msgs_py.values.pure import pure
+from auv_msgs_py.values.types import NO_CURRENT, Current
 from auv_path_following.control.hull_model import tightest_turn
 from auv_path_following.control.nism import NismConfig, kp_of
 from auv_path_following.control.reference_model import ReferenceConfig, limits_of
-from auv_path_following.paths.composite import CompositePath
-from auv_path_following.paths.rows import CHI_IN, CHI_OUT, WIDEST
+from auv_path_following.curves.composite import CompositePath
+from auv_path_following.curves.rows import CHI_IN, CHI_OUT, WIDEST
 from auv_path_following.vehicle import Vehicle
 
 #: Share of the speed through the water that a current across a leg may take.

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from auv_msgs_py.angles import wrap
-from auv_msgs_py.pure import pure
-from auv_msgs_py.settings import setting, settings
-from auv_msgs_py.types import Navigation
+from auv_msgs_py.settings.schema import setting, settings
+from auv_msgs_py.values.angles import wrap
+from auv_msgs_py.values.pure import pure
+from auv_msgs_py.values.types import Navigation
 from auv_path_following.control.hull_model import tightest_turn
+from auv_path_following.curves.dubins import NOTHING, STRAIGHT, Part, Pose, parts, shortest
+from auv_path_following.curves.rows import AFTER, ARC, COLUMNS, KIND, LENGTH, LINE, SPEED, A, B, C, D, E
 from auv_path_following.guidance.acceptance import Cornering, cornering_of
-from auv_path_following.paths.dubins import NOTHING, STRAIGHT, Part, Pose, parts, shortest
-from auv_path_following.paths.rows import AFTER, ARC, COLUMNS, KIND, LENGTH, LINE, SPEED, A, B, C, D, E
 from auv_path_following.vehicle import Vehicle
 
 #: A vehicle this near to a pose (m) and to its course (rad) is there: it needs no approach.

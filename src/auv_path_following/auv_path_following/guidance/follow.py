@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from auv_msgs_py.angles import wrap
-from auv_msgs_py.pure import bounded, pure
-from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
-from auv_path_following.guidance.law import LawInputs
-from auv_path_following.guidance.laws import law_step
+from auv_msgs_py.values.angles import wrap
+from auv_msgs_py.values.pure import bounded, pure
+from auv_msgs_py.values.types import NO_CURRENT, Current, Navigation, WaterVelocity
+from auv_path_following.curves.rows import PathRows, curvature, evaluate
+from auv_path_following.guidance.laws.law import LawInputs
+from auv_path_following.guidance.laws.registered import law_step
 from auv_path_following.guidance.progress import (
     Progress,
     ProgressConfig,
@@ -27,7 +28,6 @@ from auv_path_following.guidance.virtual_point import (
     saturated,
     tangential_speed,
 )
-from auv_path_following.paths.rows import PathRows, curvature, evaluate
 
 #: Longest time between two steps that counts, s: motion in a longer gap is not assumed.
 LONGEST_STEP = 1.0

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from auv_msgs_py.pure import pure
-from auv_msgs_py.types import Current, Navigation, WaterVelocity
+from auv_msgs_py.values.pure import pure
+from auv_msgs_py.values.types import Current, Navigation, WaterVelocity
+from auv_path_following.curves.rows import PathRows
 from auv_path_following.guidance import follow as following
 from auv_path_following.guidance import path_follower
 from auv_path_following.guidance.approach import Agility
@@ -18,14 +19,15 @@ from auv_path_following.guidance.follow import (
     look,
     rejoin,
 )
-from auv_path_following.guidance.limits import (
+from auv_path_following.guidance.path_follower import PathFollowerConfig
+from auv_path_following.missions.limits import (
     BEGINNING,
     Limits,
     LimitsState,
     NoLimits,
     limits_step,
 )
-from auv_path_following.guidance.mission_state import (
+from auv_path_following.missions.mission_state import (
     HOLDING,
     IDLE,
     NO_REASON,
@@ -38,8 +40,6 @@ from auv_path_following.guidance.mission_state import (
     navigation_lost,
     started,
 )
-from auv_path_following.guidance.path_follower import PathFollowerConfig
-from auv_path_following.paths.rows import PathRows
 
 
 class Guide(NamedTuple):

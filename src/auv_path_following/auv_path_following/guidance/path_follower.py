@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from auv_msgs_py.settings import setting
-from auv_msgs_py.types import Current, Navigation, WaterVelocity
+from auv_msgs_py.settings.schema import setting
+from auv_msgs_py.values.types import Current, Navigation, WaterVelocity
+from auv_path_following.curves.composite import CompositePath
 from auv_path_following.guidance import follow as steps
 from auv_path_following.guidance.approach import Agility, ApproachConfig, empty_approach, turn_radius
 from auv_path_following.guidance.follow import (
@@ -16,11 +17,10 @@ from auv_path_following.guidance.follow import (
     first_state,
     follow,
 )
-from auv_path_following.guidance.laws import LAWS
+from auv_path_following.guidance.laws.registered import LAWS
 from auv_path_following.guidance.progress import ProgressConfig, approach_to_go
 from auv_path_following.guidance.switching import SwitchingConfig, circles_of
 from auv_path_following.guidance.virtual_point import VirtualPoint, VirtualPointConfig
-from auv_path_following.paths.composite import CompositePath
 from auv_path_following.registry import law_of, law_settings
 
 

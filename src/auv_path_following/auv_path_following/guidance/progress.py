@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from auv_msgs_py.pure import pure
-from auv_msgs_py.types import Current, Navigation
+from auv_msgs_py.values.pure import pure
+from auv_msgs_py.values.types import Current, Navigation
+from auv_path_following.curves.dubins import Pose
+from auv_path_following.curves.rows import AFTER, LENGTH, PathRows, evaluate
 from auv_path_following.guidance.approach import NEAR, plan
 from auv_path_following.guidance.rejoin import closest_ahead
 from auv_path_following.guidance.switching import Circles, reached
 from auv_path_following.guidance.virtual_point import VirtualPoint, advanced, moved, passed_on
-from auv_path_following.paths.dubins import Pose
-from auv_path_following.paths.rows import AFTER, LENGTH, PathRows, evaluate
 
 
 class ProgressConfig(NamedTuple):

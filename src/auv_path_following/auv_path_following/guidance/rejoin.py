@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from auv_msgs_py.pure import pure
-from auv_path_following.paths.rows import PathRows, evaluate
+from auv_msgs_py.values.pure import pure
+from auv_path_following.curves.rows import PathRows, evaluate
 
 #: Distance between the points that are looked at first, m.
 _SPACING = 0.5

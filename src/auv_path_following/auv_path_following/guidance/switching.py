@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 from typing import Any, Literal, NamedTuple, get_args
 
-from auv_msgs_py.pure import pure
-from auv_msgs_py.settings import Auto, setting, settings
-from auv_msgs_py.types import NO_CURRENT, Current
-from auv_path_following.guidance.acceptance import Corner, Cornering, acceptance_radius, reach
-from auv_path_following.paths.rows import (
+from auv_msgs_py.settings.schema import Auto, setting, settings
+from auv_msgs_py.values.pure import pure
+from auv_msgs_py.values.types import NO_CURRENT, Current
+from auv_path_following.curves.rows import (
     CHI_IN,
     CHI_OUT,
     CORNER,
@@ -20,6 +19,7 @@ from auv_path_following.paths.rows import (
     STRETCH,
     WIDEST,
 )
+from auv_path_following.guidance.acceptance import Corner, Cornering, acceptance_radius, reach
 
 SwitchingMode = Literal["off", "g0", "all"]
 OFF, ONLY_CORNERS, ALL_JOINTS = range(3)

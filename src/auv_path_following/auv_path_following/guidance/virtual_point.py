@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from auv_msgs_py.pure import bounded, pure
-from auv_msgs_py.settings import setting, settings
-from auv_msgs_py.types import Current, Navigation, WaterVelocity
-from auv_path_following.paths.rows import LENGTH, SPEED, PathRows
+from auv_msgs_py.settings.schema import setting, settings
+from auv_msgs_py.values.pure import bounded, pure
+from auv_msgs_py.values.types import Current, Navigation, WaterVelocity
+from auv_path_following.curves.rows import LENGTH, SPEED, PathRows
 
 
 @settings

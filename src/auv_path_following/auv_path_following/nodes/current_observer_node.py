@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from auv_msgs_py import topics
-from auv_msgs_py.conversions import fill_current
-from auv_msgs_py.runtime import SuiteNode, run_nodes
-from auv_msgs_py.wire import Vector3Stamped
-from auv_path_following.guidance.current_observer import CurrentObserver
+from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.conversions import fill_current
+from auv_msgs_py.contract.wire import Vector3Stamped
+from auv_msgs_py.node.runtime import SuiteNode, run_nodes
+from auv_path_following.navigation.current_observer import CurrentObserver
 from auv_path_following.nodes.navigation_input import Inputs, NavigationInput
 from auv_path_following.parameters import ObserverParameters
 

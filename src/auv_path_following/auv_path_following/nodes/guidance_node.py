@@ -5,19 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from auv_msgs_py import topics
-from auv_msgs_py.runtime import SuiteNode, run_nodes
-from auv_msgs_py.types import NO_WATER
+from auv_msgs_py.contract import topics
+from auv_msgs_py.node.runtime import SuiteNode, run_nodes
+from auv_msgs_py.values.types import NO_WATER
 from auv_path_following import vehicle
 from auv_path_following.guidance.approach import ApproachWatch, agility_of
 from auv_path_following.guidance.guide import Measured
-from auv_path_following.guidance.mission_state import State
 from auv_path_following.guidance.path_follower import distance_to_go
+from auv_path_following.missions import mission_file
+from auv_path_following.missions.mission_state import State
 from auv_path_following.nodes.guidance_output import GuidanceMessages, whole_path
 from auv_path_following.nodes.mission_keeper import MissionKeeper
 from auv_path_following.nodes.navigation_input import Inputs, NavigationInput
 from auv_path_following.parameters import GuidanceParameters
-from auv_path_following.paths import mission_file
 
 
 class GuidanceNode(SuiteNode):

@@ -7,14 +7,15 @@ from typing import Any
 from rclpy.clock import Clock, ClockType
 from std_msgs.msg import String
 
-from auv_msgs_py import topics
-from auv_msgs_py.conversions import PATH_FRAME, fill_pose, path_message, set_stamp
-from auv_msgs_py.frames import flip_yaw
-from auv_msgs_py.mission_word import PERIOD, TIMES
-from auv_msgs_py.runtime import SuiteNode
-from auv_msgs_py.wire import Float64, PoseStamped, Vector3Stamped
+from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.conversions import PATH_FRAME, fill_pose, path_message, set_stamp
+from auv_msgs_py.contract.frames import flip_yaw
+from auv_msgs_py.contract.mission_word import PERIOD, TIMES
+from auv_msgs_py.contract.wire import Float64, PoseStamped, Vector3Stamped
+from auv_msgs_py.node.runtime import SuiteNode
+from auv_path_following.curves.composite import CompositePath
 from auv_path_following.guidance.follow import GuidanceOutput
-from auv_path_following.guidance.mission_state import (
+from auv_path_following.missions.mission_state import (
     HOLDING,
     NAVIGATION_LOST,
     STATES,
@@ -23,7 +24,6 @@ from auv_path_following.guidance.mission_state import (
     State,
     words,
 )
-from auv_path_following.paths.composite import CompositePath
 
 #: Distance between the poses of `path`, m.
 _PATH_SPACING = 1.0

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from auv_msgs_py import topics
-from auv_msgs_py.pairing import Pairing
-from auv_msgs_py.runtime import SuiteNode, run_nodes
-from auv_msgs_py.types import STOP, Command, Navigation
-from auv_msgs_py.wire import Float64, Odometry
+from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.pairing import Pairing
+from auv_msgs_py.contract.wire import Float64, Odometry
+from auv_msgs_py.node.runtime import SuiteNode, run_nodes
+from auv_msgs_py.values.types import STOP, Command, Navigation
 from auv_path_following import vehicle
 from auv_path_following.control.autopilot import HeadingAutopilot
 from auv_path_following.nodes.odometry_intake import OdometryIntake

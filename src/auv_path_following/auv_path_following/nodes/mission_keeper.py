@@ -8,11 +8,9 @@ from collections.abc import Callable
 from rclpy.parameter import Parameter
 from std_srvs.srv import Trigger
 
-from auv_msgs_py import topics
-from auv_msgs_py.runtime import SuiteNode
-from auv_msgs_py.types import Current
-from auv_path_following.guidance import limits
-from auv_path_following.guidance import mission_state as states
+from auv_msgs_py.contract import topics
+from auv_msgs_py.node.runtime import SuiteNode
+from auv_msgs_py.values.types import Current
 from auv_path_following.guidance.approach import Agility, empty_approach
 from auv_path_following.guidance.follow import GuidanceOutput
 from auv_path_following.guidance.guide import (
@@ -25,9 +23,11 @@ from auv_path_following.guidance.guide import (
     reconfigured,
     start,
 )
-from auv_path_following.guidance.mission_state import Mission, Reason, State
+from auv_path_following.missions import limits
+from auv_path_following.missions import mission_state as states
+from auv_path_following.missions.mission_file import Mission as MissionFile
+from auv_path_following.missions.mission_state import Mission, Reason, State
 from auv_path_following.nodes.guidance_output import MissionReport
-from auv_path_following.paths.mission_file import Mission as MissionFile
 
 
 class MissionKeeper:

@@ -9,16 +9,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-from auv_msgs_py import topics
-from auv_msgs_py.conversions import current_from, stamp_of, water_velocity_from
-from auv_msgs_py.errors import MessageRefused
-from auv_msgs_py.frames import FrameTable
-from auv_msgs_py.pairing import Pairing
-from auv_msgs_py.runtime import SuiteNode
-from auv_msgs_py.stamps import StampGuard, Verdict
-from auv_msgs_py.topics import Topic
-from auv_msgs_py.types import NO_CURRENT, Current, Navigation, WaterVelocity
-from auv_msgs_py.wire import Odometry, TwistWithCovarianceStamped, Vector3Stamped
+from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.conversions import current_from, stamp_of, water_velocity_from
+from auv_msgs_py.contract.frames import FrameTable
+from auv_msgs_py.contract.pairing import Pairing
+from auv_msgs_py.contract.stamps import StampGuard, Verdict
+from auv_msgs_py.contract.topics import Topic
+from auv_msgs_py.contract.wire import Odometry, TwistWithCovarianceStamped, Vector3Stamped
+from auv_msgs_py.node.runtime import SuiteNode
+from auv_msgs_py.values.errors import MessageRefused
+from auv_msgs_py.values.types import NO_CURRENT, Current, Navigation, WaterVelocity
 from auv_path_following import vehicle
 from auv_path_following.nodes.odometry_intake import OdometryIntake
 

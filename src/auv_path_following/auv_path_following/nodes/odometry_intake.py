@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from auv_msgs_py import topics
-from auv_msgs_py.conversions import navigation_from, stamp_of
-from auv_msgs_py.errors import MessageRefused
-from auv_msgs_py.frames import FrameTable
-from auv_msgs_py.runtime import SuiteNode
-from auv_msgs_py.stamps import Punctuality, StampGuard, Timing, Verdict
-from auv_msgs_py.types import Navigation
-from auv_msgs_py.wire import Odometry
+from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.conversions import navigation_from, stamp_of
+from auv_msgs_py.contract.frames import FrameTable
+from auv_msgs_py.contract.stamps import Punctuality, StampGuard, Timing, Verdict
+from auv_msgs_py.contract.wire import Odometry
+from auv_msgs_py.node.runtime import SuiteNode
+from auv_msgs_py.values.errors import MessageRefused
+from auv_msgs_py.values.types import Navigation
 from auv_path_following import vehicle
-from auv_path_following.navigation_gate import NavigationGate, Passed
+from auv_path_following.navigation.navigation_gate import NavigationGate, Passed
 
 
 class Measured(NamedTuple):

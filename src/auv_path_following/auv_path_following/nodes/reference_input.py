@@ -6,17 +6,17 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from auv_msgs_py import topics
-from auv_msgs_py.conversions import finite
-from auv_msgs_py.errors import MessageRefused
-from auv_msgs_py.frames import flip_yaw
-from auv_msgs_py.mission_word import MissionWord
-from auv_msgs_py.runtime import SuiteNode
-from auv_msgs_py.topics import Topic
-from auv_msgs_py.types import Reference
-from auv_msgs_py.wire import Float64
+from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.conversions import finite
+from auv_msgs_py.contract.frames import flip_yaw
+from auv_msgs_py.contract.mission_word import MissionWord
+from auv_msgs_py.contract.topics import Topic
+from auv_msgs_py.contract.wire import Float64
+from auv_msgs_py.node.runtime import SuiteNode
+from auv_msgs_py.values.errors import MessageRefused
+from auv_msgs_py.values.types import Reference
 from auv_path_following.control.reference_watch import ReferenceWatch
-from auv_path_following.guidance.mission_state import State
+from auv_path_following.missions.mission_state import State
 
 if TYPE_CHECKING:
     from std_msgs.msg import String

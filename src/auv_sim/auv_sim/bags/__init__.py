@@ -1,1 +1,1 @@
-"""`scripts/bag.py`: what can be done with a recording, one verb a module."""
+"""Recordings: writing and reading rosbag2 directories, and what can be done with them."""

@@ -1,1 +1,1 @@
-"""The thin ROS 2 nodes of the simulator and the recorder."""
+"""The ROS 2 nodes of the simulator, the recorder and the fault relay."""

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from auv_msgs_py import topics
-from auv_msgs_py.errors import MessageRefused
-from auv_msgs_py.types import Command
+from auv_msgs_py.contract import topics
+from auv_msgs_py.values.errors import MessageRefused
+from auv_msgs_py.values.types import Command
 
 _RUDDER, _THRUST = topics.RUDDER_CMD.name, topics.THRUST_CMD.name
 #: A command may miss a limit by rounding.

@@ -1,6 +1,6 @@
 """The simulator's side of lockstep: no step without an answer, no answer without a step.
 
-Why it cannot go wrong is written down in `auv_msgs_py.pairing`.
+Why it cannot go wrong is written down in `auv_msgs_py.contract.pairing`.
 """
 
 from __future__ import annotations
@@ -12,11 +12,11 @@ from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.clock import Clock, ClockType
 from std_msgs.msg import UInt64
 
-from auv_msgs_py import topics
-from auv_msgs_py.health import Health
-from auv_msgs_py.lockstep_gate import LockstepGate
-from auv_msgs_py.pairing import Pairing
-from auv_msgs_py.types import Command
+from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.pairing import Pairing
+from auv_msgs_py.node.health import Health
+from auv_msgs_py.node.lockstep_gate import LockstepGate
+from auv_msgs_py.values.types import Command
 
 if TYPE_CHECKING:
     from auv_sim.nodes.plant_node import RemusPlantNode

@@ -6,26 +6,31 @@ import time
 from collections.abc import Sequence
 from typing import Any
 
-from rclpy.clock import Clock as RosClock
-from rclpy.clock import ClockType
+from rclpy import clock as ros_clock
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
-from auv_msgs_py import topics
-from auv_msgs_py.claim import Claim, of_simulator
-from auv_msgs_py.conversions import fill_current, fill_odometry, fill_water_velocity, finite, set_stamp
-from auv_msgs_py.mission_word import MissionWord
-from auv_msgs_py.runtime import SuiteNode, run_nodes
-from auv_msgs_py.types import STOP, Command
-from auv_msgs_py.wire import Clock, Float64, Odometry, TwistWithCovarianceStamped, Vector3Stamped
+from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.conversions import (
+    fill_current,
+    fill_odometry,
+    fill_water_velocity,
+    finite,
+    set_stamp,
+)
+from auv_msgs_py.contract.mission_word import MissionWord
+from auv_msgs_py.contract.wire import Clock, Float64, Odometry, TwistWithCovarianceStamped, Vector3Stamped
+from auv_msgs_py.node.claim import Claim, of_simulator
+from auv_msgs_py.node.runtime import SuiteNode, run_nodes
+from auv_msgs_py.values.types import STOP, Command
 from auv_path_following import vehicle
-from auv_path_following.guidance.mission_state import State
+from auv_path_following.missions.mission_state import State
 from auv_sim.nodes.held_commands import HeldCommands
 from auv_sim.nodes.lockstep import Lockstep
 from auv_sim.nodes.pacing import Pacer
 from auv_sim.parameters import PlantParameters
-from auv_sim.plant import sea
-from auv_sim.plant.simulated import SimulatedVehicle
+from auv_sim.vehicle import sea
+from auv_sim.vehicle.simulated import SimulatedVehicle
 
 #: States of a mission in which the vehicle, free running, obeys no command: it may have come late.
 _OVER = (State.HOLDING, State.COMPLETE, State.ABORTED)
@@ -74,7 +79,7 @@ class RemusPlantNode(SuiteNode):
         self.listen(topics.MISSION_STATE, self._on_mission_state)
         self.create_service(Trigger, topics.RESET_SERVICE, self._on_reset)
         if self.pacer is not None:
-            steady = RosClock(clock_type=ClockType.STEADY_TIME)
+            steady = ros_clock.Clock(clock_type=ros_clock.ClockType.STEADY_TIME)
             self.create_timer(self.pacer.ask_every, self._tick, clock=steady)
 
     def claim(self) -> Claim:

@@ -14,14 +14,14 @@ from typing import Any
 from rclpy.clock import Clock, ClockType
 from std_msgs.msg import UInt64
 
-from auv_msgs_py import topics
-from auv_msgs_py.errors import ConfigurationError
-from auv_msgs_py.runtime import SuiteNode, run_nodes
+from auv_msgs_py.contract import topics
+from auv_msgs_py.node.runtime import SuiteNode, run_nodes
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.bags.writing.bag_writer import BagWriter, texts_below
+from auv_sim.bags.writing.disk_room import room_lacking
+from auv_sim.bags.writing.intake import Taken, Timestamps, drain
+from auv_sim.bags.writing.selection import Selection
 from auv_sim.parameters import RecorderParameters
-from auv_sim.recording.bag_writer import BagWriter, texts_below
-from auv_sim.recording.intake import Taken, Timestamps, drain
-from auv_sim.recording.room import room_lacking
-from auv_sim.recording.selection import Selection
 
 #: Asked for before anything else; only granted to those who may.
 _PRIORITY = -10

@@ -1,0 +1,1 @@
+"""What every node shares: its loop, parameters, diagnostics, clocks and lockstep."""

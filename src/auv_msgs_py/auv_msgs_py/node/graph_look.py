@@ -1,0 +1,123 @@
+"""The look at the graph that a launcher or a simulator takes before it publishes anything."""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import os
+import socket
+import time
+import uuid
+from collections import Counter
+
+from rclpy.node import Node
+from std_msgs.msg import String
+
+from auv_msgs_py.contract import qos, topics
+from auv_msgs_py.node import claim as claims
+from auv_msgs_py.node.claim import Claim
+from auv_msgs_py.node.transport import generated_decoder
+from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
+
+#: How long a look takes, s of wall time: discovery on one machine takes 0.1 to 0.2 s. A process that was
+#: killed announces itself no more, so a participant that is new does not see it.
+LOOK = 0.5
+#: What rclpy calls a node of which only an endpoint has been discovered so far.
+_UNKNOWN = "_NODE_NAME_UNKNOWN_"
+#: More claims than this are not kept: no graph has so many vehicles.
+_MOST = 1000
+
+
+class GraphTaken(ConfigurationError):
+    """What was about to be published is published already; nothing of it has been touched."""
+
+
+class GraphLook:
+    """Look for another /clock and for nodes of the same names, and hold a claim against later ones.
+
+    Args:
+        node: whose publisher and subscription are used; spin it.
+        claim: what the process is going to publish; `process`, `since` and `token` are filled in here.
+        own: full names of nodes of this process that are in the graph and publish /clock.
+        length: of the look, s of wall time.
+    """
+
+    def __init__(self, node: Node, claim: Claim, own: tuple[str, ...] = (), length: float = LOOK) -> None:
+        self._node, self._length = node, length
+        self.claim = dataclasses.replace(
+            claim,
+            process=f"process {os.getpid()} on {socket.gethostname()}",
+            since=time.time_ns(),
+            token=uuid.uuid4().hex,
+        )
+        self._own = Counter(own)
+        self._others: dict[str, Claim] = {}
+        self._begin = time.monotonic()
+        topic = topics.GRAPH_CLAIMS
+        self._decode = generated_decoder(topic)
+        self._publisher = node.create_publisher(String, topic.name, qos.offered(topic))
+        self._publisher.publish(String(data=self.claim.encode()))
+        profile = qos.requested(topic, reliable=True, depth=100)
+        node.create_subscription(String, topic.name, self._on_claim, profile, raw=True)
+
+    def _on_claim(self, data: bytes) -> None:
+        with contextlib.suppress(MessageRefused):
+            other = claims.decode(self._decode(data).data)
+            if other is not None and len(self._others) < _MOST:
+                self._others[other.token] = other
+
+    def ended(self, ready: bool = True) -> bool:
+        """Whether the look is over and nothing was found; from then on the claim is held.
+
+        Args:
+            ready: whether what is going to publish has loaded; until then looking on costs nothing.
+
+        Raises:
+            GraphTaken: something was found.
+        """
+        if self.claim.held:
+            return True
+        over = ready and time.monotonic() - self._begin >= self._length
+        self.check()
+        self._check_graph(over)
+        if over:
+            self.claim = dataclasses.replace(self.claim, held=True)
+            self._publisher.publish(String(data=self.claim.encode()))
+        return over
+
+    def check(self) -> None:
+        """Compare with the claims that are known by now.
+
+        Raises:
+            GraphTaken: another has what this one claims, and stays.
+        """
+        for other in self._others.values():
+            contested = self.claim.contested(other)
+            if contested and self.claim.gives_way_to(other):
+                self._refuse(f"{contested} taken by {other.holder} ({other.process})")
+
+    def _check_graph(self, over: bool) -> None:
+        """Look for what has no claim: nodes started one by one, simulators of others."""
+        names = Counter(
+            topics.full_name(namespace, name)
+            for name, namespace in self._node.get_node_names_and_namespaces()
+            if namespace == self.claim.namespace and name in self.claim.names and name != topics.LAUNCHER
+        )
+        for name in sorted(names - self._own):
+            self._refuse(f"{name} running")
+        if not self.claim.clock:
+            return
+        clocks = Counter(
+            topics.full_name(info.node_namespace, info.node_name)
+            for info in self._node.get_publishers_info_by_topic(topics.CLOCK.name)
+        )
+        for name in sorted(clocks - self._own):
+            if _UNKNOWN not in name:
+                self._refuse(f"{topics.CLOCK.name} published by {name}")
+            elif over:
+                self._refuse(f"{topics.CLOCK.name} published by a node without a name")
+
+    def _refuse(self, found: str) -> None:
+        place = "ROS domain" if topics.CLOCK.name in found else "ROS domain or namespace"
+        expected = f"a graph without it, hence another {place} (nothing that runs was touched)"
+        raise GraphTaken(self.claim.holder, found, expected)

@@ -1,0 +1,148 @@
+"""The loop that runs nodes until a signal, a fault or their end."""
+
+from __future__ import annotations
+
+import gc
+import signal
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
+
+from auv_msgs_py.node.graph_look import GraphLook
+from auv_msgs_py.node.log_directory import ensure_log_directory
+from auv_msgs_py.node.ros_arguments import check_parameter_files
+from auv_msgs_py.node.start_gate import is_gated, pass_gate
+from auv_msgs_py.values.errors import SuiteError, printable
+
+try:
+    from rclpy.experimental import EventsExecutor
+except ImportError:  # an rclpy without it: slower, otherwise the same
+    EventsExecutor = SingleThreadedExecutor
+
+if TYPE_CHECKING:
+    from auv_msgs_py.node.runtime import SuiteNode
+
+#: Exit code for input that cannot be used; 1 is for everything else that went wrong.
+EXIT_BAD_INPUT = 2
+#: How long nodes may go on after a stop was requested, s of wall time.
+_GRACE = 5.0
+
+
+class StopRequest:
+    """SIGINT and SIGTERM set a flag; ROS stays up, so that what is under way can be finished."""
+
+    def __init__(self) -> None:
+        self.requested = False
+        self._before = {
+            number: signal.signal(number, self._request) for number in (signal.SIGINT, signal.SIGTERM)
+        }
+
+    def withdraw(self) -> None:
+        """Give the signals back to who had them."""
+        for number, handler in self._before.items():
+            signal.signal(number, handler)
+
+    def _request(self, *_: object) -> None:
+        self.requested = True
+
+
+def spin(nodes: Sequence[SuiteNode], stop: StopRequest) -> int:
+    """Run nodes in this thread until a signal, a fault, or until one has finished; returns the exit code."""
+    executor = EventsExecutor()
+    for node in nodes:
+        executor.add_node(node)
+    gc.collect()
+    gc.freeze()  # what is there now stays: searching it for garbage again and again takes milliseconds
+    while not stop.requested and not any(node.fault or node.finished for node in nodes):
+        _spin_some(executor, nodes)
+    deadline = time.monotonic() + _GRACE
+    while any(node.busy() for node in nodes) and time.monotonic() < deadline:
+        executor.spin_once(timeout_sec=0.02)
+    for node in nodes:
+        if node.fault:
+            print(f"{node.get_fully_qualified_name()}: {node.fault}", file=sys.stderr)
+    return 1 if any(node.fault for node in nodes) else 0
+
+
+def _spin_some(executor: Any, nodes: Sequence[SuiteNode]) -> None:
+    """Handle everything that comes within a tenth of a second, or until a node asks for attention.
+
+    EventsExecutor.spin() and spin_once(None) deliver nothing in rclpy 7.1. spin_once() with a time returns
+    after every single message, which costs as much again as handling it; waiting for a future with a time
+    stays in C++ and lets Python see a signal soon enough.
+    """
+    attention = Future()
+
+    def interrupt() -> None:
+        if not attention.done():
+            attention.set_result(None)
+
+    for node in nodes:
+        node.interrupt_spinning = interrupt
+    executor.spin_until_future_complete(attention, timeout_sec=0.1)
+
+
+def _look_around(nodes: Sequence[SuiteNode], stop: StopRequest) -> Iterator[Node]:
+    """Look at the graph for simulators that were started by hand, while nothing has been published yet.
+
+    Returns:
+        The nodes that hold their claims.
+
+    Raises:
+        GraphTaken: there is another.
+    """
+    for node in nodes:
+        claim = node.claim()
+        if claim is None or is_gated():
+            continue
+        name = node.get_fully_qualified_name()
+        watcher = rclpy.create_node("_graph_look", use_global_arguments=False, start_parameter_services=False)
+        yield watcher
+        executor = SingleThreadedExecutor()
+        executor.add_node(watcher)
+        look = GraphLook(watcher, claim, (name,))
+        while not (look.ended() or stop.requested):
+            executor.spin_once(timeout_sec=0.02)
+        executor.remove_node(watcher)
+
+
+def run_nodes(factories: Sequence[Callable[[], SuiteNode]], args: Sequence[str] | None = None) -> int:
+    """The body of every executable: make the nodes, run them, leave nothing behind.
+
+    Returns:
+        0 after a signal or when a node has finished, 1 after a fault, 2 for input that cannot be used.
+    """
+    ensure_log_directory()
+    try:
+        check_parameter_files(sys.argv if args is None else args)
+        rclpy.init(args=args if args is None else list(args), signal_handler_options=SignalHandlerOptions.NO)
+    except (SuiteError, RuntimeError) as error:  # RuntimeError: arguments that ROS does not understand
+        print(printable(str(error)), file=sys.stderr)
+        return EXIT_BAD_INPUT
+    stop = StopRequest()
+    nodes: list[SuiteNode] = []
+    watchers: list[Node] = []
+    try:
+        if not pass_gate(lambda: stop.requested):
+            return 0
+        for factory in factories:
+            nodes.append(factory())
+        watchers.extend(_look_around(nodes, stop))
+        return spin(nodes, stop)
+    except SuiteError as error:
+        print(error, file=sys.stderr)
+        return EXIT_BAD_INPUT
+    finally:
+        for node in nodes:
+            node.close()
+            node.destroy_node()
+        for watcher in watchers:
+            watcher.destroy_node()
+        rclpy.try_shutdown()

@@ -1,0 +1,1 @@
+"""Self-describing settings, and the YAML and parameter files that carry them. No ROS."""

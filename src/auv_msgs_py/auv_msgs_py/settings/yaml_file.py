@@ -1,0 +1,77 @@
+"""YAML in, validated settings out; YAML 1.2 scalars, duplicate keys refused, every size bounded."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, TypeVar
+
+import yaml
+
+from auv_msgs_py.settings import user_files, yaml_document
+from auv_msgs_py.settings.result_files import write_text
+from auv_msgs_py.settings.schema import validated
+from auv_msgs_py.values.errors import ConfigurationError
+
+T = TypeVar("T")
+
+#: Largest YAML file that is read, bytes.
+MOST_BYTES = 4_000_000
+
+
+class _Dumper(yaml.SafeDumper):
+    """Puts text in quotes that either version of YAML would read as something else."""
+
+
+_Dumper.add_implicit_resolver("tag:yaml.org,2002:float", yaml_document.FLOAT, "-+0123456789.")
+
+
+def parse(path: Path) -> Any:
+    """The file as plain Python objects.
+
+    Raises:
+        ConfigurationError: the file is missing, not readable, too large, not text or not YAML, with line and
+            column.
+    """
+    return parse_text(user_files.read_text(path, "a YAML file", MOST_BYTES), str(path))
+
+
+def parse_text(text: str, where: str) -> Any:
+    """YAML from elsewhere than a file as plain Python objects.
+
+    Args:
+        text: the YAML.
+        where: its place, for the error.
+
+    Raises:
+        ConfigurationError: it is not YAML, with line and column.
+    """
+    try:
+        return yaml_document.build(text)
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        place = f"{where}: line {mark.line + 1}, column {mark.column + 1}" if mark else where
+        problem = getattr(error, "problem", None) or str(error).splitlines()[0]
+        raise ConfigurationError(
+            place, f"text that cannot be read ({problem})", "YAML, each key once"
+        ) from None
+
+
+def load(path: Path, cls: type[T]) -> T:
+    """Read a YAML file into a settings class.
+
+    Raises:
+        ConfigurationError: one line with file and key, what was found and what was expected.
+    """
+    data = parse(path)
+    if data is None:
+        raise ConfigurationError(str(path), "an empty file", "a mapping of keys to values")
+    return validated(cls, data, str(path))
+
+
+def dump(data: Any, path: Path) -> None:
+    """Write plain objects as YAML that both this module and ROS 2's parameter parser read back alike.
+
+    Raises:
+        NotWritten: the file cannot be written.
+    """
+    write_text(path, yaml.dump(data, Dumper=_Dumper, sort_keys=False, allow_unicode=True))

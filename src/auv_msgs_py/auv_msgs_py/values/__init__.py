@@ -1,0 +1,1 @@
+"""Immutable values, angles, errors and the form of pure laws. No ROS."""

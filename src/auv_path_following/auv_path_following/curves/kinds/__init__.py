@@ -1,0 +1,1 @@
+"""The kinds of segments, one a file."""

@@ -1,0 +1,1 @@
+"""The guidance laws, one a file; `registered` lists them."""

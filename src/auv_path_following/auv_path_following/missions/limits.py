@@ -1,0 +1,240 @@
+"""The limits of a mission: where it may go, how far off, how long, how slowly. No ROS, no clock."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+from auv_msgs_py.settings.schema import setting, settings
+from auv_msgs_py.values.pure import dispatched, numbers, numbers_of, pure
+from auv_msgs_py.values.types import Navigation
+from auv_path_following.missions.mission_state import (
+    DURATION,
+    GEOFENCE,
+    GROUND_SPEED,
+    NO_REASON,
+    PATH_DISTANCE,
+    PATH_SPEED,
+    Reason,
+)
+
+Point = tuple[float, float]
+
+#: Chords per window: summing chords counts a circle as progress but not jitter.
+_CHORDS = 6
+
+
+@numbers
+@settings
+class LimitsConfig:
+    """Limits that end a mission. 0 is no limit; of parameters and mission file the stricter counts."""
+
+    path_distance: float = setting(
+        0.0, "largest distance from the virtual point, once the vehicle was within it; 0: any", unit="m",
+        ge=0.0, live=True,
+    )  # fmt: skip
+    duration: float = setting(0.0, "longest mission; 0: any", unit="s", ge=0.0, live=True)
+    ground_speed: float = setting(
+        0.0, "lowest speed over ground; 0: any. Below it the current is too strong to make way", unit="m/s",
+        ge=0.0, live=True,
+    )  # fmt: skip
+    ground_speed_window: float = setting(
+        30.0, "time over which the speed over ground is taken", unit="s", ge=2.0, le=3600.0, live=True
+    )
+    path_speed: float = setting(
+        0.0,
+        "lowest speed of the virtual point along the path, once it has advanced that far within one window;"
+        " 0: any. Below it the vehicle moves, but does not follow",
+        unit="m/s",
+        ge=0.0,
+        live=True,
+    )
+    path_speed_window: float = setting(
+        60.0, "time over which the speed along the path is taken", unit="s", ge=2.0, le=3600.0, live=True
+    )
+
+    def stricter(self, other: LimitsConfig) -> LimitsConfig:
+        """Both hold; a window comes with the higher speed."""
+        ground = other if other.ground_speed > self.ground_speed else self
+        along = other if other.path_speed > self.path_speed else self
+        return dataclasses.replace(
+            self,
+            path_distance=_stricter(self.path_distance, other.path_distance),
+            duration=_stricter(self.duration, other.duration),
+            ground_speed=ground.ground_speed,
+            ground_speed_window=ground.ground_speed_window,
+            path_speed=along.path_speed,
+            path_speed_window=along.path_speed_window,
+        )
+
+
+def _stricter(one: float, other: float) -> float:
+    return min(one, other) if one and other else one or other
+
+
+class Marks(NamedTuple):
+    """A place at the corners of the chords into which the last seconds are divided; the newest last.
+
+    Attributes:
+        corners: so far, at most `_CHORDS` + 1.
+        time: since the first one, s.
+        times, xs, ys: of the corners, s and m.
+    """
+
+    corners: int
+    time: float
+    times: tuple[float, ...]
+    xs: tuple[float, ...]
+    ys: tuple[float, ...]
+
+
+_NONE = (0.0,) * (_CHORDS + 1)
+_NO_MARKS = Marks(0, 0.0, _NONE, _NONE, _NONE)
+
+
+@pure
+def marked(marks: Marks, x: float, y: float, dt: float, window: float) -> tuple[Marks, bool]:
+    """Add a place, `dt` s after the last; return the corners, and whether a full window's chord has ended."""
+    count, time, times, xs, ys = marks
+    time += dt
+    if count > 0 and time - times[-1] < window / _CHORDS:
+        return Marks(count, time, times, xs, ys), False
+    if dt > window:  # nothing was measured for a whole window
+        count, time = 0, 0.0
+    count = min(count + 1, _CHORDS + 1)
+    corners = Marks(count, time, (*times[1:], time), (*xs[1:], x), (*ys[1:], y))
+    return corners, count > _CHORDS
+
+
+class Limits(NamedTuple):
+    """Configuration: the limits, and the corners (north, east), m, of the area that must not be left."""
+
+    values: LimitsConfig
+    geofence: Any
+
+
+class NoLimits(NamedTuple):
+    """Configuration of a flight that never has limits: not even its time is counted."""
+
+
+class LimitsState(NamedTuple):
+    """State of the limits of one mission.
+
+    Attributes:
+        elapsed: s.
+        has_been_near: whether the vehicle has been within `path_distance`.
+        most_to_go: largest distance to go so far, m.
+        has_followed: whether the virtual point has advanced as far as `path_speed` says in one window.
+        places, to_go: marks of the position, and of the distance to go.
+    """
+
+    elapsed: float = 0.0
+    has_been_near: bool = False
+    most_to_go: float = -math.inf
+    has_followed: bool = False
+    places: Marks = _NO_MARKS
+    to_go: Marks = _NO_MARKS
+
+
+#: The state when a mission begins.
+BEGINNING = LimitsState()
+
+
+#: Measured pose (NED); its place as seen from the virtual point, xe and ye, and the path to go, m; whether
+#: the mission holds: only its time counts; whether it was stopped until now: speeds are measured anew.
+LimitsInputs = tuple[Navigation, float, float, float, bool, bool]
+
+
+def prepare(config: LimitsConfig, geofence: Sequence[Point] = ()) -> Limits:
+    """Return the configuration of the limits.
+
+    Args:
+        config: the limits.
+        geofence: corners (north, east), m; empty for no geofence.
+    """
+    return Limits(numbers_of(config), tuple((float(x), float(y)) for x, y in geofence))
+
+
+@pure
+def no_limits(
+    config: NoLimits, state: LimitsState, inputs: LimitsInputs, dt: float
+) -> tuple[LimitsState, Reason]:
+    """Never end a mission."""
+    return state, NO_REASON
+
+
+@pure
+def limits(config: Limits, state: LimitsState, inputs: LimitsInputs, dt: float) -> tuple[LimitsState, Reason]:
+    """Return the reason why a mission must end, or `NO_REASON`. Constant in time."""
+    c = config.values
+    elapsed, has_been_near, most_to_go, has_followed, places, along = state
+    elapsed += dt
+    reason = NO_REASON
+    navigation, xe, ye, to_go, holds, rests = inputs
+    x, y = navigation.x, navigation.y
+    if rests:
+        places, along = _NO_MARKS, _NO_MARKS
+    if c.duration > 0.0 and elapsed > c.duration:
+        reason = Reason(DURATION, elapsed, 0.0, c.duration)
+    elif not holds:
+        off_path = math.hypot(xe, ye)
+        is_near = off_path <= c.path_distance
+        if c.path_distance > 0.0 and has_been_near and not is_near:
+            reason = Reason(PATH_DISTANCE, off_path, 0.0, c.path_distance)
+        elif len(config.geofence) > 0 and not inside(config.geofence, x, y):
+            reason = Reason(GEOFENCE, x, y, 0.0)
+        else:
+            places, reason = _over_ground(c, places, x, y, dt)
+            if c.path_speed > 0.0 and not rests:
+                most_to_go = max(most_to_go, to_go)
+                if has_followed and reason.cause == NO_REASON.cause:
+                    along, reason = _along(c, along, to_go, dt)
+                advanced = most_to_go - to_go >= c.path_speed * c.path_speed_window
+                has_followed = has_followed or advanced
+        has_been_near = has_been_near or (is_near and c.path_distance > 0.0)
+    return LimitsState(elapsed, has_been_near, most_to_go, has_followed, places, along), reason
+
+
+@pure
+def _over_ground(c: LimitsConfig, marks: Marks, x: float, y: float, dt: float) -> tuple[Marks, Reason]:
+    """Judge the speed over ground."""
+    if c.ground_speed > 0.0:
+        marks, is_full = marked(marks, x, y, dt, c.ground_speed_window)
+        if is_full:
+            way = 0.0
+            for k in range(_CHORDS):
+                way += math.hypot(marks.xs[k + 1] - marks.xs[k], marks.ys[k + 1] - marks.ys[k])
+            time = marks.times[-1] - marks.times[0]
+            if way / time < c.ground_speed:
+                return marks, Reason(GROUND_SPEED, way / time, time, c.ground_speed)
+    return marks, NO_REASON
+
+
+@pure
+def _along(c: LimitsConfig, marks: Marks, to_go: float, dt: float) -> tuple[Marks, Reason]:
+    """Judge the speed along the path."""
+    marks, is_full = marked(marks, to_go, 0.0, dt, c.path_speed_window)
+    if is_full:
+        time = marks.times[-1] - marks.times[0]
+        speed = (marks.xs[0] - marks.xs[-1]) / time
+        if speed < c.path_speed:
+            return marks, Reason(PATH_SPEED, speed, time, c.path_speed)
+    return marks, NO_REASON
+
+
+limits_step = dispatched({NoLimits: no_limits, Limits: limits})
+
+
+@pure
+def inside(polygon: Any, x: float, y: float) -> bool:
+    """Return whether a point is in a polygon (corners in order, implicitly closed): even-odd rule."""
+    result = False
+    bx, by = polygon[len(polygon) - 1][0], polygon[len(polygon) - 1][1]
+    for k in range(len(polygon)):
+        ax, ay = polygon[k][0], polygon[k][1]
+        if (ay > y) != (by > y) and x < ax + (y - ay) / (by - ay) * (bx - ax):
+            result = not result
+        bx, by = ax, ay
+    return result

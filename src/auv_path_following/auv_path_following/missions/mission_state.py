@@ -1,0 +1,154 @@
+"""The life of a mission: idle, running, holding, complete, aborted. No ROS, no clock of its own."""
+
+from __future__ import annotations
+
+import enum
+import math
+from typing import NamedTuple
+
+from auv_msgs_py.settings.schema import setting, settings
+from auv_msgs_py.values.pure import pure
+
+
+class State(enum.StrEnum):
+    """The words on the wire."""
+
+    IDLE = "idle"
+    RUNNING = "running"
+    HOLDING = "holding"
+    COMPLETE = "complete"
+    ABORTED = "aborted"
+
+
+#: The states as numbers, for pure steps: their places among the words.
+IDLE, RUNNING, HOLDING, COMPLETE, ABORTED = range(5)
+STATES = tuple(State)
+
+# Causes of a state, for pure steps.
+(
+    WAITS, STARTED, NAVIGATION_BACK, END_OF_PATH, NAVIGATION_LOST, HELD_TOO_LONG, ABORT_CALLED,
+    DURATION, PATH_DISTANCE, GEOFENCE, GROUND_SPEED, PATH_SPEED,
+) = range(12)  # fmt: skip
+
+_WORDS = {
+    WAITS: "waiting for the start service",
+    STARTED: "started",
+    NAVIGATION_BACK: "navigation is back",
+    END_OF_PATH: "the end of the path was reached",
+    NAVIGATION_LOST: "no usable navigation for {bound:g} s",
+    HELD_TOO_LONG: "held for more than {bound:g} s: no usable navigation for {found:g} s",
+    ABORT_CALLED: "abort was called",
+    DURATION: "limit duration: {found:.1f} s, at most {bound:g} s",
+    PATH_DISTANCE: "limit path_distance: {found:.1f} m from the path, at most {bound:g} m",
+    GEOFENCE: "limit geofence: left at north {found:.1f} m, east {over:.1f} m",
+    GROUND_SPEED: "limit ground_speed: {found:.2f} m/s over {over:.1f} s, at least {bound:g} m/s",
+    PATH_SPEED: "limit path_speed: {found:.2f} m/s over {over:.1f} s, at least {bound:g} m/s",
+}
+
+
+class Reason(NamedTuple):
+    """Why a mission is in its state: one of the causes, and the numbers of its wording."""
+
+    cause: int = WAITS
+    found: float = 0.0
+    over: float = 0.0
+    bound: float = 0.0
+
+
+#: No reason to end a mission.
+NO_REASON = Reason(WAITS, 0.0, 0.0, 0.0)
+
+
+def words(reason: Reason, detail: str = "") -> str:
+    """Return a reason as text.
+
+    Args:
+        reason: the reason.
+        detail: what is known of lost navigation.
+    """
+    text = _WORDS[reason.cause].format(found=reason.found, over=reason.over, bound=reason.bound)
+    of_navigation = reason.cause in (NAVIGATION_LOST, HELD_TOO_LONG)
+    return f"{text} ({detail})" if detail and of_navigation else text
+
+
+@settings
+class HoldingConfig:
+    """How long a running mission bears missing navigation, in ROS time."""
+
+    hold_after: float = setting(
+        1.0,
+        "without navigation for this long the mission holds: thrust 0",
+        unit="s",
+        ge=0.1,
+        le=60.0,
+        live=True,
+    )
+    abort_after: float = setting(
+        30.0, "holding for this long ends the mission", unit="s", ge=0.1, le=3600.0, live=True
+    )
+
+
+class Mission(NamedTuple):
+    """State and reason; while holding, `since` when (ROS time, s), else NaN."""
+
+    state: int = IDLE
+    reason: Reason = NO_REASON
+    since: float = math.nan
+
+
+@pure
+def is_under_way(mission: Mission) -> bool:
+    """Return whether a mission was started and has not ended."""
+    return mission.state == RUNNING or mission.state == HOLDING
+
+
+@pure
+def started(mission: Mission) -> Mission:
+    """Begin (anew) from idle, complete or aborted; a mission that is under way is unchanged."""
+    if is_under_way(mission):
+        return mission
+    return Mission(RUNNING, Reason(STARTED, 0.0, 0.0, 0.0), math.nan)
+
+
+@pure
+def aborted(mission: Mission, reason: Reason) -> Mission:
+    """End a mission, begun or not; the first reason stays, and a completed one stays complete."""
+    if mission.state == COMPLETE or mission.state == ABORTED:
+        return mission
+    return Mission(ABORTED, reason, math.nan)
+
+
+@pure
+def completed(mission: Mission) -> Mission:
+    """Complete a running mission: the end of the path was reached."""
+    if mission.state != RUNNING:
+        return mission
+    return Mission(COMPLETE, Reason(END_OF_PATH, 0.0, 0.0, 0.0), math.nan)
+
+
+@pure
+def navigation_lost(mission: Mission, hold_after: float, now: float) -> Mission:
+    """Hold a running mission: no usable navigation for `hold_after` s; `now` is ROS time, s."""
+    if mission.state != RUNNING:
+        return mission
+    return Mission(HOLDING, Reason(NAVIGATION_LOST, 0.0, 0.0, hold_after), now)
+
+
+@pure
+def navigation_back(mission: Mission) -> Mission:
+    """Resume a mission that holds."""
+    if mission.state != HOLDING:
+        return mission
+    return Mission(RUNNING, Reason(NAVIGATION_BACK, 0.0, 0.0, 0.0), math.nan)
+
+
+@pure
+def waited(mission: Mission, abort_after: float, now: float) -> Mission:
+    """Let time pass; holding for longer than `abort_after` s aborts. `now` is ROS time, s."""
+    if mission.state != HOLDING:
+        return mission
+    if now < mission.since:  # the clock went back
+        return Mission(HOLDING, mission.reason, now)
+    if now - mission.since > abort_after:
+        return Mission(ABORTED, Reason(HELD_TOO_LONG, mission.reason.bound, 0.0, abort_after), math.nan)
+    return mission

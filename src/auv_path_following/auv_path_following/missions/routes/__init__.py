@@ -1,0 +1,1 @@
+"""Generators of segments from waypoints, areas and ready-made shapes."""

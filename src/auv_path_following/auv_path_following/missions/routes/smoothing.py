@@ -1,0 +1,205 @@
+"""Waypoints to subpaths: the five kinds of composite path of Table 1, and a spline."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Literal
+
+from auv_msgs_py.settings.schema import setting, settings
+from auv_msgs_py.values.angles import wrap
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following.curves import dubins
+from auv_path_following.curves.dubins import Pose
+from auv_path_following.curves.kinds.line import Line
+from auv_path_following.curves.kinds.spline import Spline
+from auv_path_following.curves.segment import Segment
+from auv_path_following.missions.routes.corners import SHAPES, Corner
+
+Point = tuple[float, float]
+
+#: Gap allowed at the joints of what is built here, m.
+TOLERANCE = 1e-9
+#: A smaller change of course is no corner, rad.
+_STRAIGHT = 1e-9
+#: A larger one is a way back, which no curve through the corner can round, rad.
+_BACK = math.pi - 1e-3
+
+Kind = Literal["linear", "circular", "dubins", "clothoid", "fermat", "spline"]
+
+
+@settings
+class Smoothing:
+    """How corners are rounded.
+
+    circular, clothoid and fermat need a radius or a distance, dubins a radius, the others neither.
+    """
+
+    kind: Kind = setting(
+        doc="linear G0, circular G1, dubins G1, clothoid G2, fermat G2, spline (through all points)"
+    )
+    radius: float | None = setting(None, "tightest radius of every corner", unit="m", gt=0.0)
+    distance: float | None = setting(
+        None, "in place of a radius: how far before and behind a waypoint the legs are left", unit="m", gt=0.0
+    )
+    start_course_deg: float | None = setting(
+        None, "course at the first waypoint (dubins, spline)", unit="deg"
+    )
+    end_course_deg: float | None = setting(None, "course at the last waypoint (dubins, spline)", unit="deg")
+
+
+def smooth(points: Sequence[Point], smoothing: Smoothing, closed: bool = False) -> list[Segment]:
+    """The subpaths along waypoints.
+
+    Args:
+        points: waypoints (north, east), m.
+        smoothing: what to do at the corners.
+        closed: go on from the last waypoint to the first one, rounding every corner.
+
+    Returns:
+        Segments that meet within `TOLERANCE`. Closed and rounded, they begin where the first waypoint's
+        corner has been rounded (dubins and linear: at the first waypoint).
+
+    Raises:
+        ConfigurationError: too few points, two in one place, a corner that does not fit (which waypoint,
+            and by how many metres), or keys that do not belong together.
+    """
+    _check_keys(smoothing, closed)
+    way = [(float(x), float(y)) for x, y in points]
+    if closed and len(way) > 1 and way[0] == way[-1]:
+        way.pop()
+    least = 3 if closed else 2
+    if len(way) < least:
+        raise ConfigurationError(
+            "points", f"{len(way)} point(s)", f"at least {least}{' for a closed path' if closed else ''}"
+        )
+    legs = [_leg(way, i) for i in range(len(way) if closed else len(way) - 1)]
+    if smoothing.kind == "spline":
+        courses = _end_courses(smoothing)
+        return [Spline(way, *courses)]
+    if smoothing.kind == "dubins":
+        return _dubins(way, legs, smoothing, closed)
+    if smoothing.kind == "linear":
+        return [Line(*way[i], length, chi) for i, (length, chi) in enumerate(legs)]
+    return _rounded(way, legs, smoothing, closed)
+
+
+def _check_keys(smoothing: Smoothing, closed: bool) -> None:
+    kind, radius, distance = smoothing.kind, smoothing.radius, smoothing.distance
+    if kind in SHAPES and (radius is None) == (distance is None):
+        found = "neither radius nor distance" if radius is None else "both radius and distance"
+        raise ConfigurationError("smoothing", found, f"one of them for {kind}")
+    if kind == "dubins" and (radius is None or distance is not None):
+        raise ConfigurationError(
+            "smoothing", "no radius" if radius is None else "a distance", "a radius for dubins"
+        )
+    if kind in ("linear", "spline") and (radius is not None or distance is not None):
+        raise ConfigurationError("smoothing", "a radius or distance", f"neither for {kind}")
+    if kind == "spline" and closed:
+        raise ConfigurationError("closed", "true", "false for spline, which has two ends")
+    if any(course is not None for course in _end_courses(smoothing)):
+        if kind not in ("dubins", "spline"):
+            found = "start_course_deg or end_course_deg"
+            raise ConfigurationError("smoothing", found, "neither, they are for dubins and spline")
+        if closed:
+            raise ConfigurationError(
+                "smoothing", "start_course_deg or end_course_deg", "neither for a closed path"
+            )
+
+
+def _end_courses(smoothing: Smoothing) -> tuple[float | None, float | None]:
+    degrees = (smoothing.start_course_deg, smoothing.end_course_deg)
+    first, last = (None if course is None else math.radians(course) for course in degrees)
+    return first, last
+
+
+def _leg(way: list[Point], i: int) -> tuple[float, float]:
+    """Length (m) and course (rad) from waypoint i to the next one."""
+    j = (i + 1) % len(way)
+    north, east = way[j][0] - way[i][0], way[j][1] - way[i][1]
+    length = math.hypot(north, east)
+    if length <= 1e-6:
+        raise ConfigurationError(f"points[{j}]", f"the same place as points[{i}]", "a waypoint some way off")
+    return length, math.atan2(east, north)
+
+
+def _corner(way: list[Point], legs: list[tuple[float, float]], i: int) -> Corner | None:
+    """Waypoint i with the legs before and after it; None when they are in line."""
+    chi_in, chi_out = legs[i - 1][1], legs[i][1]
+    turn = wrap(chi_out - chi_in)
+    if abs(turn) < _STRAIGHT:
+        return None
+    if abs(turn) > _BACK:
+        raise ConfigurationError(f"points[{i}]", "a way straight back", "less than a half turn, or dubins")
+    return Corner(*way[i], chi_in, chi_out, turn)
+
+
+def _rounded(
+    way: list[Point], legs: list[tuple[float, float]], smoothing: Smoothing, closed: bool
+) -> list[Segment]:
+    shape, n = SHAPES[smoothing.kind], len(way)
+    corners = {i: _corner(way, legs, i) for i in (range(n) if closed else range(1, n - 1))}
+    distance = [0.0] * n
+    for i, corner in corners.items():
+        if corner is not None:
+            radius = smoothing.radius
+            distance[i] = (
+                smoothing.distance if radius is None else radius * shape.reach(abs(corner.turn))
+            ) or 0.0
+    for i, (length, _) in enumerate(legs):
+        _check_room(i, (i + 1) % n, length, distance, smoothing)
+    segments: list[Segment] = []
+    opening = 0
+    for i, (length, chi) in enumerate(legs):
+        corner = corners.get(i)
+        if corner is not None:
+            segments += shape.build(corner, distance[i])
+        if i == 0:
+            opening = len(segments)
+        straight = length - distance[i] - distance[(i + 1) % n]
+        if straight > TOLERANCE:
+            x, y = way[i][0] + distance[i] * math.cos(chi), way[i][1] + distance[i] * math.sin(chi)
+            segments.append(Line(x, y, straight, chi))
+    # A closed path begins behind its first waypoint's corner, not inside it.
+    return segments[opening:] + segments[:opening]
+
+
+def _check_room(i: int, j: int, length: float, distance: list[float], smoothing: Smoothing) -> None:
+    missing = distance[i] + distance[j] - length
+    if missing <= TOLERANCE:
+        return
+    tight = i if distance[i] > distance[j] else j
+    wish = (
+        f"radius of {smoothing.radius:g} m"
+        if smoothing.radius is not None
+        else f"distance of {smoothing.distance:g} m"
+    )
+    rounded = [f"{distance[k]:.3f} m at points[{k}]" for k in (i, j) if distance[k] > 0.0]
+    raise ConfigurationError(
+        f"points[{tight}]",
+        f"a corner that does not fit: the {smoothing.kind} {wish} takes {' and '.join(rounded)} of a leg of"
+        f" {length:.3f} m, {missing:.3f} m too much",
+        "a smaller one, or waypoints further apart",
+    )
+
+
+def _dubins(
+    way: list[Point], legs: list[tuple[float, float]], smoothing: Smoothing, closed: bool
+) -> list[Segment]:
+    """Through every waypoint, half way round its corner there."""
+    radius = smoothing.radius or math.nan
+    courses = []
+    for i in range(len(way)):
+        if closed or 0 < i < len(way) - 1:
+            chi_in = legs[i - 1][1]
+            courses.append(chi_in + 0.5 * wrap(legs[i][1] - chi_in))
+        else:
+            courses.append(legs[0][1] if i == 0 else legs[-1][1])
+    for i, course in zip((0, -1), _end_courses(smoothing), strict=True):
+        if course is not None:
+            courses[i] = course
+    poses = [Pose(x, y, chi) for (x, y), chi in zip(way, courses, strict=True)]
+    segments: list[Segment] = []
+    for i in range(len(legs)):
+        segments += dubins.connect(poses[i], poses[(i + 1) % len(poses)], radius)
+    return segments

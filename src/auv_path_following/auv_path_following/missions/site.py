@@ -1,0 +1,187 @@
+"""Where a mission file's points are: its axes, its origin and its folder."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import os
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath
+from typing import Any, Literal, NamedTuple
+
+from auv_msgs_py.values.errors import ConfigurationError, printable
+from auv_path_following.missions import geodesy, waypoint_files
+from auv_path_following.missions.geodesy import FARTHEST, Origin
+from auv_path_following.missions.waypoint_files import Content, Use
+from auv_path_following.missions.waypoint_files.content import MOST_POINTS
+
+Point = tuple[float, float]
+Frame = Literal["ned", "enu", "wgs84"]
+
+#: Any larger number in a mission is taken for a mistake; a northing of UTM is smaller. m, deg, s, N.
+LARGEST = 1e7
+#: Points of a file that follow each other more closely than this are one, m.
+_SAME = 1e-3
+
+
+class Given(NamedTuple):
+    """Points of a mission file or of a waypoint file.
+
+    Attributes:
+        points: (north, east), m.
+        outline: whether they are the outline of a polygon, which has no end.
+    """
+
+    points: list[Point]
+    outline: bool
+
+
+@dataclass(frozen=True)
+class Site:
+    """What is needed to place a point.
+
+    Attributes:
+        frame: `ned` [north, east] m, `enu` [east, north] m, or `wgs84` [latitude, longitude] deg.
+        origin: of the plane; required for degrees.
+        folder: of the mission file.
+        files: waypoint files that were read so far, and what they hold.
+        notices: what was not taken of them, one line each.
+    """
+
+    frame: Frame
+    origin: Origin | None
+    folder: Path
+    files: dict[Path, Content] = field(default_factory=dict)
+    notices: list[str] = field(default_factory=list)
+
+    def points(self, pairs: Sequence[Point]) -> list[Point]:
+        """Pairs as they stand in the file -> (north, east), m.
+
+        Raises:
+            ConfigurationError: degrees out of range, or too far from the origin; names the item.
+        """
+        if self.frame == "ned":
+            return list(pairs)
+        if self.frame == "enu":
+            return [(north, east) for east, north in pairs]
+        for number, (latitude, longitude) in enumerate(pairs):
+            if abs(latitude) > 90.0 or abs(longitude) > 180.0:
+                found = f"[{latitude:g}, {longitude:g}]"
+                raise ConfigurationError(f"[{number}]", found, "[latitude, longitude] in degrees")
+        return self._placed(pairs, lambda k: f"[{k}]")
+
+    def point(self, pair: Point) -> Point:
+        """One pair -> (north, east), m."""
+        try:
+            return self.points([pair])[0]
+        except ConfigurationError as error:
+            raise ConfigurationError("", error.found, error.expected) from None
+
+    def _placed(self, pairs: Sequence[Point], place: Callable[[int], str]) -> list[Point]:
+        if self.origin is None:
+            raise ConfigurationError(
+                "origin", "nothing", "latitude_deg and longitude_deg, since points are in degrees"
+            )
+        if not pairs:
+            return []
+        north, east = geodesy.to_ned(self.origin, *zip(*pairs, strict=True))
+        placed = list(zip(north.tolist(), east.tolist(), strict=True))
+        for number, (x, y) in enumerate(placed):
+            if math.hypot(x, y) > FARTHEST:
+                latitude, longitude = pairs[number]
+                found = f"[{latitude:g}, {longitude:g}], {math.hypot(x, y) / 1e3:.0f} km from the origin"
+                expected = f"[latitude, longitude] within {FARTHEST / 1e3:g} km"
+                raise ConfigurationError(place(number), found, expected)
+        return placed
+
+    def read(self, name: str, use: Use, feature: str | None = None) -> Given:
+        """Place what a waypoint file in the mission file's folder holds for `use`.
+
+        Raises:
+            ConfigurationError: it is elsewhere, missing, not understood, or does not fit; names the feature.
+        """
+        relative = PurePosixPath(name)
+        if relative.is_absolute() or ".." in relative.parts:
+            expected = "one in the mission file's own folder, so that the two stay together"
+            raise ConfigurationError("file", repr(name), expected)
+        path = self.folder / relative
+        if not Path(os.path.realpath(path)).is_relative_to(os.path.realpath(self.folder)):
+            # Messages quote what a file holds: a link must not make them quote any file of the machine.
+            expected = "a file in the mission file's own folder, not a link that leads out of it"
+            raise ConfigurationError("file", repr(name), expected)
+        with within("file", joined=": "):
+            if path not in self.files:
+                self.files[path] = waypoint_files.read(path, name)
+            content = self.files[path]
+            with within(name, joined=": "):
+                taken = waypoint_files.choose(content, use, feature)
+                points = taken.points
+                if content.in_degrees:
+                    points = self._placed(points, lambda k: f"point {k + 1}")
+                else:
+                    _check_metres(points)
+        kept = [at for k, at in enumerate(points) if k == 0 or math.dist(at, points[k - 1]) > _SAME]
+        if len(kept) < len(points):
+            self.note(f"{name}: {len(points) - len(kept)} point(s) at the place of the one before left out")
+        self.note(*(f"{name}: {notice}" for notice in taken.notices))
+        return Given(kept, taken.outline)
+
+    def note(self, *notices: str) -> None:
+        """Add notices; each is kept once, as a line that is safe to print."""
+        for notice in map(printable, notices):
+            if notice not in self.notices:
+                self.notices.append(notice)
+
+    def given(
+        self, pairs: Sequence[Point] | None, file: str | None, feature: str | None, key: str, use: Use
+    ) -> Given:
+        """The points of a key or of the file that stands in its place.
+
+        Raises:
+            ConfigurationError: both are given or neither is; a point is wrong.
+        """
+        if (pairs is None) == (file is None):
+            found = f"neither {key} nor file" if file is None else f"both {key} and file"
+            raise ConfigurationError("", found, "one of them")
+        if file is not None:
+            return self.read(file, use, feature)
+        if feature is not None:
+            raise ConfigurationError("feature", f"{feature!r} without file", "both")
+        with within(key, joined=""):
+            if len(pairs or ()) > MOST_POINTS:
+                raise ConfigurationError("", f"{len(pairs or ())} points", f"at most {MOST_POINTS}")
+            return Given(self.points(pairs or ()), False)
+
+
+def check_size(item: Any, place: str = "") -> None:
+    """Refuse a number that no mission has, wherever it stands in the file."""
+    if dataclasses.is_dataclass(item):
+        for field in dataclasses.fields(item):
+            check_size(getattr(item, field.name), f"{place}.{field.name}" if place else field.name)
+    elif isinstance(item, tuple):
+        for number, part in enumerate(item):
+            check_size(part, f"{place}[{number}]")
+    elif isinstance(item, (int, float)) and abs(item) > LARGEST:
+        raise ConfigurationError(place, f"{item:g}", f"at most {LARGEST:g}")
+
+
+def _check_metres(points: Sequence[Point]) -> None:
+    for number, point in enumerate(points, start=1):
+        if max(map(abs, point)) > LARGEST:
+            found = f"north {point[0]:g}, east {point[1]:g}"
+            raise ConfigurationError(f"point {number}", found, f"metres, at most {LARGEST:g}")
+
+
+@contextmanager
+def within(key: str, joined: str = ".") -> Iterator[None]:
+    """Put `key` in front of the place of a `ConfigurationError`."""
+    try:
+        yield
+    except ConfigurationError as error:
+        if error.where == "origin":  # a place of its own
+            raise
+        parts = [key, error.where] if error.where not in ("", key) else [key]
+        separator = "" if error.where.startswith("[") else joined
+        raise ConfigurationError(separator.join(parts), error.found, error.expected) from None

@@ -1,0 +1,1 @@
+"""Judging what navigation reports, and estimating the current. No ROS."""

@@ -1,1 +1,0 @@
-"""What a flown mission tells: the `Run` itself, its figures and its picture."""

@@ -1,0 +1,1 @@
+"""What a recording contains: its mission, configuration, events and topics."""

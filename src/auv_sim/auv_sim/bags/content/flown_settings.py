@@ -1,0 +1,54 @@
+"""What a mission was flown with, name by name, so that two of them can be compared."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from auv_msgs_py.settings import yaml_file
+from auv_sim.bags.content.recorded_mission import BELIEVED, MISSION, PARAMS, VEHICLE, configuration
+from auv_sim.bags.reading.bag import Bag
+
+#: Files that the parameters name: their content counts, not where they lay.
+_FILES = (MISSION, VEHICLE, BELIEVED, "sea.yaml")
+#: Parameters that say where something lay.
+_PLACES = ("directory", "mission", "vehicle", "sea")
+
+
+def settings_of(bag: Bag) -> dict[str, str]:
+    """Every parameter and every key of the files that were flown: name -> value as text."""
+    values: dict[str, str] = {}
+    with configuration(bag) as directory:
+        if (directory / PARAMS).exists():
+            for node, body in _mapping(yaml_file.parse(directory / PARAMS)).items():
+                parameters = dotted(_mapping(_mapping(body).get("ros__parameters")))
+                name = str(node).rsplit("/", 1)[-1]
+                values |= {f"{name} {k}": str(v) for k, v in parameters.items() if k not in _PLACES}
+        for file in _FILES:
+            if (directory / file).exists():
+                content = _mapping(yaml_file.parse(directory / file))
+                values |= {f"{file} {key}": str(value) for key, value in dotted(content).items()}
+    return values
+
+
+def differences(bags: list[Bag]) -> dict[str, list[str | None]]:
+    """Return the settings that are not the same in all recordings: name -> value in each, None where unset.
+
+    Raises:
+        ConfigurationError: a recorded file cannot be read.
+    """
+    flat = [settings_of(bag) for bag in bags]
+    found = {name: [values.get(name) for values in flat] for name in sorted(set().union(*flat))}
+    return {name: values for name, values in found.items() if len(set(values)) > 1}
+
+
+def _mapping(value: Any) -> dict[str, Any]:
+    """The mapping that a recorded file should hold; empty for anything else."""
+    return value if isinstance(value, dict) else {}
+
+
+def dotted(values: dict[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Flatten nested keys: ``{"a": {"b": 1}}`` becomes ``{"a.b": 1}``."""
+    flat: dict[str, Any] = {}
+    for key, value in values.items():
+        flat |= dotted(value, f"{prefix}{key}.") if isinstance(value, dict) else {f"{prefix}{key}": value}
+    return flat

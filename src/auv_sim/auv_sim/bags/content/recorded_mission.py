@@ -1,0 +1,156 @@
+"""The mission in a recording: its run, its path and its configuration, as far as they can be found."""
+
+from __future__ import annotations
+
+import contextlib
+import tempfile
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.settings import params_file
+from auv_msgs_py.values.errors import ConfigurationError, printable
+from auv_path_following import config_files, vehicle
+from auv_path_following.missions import mission_file
+from auv_path_following.missions.mission_file import Mission
+from auv_path_following.vehicle import Vehicle
+from auv_sim.bags.reading.bag import Bag
+from auv_sim.bags.reading.load import run_of
+from auv_sim.bags.writing.bag_writer import texts_below
+from auv_sim.flight.by_odometry import ByOdometry, by_odometry
+from auv_sim.flight.metrics import MissionSummary, summarise
+from auv_sim.flight.run_record import Run
+from auv_sim.parameters import SUITE
+
+#: The files that the launcher writes and the recorder keeps.
+MISSION, VEHICLE, PARAMS = "mission.yaml", "vehicle.yaml", "params.yaml"
+#: The hull as the nodes knew it; only there where it was not the vehicle's.
+BELIEVED = "believed.yaml"
+
+
+@dataclass
+class Flight:
+    """What a recording tells about a mission; None where it tells nothing.
+
+    Attributes:
+        bag: the recording.
+        run: the odometry's rows.
+        mission, vehicle: what was flown, and with what.
+        notes: why something is missing, a line each.
+    """
+
+    bag: Bag
+    run: Run | None
+    mission: Mission | None
+    vehicle: Vehicle | None
+    notes: list[str]
+
+    @property
+    def summary(self) -> MissionSummary | None:
+        """The figures, where both the run and its path are known."""
+        if self.run is None or self.mission is None:
+            return None
+        return summarise(self.run, self.mission.path)
+
+    @property
+    def by_odometry(self) -> ByOdometry | None:
+        """The distances that the vehicle's odometry shows, where the true ones are known beside them."""
+        if self.run is None or self.mission is None:
+            return None
+        return by_odometry(self.run, self.mission.path)
+
+
+def flight_of(bag: Bag, mission: str | None = None, namespace: str | None = None) -> Flight:
+    """Find out what was flown.
+
+    Args:
+        bag: the recording, with all messages of the contract's topics.
+        mission: a mission file instead of the recorded one.
+        namespace: which vehicle's topics.
+
+    Raises:
+        ConfigurationError: `mission` cannot be used, or several vehicles and no namespace.
+    """
+    notes: list[str] = []
+    run = None
+    try:
+        odometry = bag.find(topics.ODOM.name, namespace)
+        run = run_of(bag, namespace)
+        if odometry is not None and odometry.name.rsplit("/", 1)[-1] != topics.ODOM.name:
+            notes.append(f"odometry taken from {odometry.name}")
+    except ConfigurationError as error:
+        if "several topics" in error.found or error.where == "--odometry":
+            raise
+        notes.append(f"no mission figures: {_without_place(error, bag)}")
+    flown = hull = believed = None
+    with configuration(bag) as directory:
+        if (directory / VEHICLE).exists():
+            with _noted(notes):
+                hull = vehicle.load(str(directory / VEHICLE))
+                believed = vehicle.load(str(known_hull(directory)))
+        if mission is not None:
+            flown = mission_file.load(str(config_files.find("missions", mission)), believed)
+        elif (directory / MISSION).exists():
+            with _noted(notes):
+                flown = mission_file.load(str(directory / MISSION), believed)
+    if flown is None and run is not None:
+        notes.append("no mission file in or beside the recording: name one with --mission for the figures")
+    return Flight(bag, run, flown, hull, [printable(note) for note in notes])
+
+
+def known_hull(directory: Path) -> Path:
+    """The file of the hull that observer, guidance and autopilot were given; it need not exist."""
+    believed = directory / BELIEVED
+    return believed if believed.exists() else directory / VEHICLE
+
+
+def texts_of(bag: Bag) -> dict[str, str]:
+    """The configuration as it was flown, by file name: from within the bag, else from beside it."""
+    if bag.texts:
+        return dict(sorted(bag.texts.items()))
+    root = bag.path if bag.path.is_dir() else bag.path.parent
+    return texts_below(root.parent / "config")
+
+
+@contextlib.contextmanager
+def configuration(bag: Bag) -> Iterator[Path]:
+    """A directory with the configuration's files, for as long as it is needed.
+
+    A name in a recording is not trusted: one that leads out of the directory, or that no file can have,
+    is left out.
+    """
+    with tempfile.TemporaryDirectory(prefix="auv-bag-") as name:
+        directory = Path(name).resolve()
+        for file, text in texts_of(bag).items():
+            with contextlib.suppress(OSError, ValueError):
+                place = (directory / file).resolve()
+                if place.is_relative_to(directory):
+                    place.parent.mkdir(parents=True, exist_ok=True)
+                    place.write_text(text, encoding="utf-8")
+        yield directory
+
+
+def lockstep_of(bag: Bag) -> bool | None:
+    """Whether the mission was flown in lockstep; None when the recording does not tell."""
+    with configuration(bag) as directory:
+        if not (directory / PARAMS).exists():
+            return None
+        try:
+            return bool(params_file.load(directory / PARAMS, SUITE)[topics.GUIDANCE].lockstep)
+        except ConfigurationError:
+            return None
+
+
+@contextlib.contextmanager
+def _noted(notes: list[str]) -> Iterator[None]:
+    try:
+        yield
+    except ConfigurationError as error:
+        notes.append(
+            f"{Path(error.where.split(':')[0]).name}: found {error.found}, expected {error.expected}"
+        )
+
+
+def _without_place(error: ConfigurationError, bag: Bag) -> str:
+    return str(error).removeprefix(f"{bag.path}: ")

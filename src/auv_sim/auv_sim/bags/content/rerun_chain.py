@@ -1,0 +1,249 @@
+"""The pilot without ROS and without a plant: recorded sensors in, commands out.
+
+It has the conversions of the wire in between: an angle that was sent as yaw_enu is not the same number as
+before, in its last bit.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import groupby
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.conversions import nanoseconds, navigation_from, water_velocity_from
+from auv_msgs_py.contract.frames import FrameTable, flip_yaw
+from auv_msgs_py.contract.stamps import StampGuard, Verdict
+from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
+from auv_msgs_py.values.types import NO_WATER, WaterVelocity
+from auv_path_following.control import autopilot
+from auv_path_following.guidance import guide
+from auv_path_following.guidance.approach import agility_of, empty_approach
+from auv_path_following.guidance.guide import GuideState, Measured, at_the_beginning
+from auv_path_following.missions import mission_state as states
+from auv_path_following.missions.mission_file import Mission
+from auv_path_following.navigation import current_observer
+from auv_path_following.pilot import Pilot, first_state, pilot
+from auv_path_following.vehicle import Vehicle
+from auv_sim.bags.reading.bag import Bag, RecordedTopic
+from auv_sim.bags.reading.deserialize import deserializer
+from auv_sim.bags.reading.load import messages_of
+
+
+class Answer(NamedTuple):
+    """What the chain answers to one odometry, as it goes on the wire."""
+
+    rudder_cmd: float
+    thrust_cmd: float
+    desired_yaw: float
+    desired_yaw_rate: float
+    desired_thrust: float
+    path_parameter: float
+
+
+@dataclass(frozen=True)
+class Answers:
+    """One row for each odometry that has an answer; every array has shape (n,).
+
+    Attributes:
+        t: the odometry's stamp, s.
+        recorded, new: by topic name; NaN where nothing was recorded.
+    """
+
+    t: NDArray[np.float64]
+    recorded: dict[str, NDArray[np.float64]]
+    new: dict[str, NDArray[np.float64]]
+
+
+class _Step(NamedTuple):
+    odometry: Any
+    stamp: int
+    log_ns: int
+    water: Any | None
+
+
+class _Phase(NamedTuple):
+    """Whether the mission runs at an odometry, and whether it began anew or resumed after a hold there."""
+
+    runs: bool
+    begins: bool
+    resumes: bool
+
+
+def answers(
+    bag: Bag, parameters: dict[str, Any], mission: Mission, vehicle: Vehicle, namespace: str | None
+) -> Answers:
+    """Feed a recording's sensors through the chain.
+
+    Args:
+        bag: the recording.
+        parameters: node name -> settings.
+        mission, vehicle: what is flown.
+        namespace: which vehicle's topics.
+
+    Raises:
+        ConfigurationError: the recording has no odometry, or several vehicles.
+    """
+    lockstep = parameters[topics.GUIDANCE].lockstep
+    timeout = parameters[topics.GUIDANCE].water_velocity_timeout
+    steps = list(_steps(bag, namespace, lockstep, timeout))
+    if not steps:
+        raise ConfigurationError(
+            str(bag.path), "no odometry", f"messages on {topics.ODOM.name}, or --odometry"
+        )
+    log_ns = np.array([step.log_ns for step in steps], np.int64)
+    recorded = {name: _column(bag, name, namespace, log_ns, lockstep) for name in Answer._fields}
+    running = _running(bag, namespace, recorded[topics.DESIRED_THRUST.name])
+    rows, kept = [], []
+    chain = _Chain(parameters, mission, vehicle)
+    for k, step in enumerate(steps):
+        answer = chain.step(step, running[k])
+        if answer is not None:
+            rows.append(answer)
+            kept.append(k)
+    columns = np.array(rows, np.float64).reshape(-1, len(Answer._fields))
+    return Answers(
+        np.array([steps[k].stamp for k in kept]) * 1e-9,
+        {name: column[kept] for name, column in recorded.items()},
+        {name: columns[:, j] for j, name in enumerate(Answer._fields)},
+    )
+
+
+class _Chain:
+    """The pilot, with the mission's phases as they were recorded."""
+
+    def __init__(self, parameters: dict[str, Any], mission: Mission, vehicle: Vehicle) -> None:
+        guidance = parameters[topics.GUIDANCE].with_wishes_of(mission)
+        steering = parameters[topics.AUTOPILOT]
+        # In lockstep a node's watchdogs rest, and so do these bounds.
+        hold_after = math.inf if guidance.lockstep else guidance.holding.hold_after
+        gap = math.inf if guidance.lockstep else steering.odometry_timeout
+        self._config = Pilot(
+            current_observer.prepare(parameters[topics.OBSERVER].observer),
+            guide.prepare(guidance.guidance, agility_of(vehicle, mission.thrust), mission.thrust, hold_after),
+            autopilot.prepare(steering.autopilot, vehicle),
+            gap,
+            True,
+        )
+        self._rows = mission.path.rows
+        self._frames = FrameTable(guidance.frames)
+        self._guard = StampGuard(ordered=guidance.lockstep)
+        self._state = first_state(self._config, empty_approach())
+
+    def step(self, step: _Step, phase: _Phase) -> Answer | None:
+        """Return the answer; None to an odometry that the nodes refuse too."""
+        if phase.begins:
+            running = states.Mission(states.RUNNING)
+            self._guide(at_the_beginning(self._config.guide, running, empty_approach()))
+        try:
+            navigation = navigation_from(step.odometry, self._frames, topics.ODOM.name)
+            water = self._water(step.water)
+        except MessageRefused:
+            return None
+        verdict, dt = self._guard.judge(step.stamp)
+        if verdict is Verdict.REFUSE:
+            return None
+        mission = self._state.guide.mission
+        if verdict is Verdict.RESTART:
+            self._state = first_state(self._config, empty_approach())
+        self._guide(self._state.guide._replace(mission=_in_phase(mission, phase)))
+        measured = Measured(navigation, water or NO_WATER, water is not None, False, 0.0, step.stamp * 1e-9)
+        self._state, out = pilot(self._config, self._rows, self._state, measured, dt)
+        _, guided, reference, (rudder, thrust) = out
+        yaw = flip_yaw(guided.psi_d)
+        return Answer(rudder, thrust, yaw, -guided.r_d, reference.thrust, guided.s)
+
+    def _guide(self, state: GuideState) -> None:
+        self._state = self._state._replace(guide=state)
+
+    def _water(self, message: Any | None) -> WaterVelocity | None:
+        if message is None:
+            return None
+        return water_velocity_from(message, self._frames, topics.WATER_VELOCITY.name)
+
+
+def _in_phase(mission: states.Mission, phase: _Phase) -> states.Mission:
+    """Return the state as recorded; a mission that holds or is complete changes of its own accord only."""
+    if phase.resumes:
+        return states.Mission(states.HOLDING)
+    if phase.runs:
+        changes = mission.state in (states.HOLDING, states.COMPLETE)
+        return mission if changes else states.Mission(states.RUNNING)
+    return mission if mission.state == states.COMPLETE else states.Mission()
+
+
+def _steps(bag: Bag, namespace: str | None, lockstep: bool, timeout: float) -> Iterator[_Step]:
+    """Every odometry with its velocity through water: of the same stamp in lockstep, else the newest one."""
+    odom, through = bag.find(topics.ODOM.name, namespace), bag.find(topics.WATER_VELOCITY.name, namespace)
+    if odom is None:
+        return
+    decode_odometry = deserializer(odom)
+    waters: dict[int, Any] = {}
+    if lockstep and through is not None:
+        waters = {nanoseconds(message.header.stamp): message for _, message in messages_of(through)}
+    decode_water = deserializer(through) if through is not None else None
+    newest: Any | None = None
+    for topic, k in bag.in_order():
+        data = topic.messages[k]
+        if topic is through and data is not None and decode_water is not None and not lockstep:
+            newest = decode_water(data)
+        if topic is not odom or data is None:
+            continue
+        message = decode_odometry(data)
+        stamp = nanoseconds(message.header.stamp)
+        water = waters.get(stamp) if lockstep else newest
+        if water is not None and abs(stamp - nanoseconds(water.header.stamp)) > timeout * 1e9:
+            water = None
+        yield _Step(message, stamp, topic.log_ns[k], water)
+
+
+def _column(
+    bag: Bag, name: str, namespace: str | None, log_ns: NDArray[np.int64], lockstep: bool
+) -> NDArray[np.float64]:
+    """A Float64 topic, one value for each odometry: row by row in lockstep, else the first one after it."""
+    topic: RecordedTopic | None = bag.find(name, namespace)
+    column = np.full(log_ns.size, np.nan)
+    if topic is None or not topic.count:
+        return column
+    times, values = zip(*((at, message.data) for at, message in messages_of(topic)), strict=True)
+    if lockstep:
+        n = min(column.size, len(values))
+        column[:n] = values[:n]
+        return column
+    row = np.searchsorted(np.array(times), log_ns, side="left")
+    there = row < len(values)
+    column[there] = np.array(values)[row[there]]
+    return column
+
+
+def _running(bag: Bag, namespace: str | None, thrust: NDArray[np.float64]) -> list[_Phase]:
+    """The mission's phase at each odometry.
+
+    The thrust that guidance asked for tells exactly from which odometry on a mission ran. Where it falls to 0
+    because the path's end was reached, that odometry was still guided; after an abort it was not.
+    """
+    topic = bag.find(topics.MISSION_STATE.name, namespace)
+    said = [str(message.data) for _, message in messages_of(topic)] if topic is not None else []
+    words = [word for word, _ in groupby(said)]  # the state is repeated once a second
+    place, ran, rows = 0, False, []
+    for value in thrust:
+        runs = bool(value > 0.0)
+        begins = resumes = guided = False
+        if runs and not ran:
+            before = words[place - 1] if 0 < place <= len(words) else ""
+            while place < len(words) and words[place] != "running":
+                before = words[place]
+                place += 1
+            resumes = before == "holding"
+            begins = not resumes
+            place += 1
+        elif ran and not runs:
+            guided = place >= len(words) or words[place] == "complete"
+        rows.append(_Phase(runs or guided, begins, resumes))
+        ran = runs
+    return rows

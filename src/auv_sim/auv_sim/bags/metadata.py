@@ -1,0 +1,100 @@
+"""rosbag2's metadata.yaml, version 9: what it says, and how it is spelled."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import yaml
+
+from auv_msgs_py.settings.result_files import write_text
+
+METADATA_FILE = "metadata.yaml"
+METADATA_VERSION = 9
+ROS_DISTRO = "jazzy"
+
+
+class TopicFacts(NamedTuple):
+    """One topic: its QoS profiles are spelled as `rosbags` dumps them, its messages are `encoding`."""
+
+    name: str
+    type: str
+    messages: int
+    qos: list[Any]
+    type_hash: str
+    encoding: str = "cdr"
+
+
+class FileFacts(NamedTuple):
+    """One storage file: first and last log time (ns), messages, bytes."""
+
+    name: str
+    first_ns: int
+    last_ns: int
+    messages: int
+    size: int
+
+
+def information(
+    topics: Sequence[TopicFacts], files: Sequence[FileFacts], storage: str = "mcap"
+) -> dict[str, Any]:
+    """Everything below the file's one key, in rosbag2's order; `storage` is rosbag2's name of the format."""
+    held = [file for file in files if file.messages]
+    first = min((file.first_ns for file in held), default=0)
+    last = max((file.last_ns for file in held), default=0)
+    return {
+        "version": METADATA_VERSION,
+        "storage_identifier": storage,
+        "duration": {"nanoseconds": last - first},
+        "starting_time": {"nanoseconds_since_epoch": first},
+        "message_count": sum(file.messages for file in files),
+        "topics_with_message_count": [
+            {
+                "topic_metadata": {
+                    "name": topic.name,
+                    "type": topic.type,
+                    "serialization_format": topic.encoding,
+                    "offered_qos_profiles": topic.qos,
+                    "type_description_hash": topic.type_hash,
+                },
+                "message_count": topic.messages,
+            }
+            for topic in topics
+        ],
+        "compression_format": "",
+        "compression_mode": "",
+        "relative_file_paths": [file.name for file in files],
+        "files": [
+            {
+                "path": file.name,
+                "starting_time": {"nanoseconds_since_epoch": file.first_ns},
+                "duration": {"nanoseconds": file.last_ns - file.first_ns},
+                "message_count": file.messages,
+            }
+            for file in files
+        ],
+        "custom_data": None,
+        "ros_distro": ROS_DISTRO,
+    }
+
+
+def write(directory: Path, content: dict[str, Any]) -> None:
+    """Write the file whole or not at all.
+
+    Raises:
+        NotWritten: there is no room for it.
+    """
+    write_text(directory / METADATA_FILE, dump({"rosbag2_bagfile_information": content}))
+
+
+class _Dumper(yaml.SafeDumper):
+    """Spells every value out: yaml-cpp's older readers stumble over anchors and aliases."""
+
+    def ignore_aliases(self, data: Any) -> bool:
+        return True
+
+
+def dump(data: Any) -> str:
+    """YAML as rosbag2 writes it."""
+    return yaml.dump(data, Dumper=_Dumper, sort_keys=False, default_flow_style=False, allow_unicode=True)

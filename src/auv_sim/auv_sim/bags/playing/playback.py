@@ -1,0 +1,217 @@
+"""Publishes recorded messages as they are, at the pace at which they were recorded."""
+
+from __future__ import annotations
+
+import time
+from types import TracebackType
+from typing import Any, NamedTuple
+
+import rclpy
+from rclpy.publisher import Publisher
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.signals import SignalHandlerOptions
+from rich.console import Console
+from rosbags.interfaces import QosDurability, QosReliability
+from rosbags.rosbag2.metadata import parse_qos
+from rosgraph_msgs.msg import Clock as ClockMessage
+
+from auv_msgs_py.contract.conversions import set_stamp
+from auv_msgs_py.contract.qos import message_class
+from auv_msgs_py.contract.topics import CLOCK
+from auv_msgs_py.node.claim import Claim
+from auv_msgs_py.node.graph_look import GraphLook, GraphTaken
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.bags.playing.keyboard import Keyboard
+from auv_sim.bags.playing.play_bar import PlayBar
+from auv_sim.bags.reading.bag import Bag, RecordedTopic
+
+#: What nodes say of themselves: repeating it would only pretend that they are there.
+_NOT_REPEATED = ("/rosout", "/parameter_events")
+_DEPTH = 1000
+_INTERRUPTED = 130
+#: The clock goes on at least so often while nothing is published, s of wall time.
+_CLOCK_PERIOD = 0.025
+
+
+class Selected(NamedTuple):
+    """What to play: name to publish under -> topic; (log time ns, name, data) by time; seconds."""
+
+    topics: dict[str, RecordedTopic]
+    messages: list[tuple[int, str, bytes]]
+    length: float
+    first_ns: int
+
+
+def select(
+    bag: Bag,
+    names: list[str] | None,
+    exclude: list[str],
+    remaps: dict[str, str],
+    start: float,
+    duration: float | None,
+    own_clock: bool,
+) -> Selected:
+    """Choose topics and time.
+
+    Raises:
+        ConfigurationError: a name that no topic has, or nothing is left.
+    """
+
+    def matches(topic: str, wanted: str) -> bool:
+        return topic == wanted or topic.rsplit("/", 1)[-1] == wanted
+
+    for wanted in [*(names or []), *exclude, *remaps]:
+        if not any(matches(topic, wanted) for topic in bag.topics):
+            known = ", ".join(sorted(bag.topics))
+            raise ConfigurationError(str(bag.path), f"no topic {wanted}", f"one of {known}")
+    chosen: dict[str, RecordedTopic] = {}
+    for name, topic in bag.topics.items():
+        if names is not None and not any(matches(name, wanted) for wanted in names):
+            continue
+        if any(matches(name, wanted) for wanted in exclude) or (names is None and name in _NOT_REPEATED):
+            continue
+        if own_clock and name == CLOCK.name:
+            continue
+        new = next((new for old, new in remaps.items() if matches(name, old)), name)
+        chosen[new if new.startswith("/") else f"{name.rsplit('/', 1)[0]}/{new}"] = topic
+    begin = bag.span_ns[0] + round(start * 1e9)
+    end = begin + round(duration * 1e9) if duration is not None else bag.span_ns[1]
+    by_topic = {id(topic): name for name, topic in chosen.items()}
+    messages, before = [], {}
+    for topic, k in bag.in_order():
+        public, data = by_topic.get(id(topic)), topic.messages[k]
+        if public is None or data is None:
+            continue
+        if topic.log_ns[k] < begin:
+            before[public] = data
+        elif topic.log_ns[k] <= end:
+            messages.append((topic.log_ns[k], public, data))
+    # What a late subscriber would still have been told.
+    latched = DurabilityPolicy.TRANSIENT_LOCAL
+    kept = [(begin, n, data) for n, data in before.items() if profile_of(chosen[n]).durability == latched]
+    messages = kept + messages
+    if not messages:
+        raise ConfigurationError(str(bag.path), "nothing to play", "messages on these topics in this time")
+    return Selected(chosen, messages, (min(end, bag.span_ns[1]) - begin) * 1e-9, begin)
+
+
+def profile_of(topic: RecordedTopic) -> QoSProfile:
+    """What the recorded publishers offered; where they differ, what all of them did."""
+    try:
+        offers = parse_qos(topic.qos) if topic.qos else []
+    except Exception:  # a damaged text makes the parser fail in any way it likes
+        offers = []
+    best_effort = any(offer.reliability is QosReliability.BEST_EFFORT for offer in offers)
+    latched = bool(offers) and all(offer.durability is QosDurability.TRANSIENT_LOCAL for offer in offers)
+    return QoSProfile(
+        history=HistoryPolicy.KEEP_LAST,
+        depth=_DEPTH,
+        reliability=ReliabilityPolicy.BEST_EFFORT if best_effort else ReliabilityPolicy.RELIABLE,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
+    )
+
+
+class Player:
+    """A node that publishes.
+
+    Args:
+        selected: what to play.
+        rate: times the recorded speed.
+        clock: whether to publish /clock.
+        console: where the position is shown.
+
+    Raises:
+        ConfigurationError: a type is not installed, or /clock is published already.
+    """
+
+    def __init__(self, selected: Selected, rate: float, clock: bool, console: Console) -> None:
+        self._selected, self._rate, self._console = selected, rate, console
+        rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+        self._node = rclpy.create_node("replay")
+        if clock or CLOCK.name in selected.topics:
+            self._look_around()
+        self._publishers: dict[str, Publisher] = {}
+        for name, topic in selected.topics.items():
+            try:
+                kind = message_class(topic.type)
+            except (ImportError, AttributeError, ValueError):
+                raise ConfigurationError(
+                    name, f"the type {topic.type}", "an installed type, or --exclude"
+                ) from None
+            self._publishers[name] = self._node.create_publisher(kind, name, profile_of(topic))
+        self._clock = self._node.create_publisher(ClockMessage, CLOCK.name, _DEPTH) if clock else None
+        self._message = ClockMessage()
+        self._told = -1
+
+    def _look_around(self) -> None:
+        """Look for another /clock before this one is published."""
+        claim = Claim(holder="replay", namespace="/", names=(), clock=True)
+        look = GraphLook(self._node, claim)
+        try:
+            while not look.ended():
+                rclpy.spin_once(self._node, timeout_sec=0.02)
+        except GraphTaken:
+            self._node.destroy_node()
+            rclpy.try_shutdown()
+            raise
+
+    def play(self, delay: float, loop: bool, paused: bool) -> int:
+        """Play to the end (again and again); returns the exit code."""
+        time.sleep(delay)
+        with Keyboard() as keys, PlayBar(self._console, self._selected.length, keys.there) as bar:
+            try:
+                while True:
+                    if not self._once(keys, bar, paused) or not loop:
+                        break
+            except KeyboardInterrupt:
+                return _INTERRUPTED
+        for publisher in self._publishers.values():
+            publisher.wait_for_all_acked()
+        return 0
+
+    def _once(self, keys: Keyboard, bar: PlayBar, paused: bool) -> bool:
+        """One pass; False when a person has ended it."""
+        begin, shift = self._selected.first_ns, time.monotonic()
+        bar.show(0.0, paused, at_once=True)
+        for at, name, data in self._selected.messages:
+            step = False
+            while True:
+                key = keys.pressed()
+                if key == "q":
+                    return False
+                if key == " ":
+                    paused = not paused
+                    bar.show((at - begin) * 1e-9, paused, at_once=True)
+                    shift = time.monotonic() - (at - begin) * 1e-9 / self._rate
+                step = step or (paused and key == "s")
+                if step:
+                    break
+                now = time.monotonic()
+                wait = shift + (at - begin) * 1e-9 / self._rate - now
+                if not paused and wait <= 0.0:
+                    break
+                if not paused:
+                    reached = min(at, begin + round((now - shift) * self._rate * 1e9))
+                    self._tell_time(reached)
+                    bar.show((reached - begin) * 1e-9, paused)
+                time.sleep(_CLOCK_PERIOD if paused else min(wait, _CLOCK_PERIOD))
+            self._tell_time(at)
+            self._publishers[name].publish(data)
+            bar.show((at - begin) * 1e-9, paused, at_once=step)
+        bar.show(self._selected.length, paused, at_once=True)
+        return True
+
+    def _tell_time(self, ns: int) -> None:
+        if self._clock is not None and ns != self._told:
+            self._told = ns
+            set_stamp(self._message.clock, max(ns, 0))
+            self._clock.publish(self._message)
+
+    def __enter__(self) -> Player:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> Any:
+        self._node.destroy_node()
+        rclpy.try_shutdown()

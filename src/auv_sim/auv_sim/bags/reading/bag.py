@@ -1,0 +1,239 @@
+"""Any recording in memory: a rosbag2 directory, a bare storage file, closed or not, ours or not."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from mcap.records import Attachment, Channel, Metadata, Schema
+from zstandard import ZstdError
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.values.errors import ConfigurationError, printable
+from auv_sim.bags.metadata import METADATA_FILE
+from auv_sim.bags.reading.bag_files import A_BAG, files_of, information_of, storage_of
+from auv_sim.bags.reading.storage.packed import SUFFIX as PACKED
+from auv_sim.bags.reading.storage.packed import unpack, unpack_message
+
+
+@dataclass
+class RecordedTopic:
+    """One topic, its messages in the order of the file.
+
+    Attributes:
+        name, type: full topic name, ROS type.
+        definition, encoding: the type's definition as the bag has it, and its notation (``ros2msg``).
+        qos: what the publishers offered, as YAML.
+        original: the records that describe it in an MCAP file.
+        log_ns, publish_ns, sequence, sizes: for each message, ns and bytes.
+        messages: serialised; None where only the size was asked for.
+    """
+
+    name: str
+    type: str
+    definition: str = ""
+    encoding: str = ""
+    qos: str = ""
+    original: tuple[Channel, Schema | None] | None = None
+    log_ns: list[int] = field(default_factory=list)
+    publish_ns: list[int] = field(default_factory=list)
+    sequence: list[int] = field(default_factory=list)
+    sizes: list[int] = field(default_factory=list)
+    messages: list[bytes | None] = field(default_factory=list)
+
+    @property
+    def count(self) -> int:
+        """Number of messages."""
+        return len(self.log_ns)
+
+    def put(self, sequence: int, log_ns: int, publish_ns: int, data: bytes, keep: bool) -> None:
+        """Append a message."""
+        self.log_ns.append(log_ns)
+        self.publish_ns.append(publish_ns)
+        self.sequence.append(sequence)
+        self.sizes.append(len(data))
+        self.messages.append(data if keep else None)
+
+
+@dataclass
+class Bag:
+    """What was read.
+
+    Attributes:
+        path: what was asked for.
+        odometry: full name of the topic that counts as the vehicle's odometry, where one was chosen.
+        files: the storage files, with the number of messages in each.
+        topics: by full name.
+        notes: one line for each damage; empty when all is well.
+        size: bytes of the files.
+        texts: what the recorder put into the bag by name (the configuration that was flown).
+        records: what else MCAP files hold, metadata and attachments of others than our recorder.
+        profile: what MCAP files say of themselves.
+        repeated: messages that a further file begins with and that an earlier one has; they are left out.
+        order: (topic, number of the message in it) for every message, in the order of the files.
+    """
+
+    path: Path
+    files: dict[Path, int] = field(default_factory=dict)
+    topics: dict[str, RecordedTopic] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
+    size: int = 0
+    texts: dict[str, str] = field(default_factory=dict)
+    records: list[Metadata | Attachment] = field(default_factory=list)
+    profile: str = "ros2"
+    order: list[tuple[RecordedTopic, int]] = field(default_factory=list)
+    odometry: str | None = None
+    repeated: int = 0
+
+    @property
+    def count(self) -> int:
+        """Number of messages."""
+        return sum(topic.count for topic in self.topics.values())
+
+    @property
+    def span_ns(self) -> tuple[int, int]:
+        """First and last log time; zeros for an empty bag."""
+        held = [topic.log_ns for topic in self.topics.values() if topic.count]
+        return (min(map(min, held)), max(map(max, held))) if held else (0, 0)
+
+    def find(self, name: str, namespace: str | None = None) -> RecordedTopic | None:
+        """The topic whose name ends in `name`, of one vehicle; for odometry see `_find_odometry`.
+
+        Raises:
+            ConfigurationError: several vehicles have it and none is chosen.
+        """
+        found = [
+            topic
+            for topic in self.topics.values()
+            if topic.name.rsplit("/", 1)[-1] == name and _is_of(topic, namespace, name)
+        ]
+        if name == topics.ODOM.name and (self.odometry is not None or not found):
+            return self._find_odometry(namespace)
+        if len(found) > 1:
+            listed = " and ".join(sorted(topic.name for topic in found))
+            raise ConfigurationError(
+                str(self.path), f"several topics {name}: {listed}", "one vehicle, or its namespace"
+            )
+        return found[0] if found else None
+
+    def _find_odometry(self, namespace: str | None) -> RecordedTopic | None:
+        """The odometry that was asked for, else the only one of its type; a simulator's truth is none.
+
+        Raises:
+            ConfigurationError: none has the name that was asked for, or none was and there are several.
+        """
+        kind, truth = topics.ODOM.type, topics.TRUE_ODOM.name
+        there = sorted(
+            topic.name
+            for topic in self.topics.values()
+            if topic.type == kind and topic.name.rsplit("/", 1)[-1] != truth and _is_of(topic, namespace)
+        )
+        listed = " and ".join(there)
+        if self.odometry is not None:
+            asked = self.topics.get("/" + self.odometry.strip("/"))
+            if asked is None or asked.type != kind:
+                expected = f"one of {listed}" if there else f"a topic of type {kind}"
+                raise ConfigurationError("--odometry", self.odometry, expected)
+            return asked
+        if len(there) > 1:
+            found = f"no topic {topics.ODOM.name}, but {listed}"
+            raise ConfigurationError(str(self.path), found, "--odometry with one of them")
+        return self.topics[there[0]] if there else None
+
+    def in_order(self) -> Iterator[tuple[RecordedTopic, int]]:
+        """Every message by log time; messages of one time stay in the order of the file."""
+        yield from sorted(self.order, key=lambda entry: entry[0].log_ns[entry[1]])
+
+
+def _is_of(topic: RecordedTopic, namespace: str | None, name: str | None = None) -> bool:
+    """Whether a topic is of a vehicle: directly in its namespace if a name is given, else anywhere below."""
+    if namespace is None:
+        return True
+    above = f"/{namespace.strip('/')}/".replace("//", "/")
+    return topic.name.startswith(above) if name is None else topic.name == above + name
+
+
+#: Asked for each topic: name and type; whether its messages are wanted, or only their sizes.
+Wanted = Callable[[str, str], bool]
+
+
+def everything(_: str, __: str) -> bool:
+    """Keep every message."""
+    return True
+
+
+def read_bag(path: Path, wanted: Wanted = everything, odometry: str | None = None) -> Bag:
+    """Read a recording, with everything that is readable in a damaged one.
+
+    Args:
+        path: a rosbag2 directory, a run directory with one in it, or a storage file.
+        wanted: which topics' messages to keep.
+        odometry: full name of the topic to take for the vehicle's odometry.
+
+    Raises:
+        ConfigurationError: there is no recording, or nothing of it can be read.
+    """
+    path = storage_of(path)
+    bag = Bag(path, odometry=odometry)
+    information = information_of(path, bag.notes) if path.is_dir() else {}
+    files = files_of(path, information, bag.notes)
+    if not files:
+        found = f"no {METADATA_FILE}" if path.is_dir() and not information else "no storage files"
+        raise ConfigurationError(str(path), found, A_BAG)
+    troubles: list[ConfigurationError] = []
+    for file in files:
+        try:
+            _read_any(bag, file, wanted)
+        except ConfigurationError as error:
+            troubles.append(error)
+            bag.notes.append(f"{file.name}: found {error.found}")
+        bag.files[file] = len(bag.order) - sum(bag.files.values())
+        bag.size += file.stat().st_size
+    if len(troubles) == len(files):
+        raise troubles[0]
+    if str(information.get("compression_mode")).lower() == "message":
+        _unpack_messages(bag)
+    expected = information.get("message_count")
+    if isinstance(expected, int) and expected > bag.count + bag.repeated:
+        readable = bag.count + bag.repeated
+        bag.notes.append(f"{METADATA_FILE} lists {expected} messages, {readable} are readable")
+    bag.notes = [printable(note) for note in bag.notes]
+    return bag
+
+
+def _read_any(bag: Bag, file: Path, wanted: Wanted) -> None:
+    """Add one storage file, of whatever kind."""
+    # Not before they are needed: few recordings are of another kind, and `rosbags` takes its time.
+    if file.suffix == PACKED:
+        with tempfile.TemporaryDirectory(prefix="auv-bag-") as directory:
+            _read_any(bag, unpack(file, Path(directory)), wanted)
+    elif file.suffix == ".db3":
+        from auv_sim.bags.reading.storage.sqlite_bag import read_sqlite
+
+        read_sqlite(bag, file, wanted)
+    elif file.suffix == ".bag":
+        from auv_sim.bags.reading.storage.ros1_bag import read_ros1
+
+        read_ros1(bag, file, wanted)
+    else:
+        from auv_sim.bags.reading.storage.mcap_bag import read_mcap
+
+        read_mcap(bag, file, wanted)
+
+
+def _unpack_messages(bag: Bag) -> None:
+    """Replace every packed message by its content; one without any stays, and is counted in a note."""
+    unreadable = 0
+    for topic in bag.topics.values():
+        for k, data in enumerate(topic.messages):
+            if data is not None:
+                try:
+                    content = unpack_message(data)
+                except ZstdError:
+                    unreadable += 1
+                    continue
+                topic.messages[k], topic.sizes[k] = content, len(content)
+    if unreadable:
+        bag.notes.append(f"{unreadable} messages are not packed, though {METADATA_FILE} says so")

@@ -1,0 +1,15 @@
+"""Look into a bag while it is being written."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from auv_sim.bags.reading.bag import read_bag
+
+
+def recorded(directory: Path, topic: str) -> bool:
+    """Return whether a bag has a message of a topic (its full name) by now; a file just made has none."""
+    if not any(file.stat().st_size for file in directory.glob("*.mcap")):
+        return False
+    found = read_bag(directory).topics.get(topic)
+    return found is not None and found.count > 0

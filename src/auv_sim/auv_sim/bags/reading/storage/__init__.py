@@ -1,0 +1,1 @@
+"""The storage formats: MCAP, SQLite, ROS 1, and files compressed as a whole."""

@@ -1,0 +1,288 @@
+"""Reads an MCAP file from front to back and gets out of it what can be got, however damaged it is.
+
+The readers of `mcap` and `rosbags` want a whole file. This one needs neither the index nor the end, checks
+every chunk, skips what is damaged and says what it skipped.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import mmap
+import struct
+import zlib
+from collections.abc import Callable
+from io import BytesIO
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import zstandard
+from mcap.data_stream import ReadDataStream
+from mcap.opcode import Opcode
+from mcap.records import Attachment, Channel, Chunk, Footer, Header, Metadata, Schema, Statistics
+from mcap.stream_reader import CRCValidationError, get_chunk_data_stream
+
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.bags.writing.mcap_file import MAGIC, MESSAGE_HEAD
+
+_RECORD = struct.Struct("<BQ")
+_PROLOGUE = struct.Struct("<QQQII")  # of a chunk: first, last, uncompressed size, its CRC, length of "zstd"
+_FOOTER_SIZE = _RECORD.size + 20 + len(MAGIC)
+_COMPRESSIONS = (b"", b"lz4", b"zstd")
+_MCAP = "an MCAP file"
+#: Chunks are unpacked up to this many times the size of their file, and that many bytes for a small file: a
+#: file that holds more was made to fill the memory.
+_MOST_PACKED, _LEAST_ROOM = 50, 32_000_000
+#: More topics than this are no recording of a vehicle.
+_MOST_CHANNELS = 10_000
+#: The note of a file that lacks its index and nothing else.
+NOT_CLOSED = "the end is missing (not closed)"
+_READERS: dict[int, Any] = {
+    Opcode.HEADER: Header,
+    Opcode.SCHEMA: Schema,
+    Opcode.CHANNEL: Channel,
+    Opcode.STATISTICS: Statistics,
+    Opcode.FOOTER: Footer,
+    Opcode.METADATA: Metadata,
+    Opcode.ATTACHMENT: Attachment,
+}
+
+#: Called for each message: channel number, sequence, log time, publish time (ns), the serialised message.
+Sink = Callable[[int, int, int, int, bytes], None]
+
+
+class ScanResult(NamedTuple):
+    """What a file holds besides its messages.
+
+    Attributes:
+        channels, schemas: by number.
+        metadata, attachments: in the order of the file.
+        profile: what the file says of itself (``ros2``).
+        notes: one line for each damage; empty for a whole file.
+        closed: whether the file has its index and its end.
+    """
+
+    channels: dict[int, Channel]
+    schemas: dict[int, Schema]
+    metadata: list[Metadata]
+    attachments: list[Attachment]
+    profile: str
+    notes: list[str]
+    closed: bool
+
+
+def scan(path: Path, sink: Sink) -> ScanResult:
+    """Read a file.
+
+    Args:
+        path: the file.
+        sink: gets every message that is whole, in the order of the file.
+
+    Raises:
+        ConfigurationError: it cannot be opened, is empty, has too many topics, or is no MCAP file at all.
+    """
+    try:
+        with path.open("rb") as stream:
+            if path.stat().st_size == 0:
+                raise ConfigurationError(str(path), "an empty file", _MCAP)
+            with mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as data:
+                return _Scanner(path, data, sink).run()
+    except OSError as error:
+        raise ConfigurationError(str(path), f"{error.strerror}", _MCAP) from None
+
+
+class _Scanner:
+    def __init__(self, path: Path, data: mmap.mmap, sink: Sink) -> None:
+        self._path = path
+        self._data = data
+        self._sink = sink
+        self._channels: dict[int, Channel] = {}
+        self._schemas: dict[int, Schema] = {}
+        self._metadata: list[Metadata] = []
+        self._attachments: list[Attachment] = []
+        self._profile = "ros2"
+        self._notes: list[str] = []
+        self._statistics: Statistics | None = None
+        self._messages = 0
+        self._room = _LEAST_ROOM + _MOST_PACKED * len(data)
+
+    def run(self) -> ScanResult:
+        data, size = self._data, len(self._data)
+        position = 0
+        if data[: len(MAGIC)] == MAGIC:
+            position = len(MAGIC)
+        elif self._next_chunk(0) is None:
+            raise ConfigurationError(str(self._path), "neither its beginning nor any part of it", _MCAP)
+        else:
+            self._notes.append("the first bytes are damaged")
+        closed, reached = False, position
+        while position + _RECORD.size <= size:
+            opcode, length = _RECORD.unpack_from(data, position)
+            end = position + _RECORD.size + length
+            if not 1 <= opcode <= 15 or end > size or not self._take(opcode, position, end):
+                following = self._next_chunk(position + 1)
+                if following is None:
+                    break
+                self._notes.append(f"damaged from byte {position} to {following}: left out")
+                position = following
+                continue
+            position = reached = end
+            if opcode == Opcode.FOOTER:
+                closed = data[end : end + len(MAGIC)] == MAGIC
+                break
+        if not closed:
+            lost = size - reached
+            left = f", and its last {lost} bytes belong to nothing whole" if lost else ""
+            self._notes.append(NOT_CLOSED + left)
+            if lost:
+                self._salvage(reached)
+        elif self._statistics is not None and self._statistics.message_count != self._messages:
+            there = self._statistics.message_count
+            self._notes.append(f"{self._messages} of {there} messages are readable")
+        return ScanResult(
+            self._channels, self._schemas, self._metadata, self._attachments, self._profile,
+            self._notes, closed,
+        )  # fmt: skip
+
+    def _take(self, opcode: int, start: int, end: int) -> bool:
+        """Take in one record; False when it makes no sense, so that its length cannot be trusted either."""
+        body = start + _RECORD.size
+        if opcode == Opcode.CHUNK:
+            return self._chunk(start, body, end)
+        if opcode == Opcode.MESSAGE:
+            return self._batch(self._data[start:end], start)
+        if opcode in _READERS:
+            record = _read(_READERS[opcode], self._data[body:end])
+            if record is None:
+                return False
+            if opcode == Opcode.ATTACHMENT and not self._intact(body, end):
+                self._notes.append(f"attachment {record.name!r}: its checksum is wrong; left out")
+            else:
+                self._keep(record)
+        return True
+
+    def _intact(self, body: int, end: int) -> bool:
+        """Whether an attachment has its checksum; 0 is none."""
+        (told,) = struct.unpack_from("<I", self._data, end - 4)
+        return told in (0, zlib.crc32(self._data[body : end - 4]))
+
+    def _keep(self, record: Any) -> None:
+        # The index repeats them at the end of the file; the later one is the one under a checksum.
+        if isinstance(record, Schema):
+            self._schemas[record.id] = record
+        elif isinstance(record, Channel):
+            self._channels[record.id] = record
+            if len(self._channels) > _MOST_CHANNELS:
+                raise ConfigurationError(
+                    str(self._path), f"more than {_MOST_CHANNELS} topics", "a recording of vehicles"
+                )
+        elif isinstance(record, Statistics):
+            self._statistics = record
+        elif isinstance(record, Metadata):
+            self._metadata.append(record)
+        elif isinstance(record, Attachment):
+            self._attachments.append(record)
+        elif isinstance(record, Header):
+            self._profile = record.profile
+
+    def _chunk(self, start: int, body: int, end: int) -> bool:
+        if not self._is_chunk(start):
+            return False
+        chunk = _read(Chunk, self._data[body:end])
+        if chunk is None:
+            return False
+        unpacked = max(chunk.uncompressed_size, len(chunk.data), _frame_size(chunk))
+        self._room -= unpacked
+        if self._room < 0:
+            said = f"{unpacked} bytes unpacked are too many for a file of {len(self._data)}"
+            self._notes.append(f"chunk at byte {start}: {said}; {_span(chunk)} left out")
+            return True
+        try:
+            stream, size = get_chunk_data_stream(chunk, validate_crc=True)
+            raw = stream.read(size)
+        except CRCValidationError:
+            self._notes.append(f"chunk at byte {start}: its checksum is wrong; {_span(chunk)} left out")
+            return True
+        except Exception as error:
+            # Damaged data make a decompressor fail in any way it likes.
+            reason = " ".join(str(error).split())
+            self._notes.append(f"chunk at byte {start}: {reason}; {_span(chunk)} left out")
+            return True
+        if not self._batch(raw, start):
+            self._notes.append(f"chunk at byte {start}: ends in the middle of a record")
+        return True
+
+    def _batch(self, raw: bytes, start: int) -> bool:
+        """The records of a chunk, or a bare one; False when they do not end where they should."""
+        position, size, sink, head = 0, len(raw), self._sink, MESSAGE_HEAD
+        while position + _RECORD.size <= size:
+            opcode, length = _RECORD.unpack_from(raw, position)
+            end = position + _RECORD.size + length
+            if end > size or not opcode:
+                return False
+            if opcode == Opcode.MESSAGE and length >= head.size - _RECORD.size:
+                _, _, channel, sequence, log_ns, publish_ns = head.unpack_from(raw, position)
+                sink(channel, sequence, log_ns, publish_ns, raw[position + head.size : end])
+                self._messages += 1
+            elif opcode in (Opcode.SCHEMA, Opcode.CHANNEL):
+                kind = Schema if opcode == Opcode.SCHEMA else Channel
+                self._keep(_read(kind, raw[position + _RECORD.size : end]))
+            position = end
+        return position == size
+
+    def _salvage(self, position: int) -> None:
+        """The messages at the beginning of a chunk that was cut off."""
+        if not self._is_chunk(position):
+            return
+        *_, name_length = _PROLOGUE.unpack_from(self._data, position + _RECORD.size)
+        at = position + _RECORD.size + _PROLOGUE.size
+        name, rest = self._data[at : at + name_length], self._data[at + name_length + 8 :]
+        before = self._messages
+        with contextlib.suppress(Exception):
+            if name == b"zstd":
+                with zstandard.ZstdDecompressor().stream_reader(rest) as packed:
+                    rest = packed.read(max(self._room, 0))
+            if name != b"lz4":
+                self._batch(rest, position)
+        if self._messages > before:
+            self._notes.append(f"{self._messages - before} messages of the cut-off chunk are readable")
+
+    def _is_chunk(self, start: int) -> bool:
+        at = start + _RECORD.size
+        if at + _PROLOGUE.size > len(self._data) or self._data[start] != Opcode.CHUNK:
+            return False
+        first, last, _, _, name_length = _PROLOGUE.unpack_from(self._data, at)
+        at += _PROLOGUE.size
+        return first <= last and name_length <= 4 and self._data[at : at + name_length] in _COMPRESSIONS
+
+    def _next_chunk(self, position: int) -> int | None:
+        """Where the next thing that looks like a whole chunk begins."""
+        size = len(self._data)
+        while (position := self._data.find(b"\x06", position)) != -1:
+            if self._is_chunk(position):
+                (length,) = struct.unpack_from("<Q", self._data, position + 1)
+                if position + _RECORD.size + length <= size:
+                    return position
+            position += 1
+        return None
+
+
+def _read(kind: Any, body: bytes) -> Any:
+    """A record, or None when the bytes are none."""
+    try:
+        stream = ReadDataStream(BytesIO(body))
+        return kind.read(stream)
+    except Exception:
+        return None
+
+
+def _frame_size(chunk: Chunk) -> int:
+    """Size that the compressed data say they have, bytes: the decompressor makes room for it at once."""
+    try:
+        return zstandard.frame_content_size(chunk.data) if chunk.compression == "zstd" else 0
+    except zstandard.ZstdError:
+        return 0  # unpacking will say what is wrong
+
+
+def _span(chunk: Chunk) -> str:
+    length = (chunk.message_end_time - chunk.message_start_time) * 1e-9
+    return f"{length:.2f} s of messages"

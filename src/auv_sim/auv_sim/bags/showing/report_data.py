@@ -1,0 +1,229 @@
+"""Everything that the report's page shows, as plain data."""
+
+from __future__ import annotations
+
+import base64
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following.curves.composite import CompositePath
+from auv_sim.bags.content.events import Event, diagnostic_spans
+from auv_sim.bags.content.recorded_mission import Flight, texts_of
+from auv_sim.bags.reading.bag import Bag
+from auv_sim.bags.reading.load import messages_of
+from auv_sim.flight.by_odometry import ByOdometry
+from auv_sim.flight.flown_share import percent
+from auv_sim.flight.metrics import MissionSummary, SubpathSummary
+from auv_sim.flight.run_record import Run
+
+_DEGREES = ("psi", "psi_true", "r", "rudder", "rudder_cmd", "psi_d", "r_d", "psi_e")
+
+
+def page_data(flight: Flight, events: list[Event], title: str) -> dict[str, Any]:
+    """The page's content; times are seconds since the first odometry."""
+    run = flight.run
+    start = float(run.t[0]) if run is not None and run.steps else flight.bag.span_ns[0] * 1e-9
+    columns = _columns(flight) if run is not None and run.steps else {}
+    summary, opinion = flight.summary, flight.by_odometry
+    path = _path(flight)
+    joints = flight.mission.path.joints if flight.mission is not None else ()
+    return {
+        "title": title,
+        "facts": _facts(flight, summary, opinion),
+        "notes": [*flight.bag.notes, *flight.notes, *_gaps(summary)],
+        "columns": {name: _packed(values) for name, values in columns.items()},
+        "path": {"x": _packed(path[0]), "y": _packed(path[1])} if path is not None else None,
+        "joints": [{"index": j.index, "x": j.x, "y": j.y, "geometric": j.geometric} for j in joints],
+        "switches": [event.time - start for event in events if event.kind == "switch"],
+        "begin": 0.0,
+        "now": [n for n in _NOW if n["name"] in columns],
+        "panels": _panels(flight, columns, start),
+        "table": _table(summary, opinion),
+        "events": [{"t": e.time - start, "kind": e.kind, "text": e.text, "level": e.level} for e in events],
+        "config": texts_of(flight.bag),
+    }
+
+
+def _packed(values: NDArray[np.float64]) -> str:
+    return base64.b64encode(np.ascontiguousarray(values, "<f4").tobytes()).decode()
+
+
+def _columns(flight: Flight) -> dict[str, NDArray[np.float64]]:
+    """The run's columns that have values, angles in degrees, time from 0; and what follows from them."""
+    run = flight.run
+    assert run is not None
+    columns: dict[str, NDArray[np.float64]] = {}
+    for name in Run.__dataclass_fields__:
+        values = getattr(run, name)
+        if np.isfinite(values).any():
+            columns[name] = np.degrees(values) if name in _DEGREES else values
+    columns["t"] = run.t - run.t[0]
+    rudder = columns.get("rudder", columns.get("rudder_cmd"))
+    if rudder is not None and run.steps > 1:
+        columns["rudder_rate"] = np.r_[np.nan, np.diff(rudder) / np.diff(run.t)]
+    erring = "x_true" in columns
+    if erring:
+        columns["track_x"], columns["track_y"] = run.track
+        heading = np.where(np.isfinite(run.psi_true), run.psi_true, run.psi)
+        columns["track_psi"] = np.degrees(heading)
+    if flight.mission is not None and "s" in columns:
+        columns["distance"] = _distance(run, flight.mission.path, *run.track)
+        if erring:
+            columns["distance_by_odometry"] = _distance(run, flight.mission.path, run.x, run.y)
+    return columns
+
+
+def _distance(
+    run: Run, path: CompositePath, x: NDArray[np.float64], y: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Distance of the positions to the subpath of their row, m, shape (n,); NaN where that is not known."""
+    index = run.subpath(path.n)
+    known = index >= 0
+    distance = np.full(run.steps, np.nan)
+    distance[known] = path.distance(x[known], y[known], index[known])
+    return distance
+
+
+def _path(flight: Flight) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
+    """North and east of the path: the mission's, else the one that guidance published."""
+    if flight.mission is not None:
+        x, y, _ = flight.mission.path.polyline(1.0)
+        return x, y
+    return _published_path(flight.bag)
+
+
+def _published_path(bag: Bag) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
+    try:
+        topic = bag.find(topics.PATH.name)
+        messages = messages_of(topic) if topic is not None and topic.type == topics.PATH.type else []
+    except ConfigurationError:
+        return None
+    if not messages:
+        return None
+    points = [pose.pose.position for pose in messages[-1][1].poses]
+    return np.array([p.y for p in points]), np.array([p.x for p in points])
+
+
+def _facts(
+    flight: Flight, summary: MissionSummary | None, opinion: ByOdometry | None
+) -> list[tuple[str, str]]:
+    first, last = flight.bag.span_ns
+    facts = [("recorded", f"{(last - first) * 1e-9:.1f} s"), ("messages", f"{flight.bag.count:,}")]
+    if flight.vehicle is not None:
+        facts.insert(0, ("vehicle", flight.vehicle.name))
+    if summary is not None:
+        facts = [
+            ("mission", summary.outcome()),
+            ("flown", percent(summary.flown_share)),
+            *facts,
+            ("path", f"{summary.path_length:.1f} m"),
+            ("mean speed", f"{_number(summary.mean_speed, 2)} m/s"),
+            ("rms distance", f"{_number(summary.rms_distance, 3)} m"),
+            ("largest", f"{_number(summary.largest_distance, 2)} m"),
+            ("rudder", f"{_number(summary.rudder_travel, 1)}°"),
+        ]
+    if opinion is not None:
+        facts.append(("by its odometry", f"rms {opinion.rms:.3f} m, largest {opinion.largest:.2f} m"))
+    return facts
+
+
+def _gaps(summary: MissionSummary | None) -> list[str]:
+    """The line about what was not flown, if there is anything."""
+    if summary is None or not (summary.missed or summary.skipped):
+        return []
+    return [summary.flown_line()]
+
+
+def _table(summary: MissionSummary | None, opinion: ByOdometry | None) -> list[list[str]]:
+    if summary is None:
+        return []
+
+    def figures(part: MissionSummary | SubpathSummary) -> list[str]:
+        return [
+            _number(part.duration, 1), _number(part.rms_distance, 3), _number(part.largest_distance, 3),
+            _number(part.rms_heading_error, 2), _number(part.rudder_travel_per_metre, 3),
+        ]  # fmt: skip
+
+    heads = ["subpath", "time (s)", "rms dist. (m)", "largest (m)", "rms heading (°)", "rudder (°/m)"]
+    rows = [[f"{part.number} {part.kind}", *figures(part)] for part in summary.subpaths]
+    rows.append(["all", *figures(summary)])
+    if opinion is not None:
+        heads.append("rms by odometry (m)")
+        for row, rms in zip(rows, (*opinion.subpaths, opinion.rms), strict=True):
+            row.append(_number(rms, 3))
+    return [heads, *rows]
+
+
+def _number(value: float, digits: int) -> str:
+    return f"{value:.{digits}f}" if math.isfinite(value) else "–"
+
+
+def _series(name: str, label: str, color: str, width: float = 1.5, wraps: bool = False) -> dict[str, Any]:
+    return {"name": name, "label": label, "color": color, "width": width, "wraps": wraps}
+
+
+def _panels(flight: Flight, columns: dict[str, Any], start: float) -> list[dict[str, Any]]:
+    """Only signals that were recorded, and only panels that have one."""
+    hull, erring = flight.vehicle, "x_true" in columns
+    angle = [math.degrees(hull.rudder.max_angle)] if hull is not None else []
+    rate = [math.degrees(hull.rudder.max_rate)] if hull is not None else []
+    wanted = [
+        ("Distance to the path (m)", 0.2, [], [
+            _series("distance", "true distance" if erring else "geometric distance", "path", 4.0),
+            _series("distance_by_odometry", "by odometry", "orange", 1.2),
+            _series("ye", "cross-track error ye", "blue"),
+        ]),
+        ("Along-track error xe (m)", 0.2, [], [_series("xe", "xe", "blue")]),
+        ("Heading (°)", 5.0, [], [
+            _series("psi_d", "desired ψd", "path", 4.0, True),
+            _series("psi", "measured ψ", "blue", 1.5, True),
+        ]),
+        ("Heading error (°)", 2.0, [], [_series("psi_e", "ψ − ψd", "blue")]),
+        ("Rudder (°)", 2.0, angle, [
+            _series("rudder_cmd", "commanded", "orange", 3.0), _series("rudder", "measured", "blue"),
+        ]),
+        ("Rudder rate (°/s)", 2.0, rate, [_series("rudder_rate", "from row to row", "blue")]),
+        ("Speed through water (m/s)", 0.2, [], [_series("ur", "ur", "blue"), _series("vr", "vr", "orange")]),
+        ("Current (m/s)", 0.1, [], [
+            _series("Vx_true", "true north", "path", 5.0), _series("Vy_true", "true east", "path", 5.0),
+            _series("Vx_est", "estimated north", "blue"), _series("Vy_est", "estimated east", "orange"),
+        ]),
+    ]  # fmt: skip
+    panels = []
+    for title, least, limits, series in wanted:
+        there = [s for s in series if s["name"] in columns]
+        if there:
+            both = [sign * limit for limit in limits for sign in (1.0, -1.0)]
+            panels.append({"title": title, "least": least, "limits": both, "series": there})
+    spans = diagnostic_spans(flight.bag)
+    if spans:
+        rows = [
+            {"name": name, "spans": [[a - start, b - start, level, text] for a, b, level, text in parts]}
+            for name, parts in sorted(spans.items())
+        ]
+        panels.append({"title": "Diagnostics (green OK, orange WARN, red ERROR)", "rows": rows})
+    return panels
+
+
+_NOW = [
+    {"name": "s", "label": "s", "unit": "", "digits": 3},
+    {"name": "x", "label": "north x", "unit": "m", "digits": 2},
+    {"name": "y", "label": "east y", "unit": "m", "digits": 2},
+    {"name": "x_true", "label": "true north", "unit": "m", "digits": 2},
+    {"name": "y_true", "label": "true east", "unit": "m", "digits": 2},
+    {"name": "psi", "label": "heading ψ", "unit": "°", "digits": 1},
+    {"name": "psi_d", "label": "desired ψd", "unit": "°", "digits": 1},
+    {"name": "psi_e", "label": "error", "unit": "°", "digits": 2},
+    {"name": "ye", "label": "ye", "unit": "m", "digits": 3},
+    {"name": "distance", "label": "distance", "unit": "m", "digits": 3},
+    {"name": "distance_by_odometry", "label": "by odometry", "unit": "m", "digits": 3},
+    {"name": "rudder_cmd", "label": "rudder cmd", "unit": "°", "digits": 2},
+    {"name": "rudder", "label": "rudder", "unit": "°", "digits": 2},
+    {"name": "ur", "label": "speed ur", "unit": "m/s", "digits": 2},
+    {"name": "thrust_cmd", "label": "thrust", "unit": "N", "digits": 2},
+]

@@ -1,0 +1,1 @@
+"""The verbs of `scripts/bag.py`, one a file."""

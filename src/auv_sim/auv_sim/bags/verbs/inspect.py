@@ -1,0 +1,139 @@
+"""Show what is in a recording: duration, topics, mission, events. Damaged and foreign ones are welcome.
+
+A directory with several recordings gets one row for each.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import json
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.bags.content.events import Event, events_of
+from auv_sim.bags.content.recorded_mission import Flight, flight_of
+from auv_sim.bags.content.topic_facts import TopicFacts, facts_of
+from auv_sim.bags.metadata import METADATA_FILE
+from auv_sim.bags.reading.bag import Bag, read_bag
+from auv_sim.bags.reading.bag_files import storage_of
+from auv_sim.bags.showing import inspect_tables
+from auv_sim.bags.verbs.arguments import add_choice
+from auv_sim.command_line import say, to_type
+from auv_sim.terminal import console as terminal
+from auv_sim.terminal import go_on
+
+#: Larger messages are images or point clouds of somebody else: their sizes are enough.
+_HEAVY = ("sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/CompressedImage")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The verb's options."""
+    parser.add_argument(
+        "bag", type=Path, nargs="+", metavar="BAG", help="recording, run directory, or a directory of many"
+    )
+    parser.add_argument("--json", action="store_true", help="for programs")
+    parser.add_argument(
+        "--mission", metavar="FILE", help="the mission that was flown, where the recording does not tell"
+    )
+    add_choice(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print; 2 when nothing at all could be read."""
+    bags = [bag for path in arguments.bag for bag in find_bags(path)]
+    console = terminal()
+    if len(bags) > 1:
+        return _many(bags, arguments, console)
+    bag = read_bag(bags[0], _wanted, arguments.odometry)
+    flight = flight_of(bag, arguments.mission, arguments.namespace)
+    facts, events = facts_of(bag), events_of(flight)
+    if arguments.json:
+        print(json.dumps(as_data(flight, facts, events), indent=2, allow_nan=False))
+    else:
+        inspect_tables.show(flight, facts, events, console)
+        go_on(console, *_next(flight, arguments.bag[0]))
+    return 0
+
+
+def _next(flight: Flight, path: Path) -> tuple[str, str]:
+    """What follows, and its command."""
+    if flight.bag.notes:
+        return "Make it whole", to_type("bag.py", "repair", path)
+    if flight.run is not None:
+        return "Look further", to_type("bag.py", "report", path)
+    return "Play it into a live graph", to_type("bag.py", "replay", path)
+
+
+def _wanted(_: str, type_name: str) -> bool:
+    return type_name not in _HEAVY
+
+
+def find_bags(path: Path) -> list[Path]:
+    """The recordings below a directory; the path itself when it is one.
+
+    Raises:
+        ConfigurationError: there is nothing.
+    """
+    bag = storage_of(path)
+    if bag.is_file() or _is_bag(bag):
+        return [bag]
+    below = sorted(
+        {file.parent for pattern in ("*.mcap", "*.db3", METADATA_FILE) for file in bag.rglob(pattern)}
+    )
+    return below or [bag]
+
+
+def _is_bag(path: Path) -> bool:
+    return any(any(path.glob(pattern)) for pattern in ("*.mcap", "*.db3", METADATA_FILE))
+
+
+def _many(bags: list[Path], arguments: argparse.Namespace, console: Console) -> int:
+    rows: list[tuple[Path, Flight | None, str]] = []
+    for path in bags:
+        try:
+            bag = read_bag(path, _wanted, arguments.odometry)
+            flight = flight_of(bag, arguments.mission, arguments.namespace)
+            rows.append((path, flight, "; ".join(flight.bag.notes)))
+        except ConfigurationError as error:
+            rows.append((path, None, f"found {error.found}, expected {error.expected}"))
+    if arguments.json:
+        data = [
+            as_data(flight, facts_of(flight.bag), events_of(flight))
+            if flight
+            else {"path": str(path), "notes": [note]}
+            for path, flight, note in rows
+        ]
+        print(json.dumps(data, indent=2, allow_nan=False))
+    else:
+        inspect_tables.show_many(rows, console)
+        readable = [path for path, flight, _ in rows if flight is not None]
+        if readable:
+            go_on(console, "Look into one of them", to_type("bag.py", "inspect", readable[-1]))
+    if all(flight is None for _, flight, _ in rows):
+        say("none of them can be read", error=True)
+        return 2
+    return 0
+
+
+def as_data(flight: Flight, facts: list[TopicFacts], events: list[Event]) -> dict[str, Any]:
+    """Everything that the tables show, for programs; unknown values are null."""
+    bag: Bag = flight.bag
+    first, last = bag.span_ns
+    summary, own = flight.summary, flight.by_odometry
+    return {
+        "path": str(bag.path),
+        "files": [file.name for file in bag.files],
+        "bytes": bag.size,
+        "start_s": first * 1e-9,
+        "duration_s": (last - first) * 1e-9,
+        "messages": bag.count,
+        "notes": [*bag.notes, *flight.notes],
+        "topics": [dataclasses.asdict(fact) for fact in facts],
+        "mission": json.loads(summary.to_json()) if summary is not None else None,
+        "by_odometry": {"rms_distance": own.rms, "largest_distance": own.largest} if own else None,
+        "events": [dataclasses.asdict(event) for event in events],
+    }

@@ -1,0 +1,38 @@
+"""Make a damaged or unfinished recording whole: everything that is readable gets an index and metadata.yaml.
+
+It is replaced in its place (files that held more than could be read stay beside it as *.damaged), or
+written anew with --out. A recording that is whole is left as it is.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from auv_sim.bags.mending import repair
+from auv_sim.command_line import say
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The verb's options."""
+    parser.add_argument("bag", type=Path, metavar="BAG", help="recording, run directory or storage file")
+    parser.add_argument(
+        "--out", type=Path, metavar="DIR", help="write the whole recording there, leave this one"
+    )
+    parser.add_argument(
+        "--compression", choices=("zstd", "none"), default="zstd", help="of the new file (default zstd)"
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Repair and say what was wrong."""
+    done = repair(arguments.bag, arguments.out, arguments.compression)
+    for note in done.notes:
+        say(f"was damaged: {note}")
+    if not done.notes and arguments.out is None and arguments.bag.is_dir():
+        say(f"{done.directory}: whole already, {done.messages} messages")
+        return 0
+    say(f"{done.directory}: whole, {done.messages} messages")
+    for file in done.kept:
+        say(f"{file}: kept, it is damaged")
+    return 0

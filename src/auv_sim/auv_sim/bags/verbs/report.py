@@ -1,0 +1,101 @@
+"""Write one self-contained, interactive HTML page about a recording, and pictures beside it."""
+
+from __future__ import annotations
+
+import argparse
+import html
+import json
+import math
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from auv_msgs_py.settings.result_files import write_text
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.bags.content.events import events_of
+from auv_sim.bags.content.recorded_mission import Flight, flight_of
+from auv_sim.bags.reading.bag import Bag, read_bag
+from auv_sim.bags.showing.report_data import page_data
+from auv_sim.bags.showing.report_pictures import pictures
+from auv_sim.bags.verbs.arguments import add_choice
+from auv_sim.command_line import say, to_type
+from auv_sim.terminal import console as terminal
+from auv_sim.terminal import go_on, wrote
+
+PAGE = "report.html"
+#: What each file is for.
+_WHAT = {
+    PAGE: "everything, for a browser",
+    "overview.png": "the mission in one picture",
+    "track.png": "the track",
+    "signals.png": "the signals over time",
+}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The verb's options."""
+    parser.add_argument("bag", type=Path, metavar="BAG", help="recording or run directory")
+    parser.add_argument(
+        "--out", type=Path, metavar="DIR", help="where to (default: report/ beside the recording)"
+    )
+    parser.add_argument(
+        "--mission", metavar="FILE", help="the mission that was flown, where the recording does not tell"
+    )
+    add_choice(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Write the page and the pictures."""
+    bag = read_bag(arguments.bag, odometry=arguments.odometry)
+    for note in bag.notes:
+        say(f"damaged: {note}")
+    flight = flight_of(bag, arguments.mission, arguments.namespace)
+    directory = arguments.out or _beside(bag)
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        page = directory / PAGE
+        write_text(page, page_of(flight))
+        written = [page, *pictures(flight, directory, _title(flight))]
+    except OSError as error:
+        raise ConfigurationError(str(directory), f"{error.strerror}", "a place to write to") from None
+    console = terminal()
+    for file in written:
+        wrote(console, file, _WHAT[file.name])
+    if flight.summary is not None:
+        go_on(console, "Try other gains on it", to_type("bag.py", "rerun", arguments.bag, params="NEW.yaml"))
+    else:
+        go_on(console, "Every number in one table", to_type("bag.py", "export", arguments.bag))
+    return 0
+
+
+def page_of(flight: Flight) -> str:
+    """The page as text: everything is in it."""
+    title = _title(flight)
+    data = json.dumps(_plain(page_data(flight, events_of(flight), title)), allow_nan=False)
+    # The data must not be able to end the element they stand in.
+    data = data.replace("<", "\\u003c")
+    template = (
+        resources.files("auv_sim.bags.showing").joinpath("page", "report.html").read_text(encoding="utf-8")
+    )
+    return template.replace("{{TITLE}}", html.escape(title)).replace("{{DATA}}", data)
+
+
+def _title(flight: Flight) -> str:
+    path = flight.bag.path
+    name = path.parent.name if path.name == "bag" else path.stem
+    return f"{flight.mission.name}: {name}" if flight.mission is not None else name
+
+
+def _beside(bag: Bag) -> Path:
+    return (
+        bag.path.parent / "report" if bag.path.name == "bag" else bag.path.parent / f"{bag.path.stem}-report"
+    )
+
+
+def _plain(value: Any) -> Any:
+    """Strict JSON knows no NaN."""
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,0 +1,218 @@
+"""Feed the recorded sensors through observer, guidance and autopilot again, as fast as possible and
+without a plant, and compare the commands with the recorded ones. With unchanged parameters a lockstep
+recording gives the same bits; with other gains it shows what they would have commanded in the same situation.
+The recorded vehicle does not follow the new commands, so a law that integrates (NISM) drifts away from them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from rich import box
+from rich.table import Table
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.settings import params_file, yaml_file
+from auv_msgs_py.settings.result_files import replacing
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following import config_files, vehicle
+from auv_path_following.missions import mission_file
+from auv_sim.bags.content.flown_settings import dotted
+from auv_sim.bags.content.recorded_mission import MISSION, PARAMS, configuration, known_hull
+from auv_sim.bags.content.rerun_chain import Answers, answers
+from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.reading.load import is_used
+from auv_sim.bags.verbs.arguments import add_choice
+from auv_sim.command_line import target
+from auv_sim.parameters import SUITE
+from auv_sim.terminal import console as terminal
+
+_FURTHER = {topics.MISSION_STATE.name, topics.DESIRED_THRUST.name}
+_DEGREES = (topics.RUDDER_CMD.name, topics.DESIRED_YAW.name, topics.DESIRED_YAW_RATE.name)
+_UNITS = {
+    topics.RUDDER_CMD.name: "°", topics.THRUST_CMD.name: "N", topics.DESIRED_YAW.name: "°",
+    topics.DESIRED_YAW_RATE.name: "°/s", topics.DESIRED_THRUST.name: "N", topics.PATH_PARAMETER.name: "",
+}  # fmt: skip
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The verb's options."""
+    parser.add_argument("bag", type=Path, metavar="BAG", help="recording or run directory")
+    parser.add_argument(
+        "--params", metavar="FILE", help="parameters to try; what the file leaves out stays as flown"
+    )
+    parser.add_argument("--mission", metavar="FILE", help="another mission than the recorded one")
+    parser.add_argument("--vehicle", metavar="FILE", help="another hull than the nodes were told")
+    add_choice(parser)
+    parser.add_argument("--png", type=target, metavar="FILE", help="draw recorded and new commands")
+    parser.add_argument("--csv", type=target, metavar="FILE", help="write recorded and new commands")
+    parser.add_argument("--json", action="store_true", help="for programs")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """0 when every command is the same bit for bit, else 1; with --params (--mission, --vehicle) always 0."""
+    found = rerun(
+        arguments.bag, arguments.params, arguments.mission, arguments.vehicle, arguments.namespace,
+        arguments.odometry,
+    )  # fmt: skip
+    if not np.isfinite(found.recorded[topics.RUDDER_CMD.name]).any():
+        raise ConfigurationError(str(arguments.bag), "no commands", f"messages on {topics.RUDDER_CMD.name}")
+    figures = {name: _figures(found, name) for name in found.new}
+    if arguments.csv:
+        _write_csv(found, arguments.csv)
+    if arguments.png:
+        from auv_sim.bags.showing.rerun_picture import draw
+
+        draw(found, arguments.png)
+    if arguments.json:
+        print(json.dumps({"steps": int(found.t.size), "topics": figures}, indent=2, allow_nan=False))
+    else:
+        _show(found, figures)
+    changed = arguments.params or arguments.mission or arguments.vehicle
+    same = all(
+        figures[name]["identical"] == figures[name]["compared"] for name in ("rudder_cmd", "thrust_cmd")
+    )
+    return 0 if changed or same else 1
+
+
+def rerun(
+    path: Path,
+    params: str | None = None,
+    mission: str | None = None,
+    hull: str | None = None,
+    namespace: str | None = None,
+    odometry: str | None = None,
+) -> Answers:
+    """What the chain would have answered.
+
+    Args:
+        path: the recording; its configuration is in it or beside it.
+        params, mission, hull: files that replace the recorded configuration.
+        namespace: which vehicle's topics.
+        odometry: which topic, where it has another name than the contract's.
+
+    Raises:
+        ConfigurationError: a file cannot be used, or the recording lacks something.
+    """
+    bag = read_bag(path, _is_needed, odometry)
+    with configuration(bag) as directory:
+        parameters = _parameters(directory / PARAMS, params)
+        chosen = {}
+        recorded = {"missions": (directory / MISSION, mission), "vehicles": (known_hull(directory), hull)}
+        for kind, (file, given) in recorded.items():
+            if given is not None:
+                chosen[kind] = config_files.find(kind, given)  # type: ignore[arg-type]
+            elif file.exists():
+                chosen[kind] = file
+            else:
+                option = f"--{kind[:-1]}"
+                raise ConfigurationError(
+                    str(bag.path), f"no {file.name} in or beside the recording", f"{option} FILE"
+                )
+        known = vehicle.load(str(chosen["vehicles"]))
+        flown = mission_file.load(str(chosen["missions"]), known)
+        return answers(bag, parameters, flown, known, namespace)
+
+
+def _is_needed(name: str, type_name: str) -> bool:
+    return is_used(name, type_name) or name.rsplit("/", 1)[-1] in _FURTHER
+
+
+def _parameters(recorded: Path, new: str | None) -> dict[str, Any]:
+    """The recorded parameters with those of a file laid over them."""
+    if new is None:
+        return (
+            params_file.load(recorded, SUITE)
+            if recorded.exists()
+            else {name: cls() for name, cls in SUITE.items()}
+        )
+    file = config_files.find("params", new)
+    changes = params_file.load(file, SUITE)
+    if not recorded.exists():
+        return changes
+    with tempfile.TemporaryDirectory(prefix="auv-rerun-") as name:
+        merged = Path(name) / PARAMS
+        content = _flat(recorded)
+        for node, values in _flat(file).items():
+            content.setdefault(node, {}).update(values)
+        body = {f"/**/{node}": {"ros__parameters": values} for node, values in content.items()}
+        yaml_file.dump(body, merged)
+        return params_file.load(merged, SUITE)
+
+
+def _flat(path: Path) -> dict[str, dict[str, Any]]:
+    """Node name -> dotted name -> value."""
+    flat: dict[str, dict[str, Any]] = {}
+    for pattern, body in yaml_file.parse(path).items():
+        flat.setdefault(str(pattern).rsplit("/", 1)[-1], {}).update(dotted(body["ros__parameters"]))
+    return flat
+
+
+def _figures(found: Answers, name: str) -> dict[str, Any]:
+    recorded, new = found.recorded[name], found.new[name]
+    both = np.isfinite(recorded)
+    if not both.any():
+        return {"compared": 0, "identical": 0, "rms": None, "largest": None, "largest_at_s": None}
+    a, b = np.ascontiguousarray(recorded[both]), np.ascontiguousarray(new[both])
+    difference = _shown(name, b - a)
+    worst = int(np.argmax(np.abs(difference)))
+    return {
+        "compared": int(both.sum()),
+        # As bits: -0.0 is not 0.0.
+        "identical": int((a.view(np.uint64) == b.view(np.uint64)).sum()),
+        "rms": float(np.sqrt(np.mean(difference**2))),
+        "largest": float(np.abs(difference[worst])),
+        "largest_at_s": float(found.t[both][worst]),
+    }
+
+
+def _shown(name: str, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """In the units in which people read them; a yaw's difference is wrapped."""
+    if name == topics.DESIRED_YAW.name:
+        values = np.remainder(values + np.pi, 2 * np.pi) - np.pi
+    return np.degrees(values) if name in _DEGREES else values
+
+
+def _show(found: Answers, figures: dict[str, dict[str, Any]]) -> None:
+    console = terminal()
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    table.add_column("recorded against new")
+    for heading in ("compared", "same bits", "rms difference", "largest", "at s"):
+        table.add_column(heading, justify="right")
+    for name, f in figures.items():
+        if not f["compared"]:
+            table.add_row(name, "0", *["-"] * 4)
+            continue
+        same = f["identical"] == f["compared"]
+        colour = "green" if same else "yellow"
+        unit = f" {_UNITS[name]}".rstrip()
+        table.add_row(
+            name, str(f["compared"]), f"[{colour}]{'all' if same else f['identical']}[/{colour}]",
+            f"{f['rms']:.4g}{unit}", f"{f['largest']:.4g}{unit}", "-" if same else f"{f['largest_at_s']:.2f}",
+        )  # fmt: skip
+    console.print(table)
+    commands = [figures[name] for name in (topics.RUDDER_CMD.name, topics.THRUST_CMD.name)]
+    if all(f["identical"] == f["compared"] for f in commands):
+        console.print(f"every command is the recorded one, bit for bit ({found.t.size} steps)")
+    for label, commands_of in (("recorded", found.recorded), ("new", found.new)):
+        rudder = np.degrees(commands_of[topics.RUDDER_CMD.name])
+        rudder = rudder[np.isfinite(rudder)]
+        travel, rms = np.abs(np.diff(rudder)).sum(), np.sqrt(np.mean(rudder**2))
+        console.print(
+            f"rudder {label}: travel {travel:.1f}°, rms {rms:.3f}°, largest {np.abs(rudder).max():.2f}°"
+        )
+
+
+def _write_csv(found: Answers, file: Path) -> None:
+    names = [f"{name}_{which}" for name in found.new for which in ("recorded", "new")]
+    columns = [column for name in found.new for column in (found.recorded[name], found.new[name])]
+    with replacing(file) as draft, draft.open("w", encoding="utf-8") as stream:
+        stream.write(",".join(["t [s]", *names]) + "\n")
+        for row in zip(found.t, *columns, strict=True):
+            stream.write(",".join(repr(float(value)) for value in row) + "\n")

@@ -1,0 +1,1 @@
+"""Writing a rosbag2 directory with MCAP storage."""

@@ -1,0 +1,185 @@
+"""Takes messages off subscriptions in batches: one wake-up for all topics instead of one for each message.
+
+A recorder in lockstep gets some twenty messages a step. Handed over one by one each of them costs a wake-up,
+a lock and a callback, which is several times what taking it from the reader's queue costs. So the queues are
+deep, no executor looks at them, and every few milliseconds everything that has come is fetched at once. When
+each message was sent and received is told by the middleware, not by a clock that is asked afterwards.
+"""
+
+from __future__ import annotations
+
+import struct
+from bisect import bisect_right
+from typing import Any, NamedTuple
+
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from rclpy.subscription import Subscription
+
+from auv_msgs_py.contract.qos import message_class
+from auv_msgs_py.contract.topics import CLOCK
+from auv_sim.bags.sequence_watch import SequenceWatch
+from auv_sim.bags.writing.bag_writer import Channel
+
+_CLOCK = struct.Struct("<4xiI")
+#: At least so many times of /clock are remembered, for messages that come late.
+_REMEMBERED = 10_000
+#: A message sent this long before the newest /clock is a latched one, or the machine's clock was set, ns.
+_LONG_AGO = 10 * 1_000_000_000
+_BILLION = 1_000_000_000
+
+
+class Taken(NamedTuple):
+    """One message: when it was sent and received (ns, the machine's clock), its publisher's number of it."""
+
+    sent_ns: int
+    order: int
+    sequence: int
+    received_ns: int
+    topic: PolledTopic
+    data: bytes
+
+
+class PolledTopic:
+    """A raw subscription that is emptied when it suits the recorder.
+
+    Args:
+        node: who subscribes.
+        name: full topic name.
+        type_name: ROS type.
+        profile: the QoS to ask for.
+        channel: where its messages go.
+        fixed: the QoS must stay as it is (lockstep waits for exactly this reader).
+    """
+
+    def __init__(
+        self, node: Node, name: str, type_name: str, profile: QoSProfile, channel: Channel, fixed: bool
+    ) -> None:
+        self.name = name
+        self.channel = channel
+        self.fixed = fixed
+        #: Whether a message has come, and from how many publishers they may come.
+        self.known = False
+        self.publishers = 1
+        self.watch = SequenceWatch()
+        self._node = node
+        self._fetched: list[Taken] = []
+        self._type = message_class(type_name)
+        self.is_clock = name == CLOCK.name
+        self._subscribe(profile)
+
+    def _subscribe(self, profile: QoSProfile) -> None:
+        self.profile = profile
+        self._subscription: Subscription = self._node.create_subscription(
+            self._type, self.name, lambda _: None, profile, raw=True
+        )
+        # Hidden from executors before one has looked, or it would wake up for every message.
+        self._node._subscriptions.remove(self._subscription)
+        self._take = self._subscription.handle.take_message
+
+    def resubscribe(self, profile: QoSProfile) -> None:
+        """Ask for another QoS, unless something has come by now: it would go with the old subscription."""
+        self._fetch(self._fetched)
+        if not self._fetched:
+            self.close()
+            self._subscribe(profile)
+
+    def close(self) -> None:
+        """Leave the topic."""
+        self._subscription.destroy()
+
+    def take(self, batch: list[Taken]) -> None:
+        """Append everything that has come."""
+        if self._fetched:
+            batch += self._fetched
+            self._fetched = []
+        self._fetch(batch)
+
+    def _fetch(self, batch: list[Taken]) -> None:
+        take, kind, order = self._take, self._type, 0 if self.is_clock else 1
+        while (taken := take(kind, True)) is not None:
+            data, info = taken
+            received = info["received_timestamp"]
+            sequence = info.get("publication_sequence_number") or 0
+            batch.append(Taken(info["source_timestamp"] or received, order, sequence, received, self, data))
+
+
+class Timestamps:
+    """Log time and publish time of each message.
+
+    Args:
+        simulated: both are what /clock said when the message was sent; else the machine's clock.
+    """
+
+    def __init__(self, simulated: bool) -> None:
+        self.simulated = simulated
+        #: Simulated time, ns; None before the first /clock.
+        self.now: int | None = None
+        # When each /clock was sent, in that order, and what it said, ns.
+        self._sent: list[int] = []
+        self._said: list[int] = []
+
+    def begin(self, batch: list[Taken]) -> None:
+        """What was sent before the clock's first word gets the time of that word."""
+        first = next((taken for taken in batch if taken.order == 0), None)
+        self.now = (_clock(first.data) or 0) if first is not None else 0
+
+    def of(self, taken: Taken) -> tuple[int, int]:
+        """(log time, publish time), ns; a /clock message moves the time.
+
+        A topic is emptied a moment before /clock is. What is sent in between comes with the next batch, when
+        newer times have been read: it gets the time of the /clock before it, not the newest.
+        """
+        if not self.simulated:
+            return taken.received_ns, taken.sent_ns
+        if taken.order == 0:
+            told = _clock(taken.data)
+            if told is not None:
+                self.now = told
+                self._remember(taken.sent_ns, told)
+        now = self._at(taken.sent_ns)
+        return now, now
+
+    def _remember(self, sent_ns: int, told: int) -> None:
+        if self._sent and sent_ns < self._sent[-1]:  # the machine's clock was set back
+            self._sent, self._said = [], []
+        self._sent.append(sent_ns)
+        self._said.append(told)
+        if len(self._sent) > 2 * _REMEMBERED:
+            del self._sent[:-_REMEMBERED], self._said[:-_REMEMBERED]
+
+    def _at(self, sent_ns: int) -> int:
+        """Simulated time when a message was sent; for one of long ago, the newest time."""
+        if not self._sent or sent_ns >= self._sent[-1] or sent_ns < self._sent[-1] - _LONG_AGO:
+            return self.now or 0
+        return self._said[max(bisect_right(self._sent, sent_ns) - 1, 0)]
+
+
+def _clock(data: bytes) -> int | None:
+    """Return the time of a /clock message, ns; None for bytes that hold none."""
+    if len(data) < _CLOCK.size:
+        return None
+    seconds, nanoseconds = _CLOCK.unpack_from(data)
+    if seconds < 0 or nanoseconds >= _BILLION:
+        return None
+    return int(seconds) * _BILLION + int(nanoseconds)
+
+
+def drain(topics: list[PolledTopic]) -> list[Taken]:
+    """Everything that has come on all topics, in the order in which it was sent."""
+    batch: list[Taken] = []
+    clocks: list[PolledTopic] = []
+    for topic in topics:
+        if topic.is_clock:
+            clocks.append(topic)
+        else:
+            topic.take(batch)
+    # Last, so that no message is there without the time at which it was sent.
+    for topic in clocks:
+        topic.take(batch)
+    batch.sort(key=_when)
+    return batch
+
+
+def _when(taken: Taken) -> Any:
+    return taken[:3]

@@ -1,0 +1,140 @@
+"""Which topics are recorded, and with which QoS: the contract from the start, others as they appear."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+
+from auv_msgs_py.contract import qos, topics
+from auv_msgs_py.contract.topics import Topic
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.bags.writing.bag_writer import BagWriter
+from auv_sim.bags.writing.intake import PolledTopic
+from auv_sim.bags.writing.qos_records import matching, qos_record
+from auv_sim.parameters import RecorderParameters
+
+#: ROS's own topics that belong to every record.
+LOG = Topic("/rosout", "rcl_interfaces/msg/Log", "every node", latched=True)
+ROS_OWN = (
+    LOG,
+    Topic("/parameter_events", "rcl_interfaces/msg/ParameterEvent", "every node"),
+)
+
+
+class Selection:
+    """Keeps the subscriptions.
+
+    Args:
+        node: the recorder.
+        parameters: what is wanted.
+        writer: gets a channel for each topic.
+
+    Raises:
+        ConfigurationError: nothing is wanted.
+    """
+
+    def __init__(self, node: Node, parameters: RecorderParameters, writer: BagWriter) -> None:
+        self._node = node
+        self._p = parameters
+        self._writer = writer
+        self._refused: set[str] = set()
+        self._listed = {node.resolve_topic_name(name) for name in parameters.topics.split()}
+        self._seeks = bool(self._listed or parameters.regex or parameters.all_topics)
+        self._promised: dict[str, QoSProfile] = {}
+        self.topics: list[PolledTopic] = []
+        if parameters.contract:
+            for topic in (*topics.CONTRACT, *ROS_OWN):
+                self._follow_contract(topic)
+        elif not self._seeks:
+            raise ConfigurationError(
+                f"{node.get_name()}: parameters",
+                "no topics to record",
+                "contract, topics, regex or all_topics",
+            )
+
+    def _follow_contract(self, topic: Topic) -> None:
+        lockstep, name = self._p.lockstep, self._node.resolve_topic_name(topic.name)
+        self._promised[name] = qos.offered(topic)
+        reliable = lockstep or topic.latched or topic.publisher != topics.PLANT
+        wanted = qos.requested(topic, reliable, qos.RECORDER_DEPTH)
+        self._follow(name, topic.type, [qos.offered(topic)], wanted, lockstep)
+        self.topics[-1].channel.latched = int(topic.latched and topic is not LOG)
+
+    def _follow(self, name: str, type_name: str, offers: list[Any], wanted: Any, fixed: bool) -> None:
+        channel = self._writer.add_topic(name, type_name, [qos_record(offer) for offer in offers])
+        self.topics.append(PolledTopic(self._node, name, type_name, wanted, channel, fixed))
+
+    def look_around(self) -> list[str]:
+        """Subscribe to what has appeared and is wanted, and fit the QoS of what is still silent.
+
+        Returns:
+            One line for each topic that is wanted and cannot be had.
+        """
+        for topic in self.topics:
+            if not topic.fixed and not topic.known:
+                offers = self._offers(topic.name)
+                wanted = matching(offers, qos.RECORDER_DEPTH)
+                if offers and _kind(wanted) != _kind(topic.profile):
+                    topic.resubscribe(wanted)
+            elif topic.known:
+                topic.publishers = self._node.count_publishers(topic.name)
+                if topic.channel.latched:
+                    topic.channel.latched = max(1, topic.publishers)
+        if not self._seeks:
+            return []
+        followed = {topic.name for topic in self.topics}
+        troubles = []
+        for name, types in self._node.get_topic_names_and_types():
+            if name in followed or name in self._refused or not self._wanted(name):
+                continue
+            offers = self._offers(name)
+            if not offers:
+                continue
+            try:
+                if len(types) > 1:
+                    raise ConfigurationError(name, f"types {' and '.join(types)}", "one type")
+                self._follow(name, types[0], offers, matching(offers, qos.RECORDER_DEPTH), False)
+            except (ConfigurationError, ImportError, AttributeError) as error:
+                self._refused.add(name)
+                troubles.append(f"not recorded: {error}")
+        return troubles
+
+    def _wanted(self, name: str) -> bool:
+        if name in self._listed:
+            return True
+        if self._p.exclude and re.search(self._p.exclude, name):
+            return False
+        return self._p.all_topics or bool(self._p.regex and re.search(self._p.regex, name))
+
+    def meet(self, topic: PolledTopic) -> None:
+        """The first message of a topic has come: now its publishers are known."""
+        topic.known = True
+        offers = self._offers(topic.name)
+        topic.publishers = max(1, len(offers))
+        # Discovery does not tell a history's depth. Where the contract does, it knows more.
+        promised = self._promised.get(topic.name)
+        told = [promised if promised and _kind(offer) == _kind(promised) else offer for offer in offers]
+        # Log lines are transient local too, and no state that a further file has to begin with.
+        if offers and topic.name != LOG.name and _is_latched(offers):
+            topic.channel.latched = topic.publishers
+        if told:
+            self._writer.set_qos(topic.channel, [qos_record(offer) for offer in told])
+
+    def _offers(self, name: str) -> list[Any]:
+        return [info.qos_profile for info in self._node.get_publishers_info_by_topic(name)]
+
+    def close(self) -> None:
+        """Leave all topics."""
+        for topic in self.topics:
+            topic.close()
+
+
+def _is_latched(offers: list[Any]) -> bool:
+    return bool(matching(offers, 1).durability == DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+def _kind(profile: Any) -> tuple[Any, Any]:
+    return profile.reliability, profile.durability

@@ -1,1 +1,0 @@
-"""Many missions at once: the laws of the suite over plain numbers, compiled where Numba is installed."""

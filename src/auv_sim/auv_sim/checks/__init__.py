@@ -1,0 +1,1 @@
+"""Checks of missions, vehicles, faults, endurance and speed."""

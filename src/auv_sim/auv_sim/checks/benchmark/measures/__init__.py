@@ -1,0 +1,1 @@
+"""The measurements of the benchmark, and the processes that are measured."""

@@ -1,0 +1,79 @@
+"""Processes under measurement: watched, interruptible, and gone afterwards."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from auv_msgs_py.node.runtime import StopRequest
+from auv_msgs_py.values.errors import SuiteError
+from auv_sim.checks.benchmark.measures.usage import Usage, usage
+from auv_sim.launch.processes.domains import free_domain
+from auv_sim.launch.processes.process_group import Children
+
+
+class BenchmarkFailed(SuiteError):
+    """Something that was to be measured did not run."""
+
+
+class Measured(Children):
+    """Child processes in a ROS domain of their own.
+
+    Args:
+        directory: their logs go below it.
+        stop: set by a signal.
+    """
+
+    def __init__(self, directory: Path, stop: StopRequest) -> None:
+        environment = {"ROS_DOMAIN_ID": str(free_domain()), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+        os.environ.update(environment)  # for who looks at them from this process
+        super().__init__(directory / "log", environment)
+        self._stop = stop
+
+    def usage(self) -> dict[str, Usage]:
+        """What each has used so far."""
+        return {name: usage(pid) for name, pid in self.ids.items()}
+
+    def until(self, condition: Callable[[], bool], look: Callable[[], None], patience: float) -> None:
+        """Look again and again until the condition holds.
+
+        Raises:
+            BenchmarkFailed: a process has ended, or patience (s) has.
+            KeyboardInterrupt: a signal came.
+        """
+        deadline = time.monotonic() + patience
+        while not condition():
+            dead = self.dead()
+            if dead is not None:
+                raise BenchmarkFailed(f"{dead.name} ended early: {' '.join(dead.last_lines(3))}")
+            if time.monotonic() > deadline:
+                raise BenchmarkFailed(f"nothing came of it within {patience:g} s")
+            look()
+            if self._stop.requested:
+                raise KeyboardInterrupt
+
+
+@contextmanager
+def interruptible() -> Iterator[StopRequest]:
+    """Inside, a signal only sets a flag, so that no process is started without being known."""
+    stop = StopRequest()
+    try:
+        yield stop
+    finally:
+        stop.withdraw()
+    if stop.requested:
+        raise KeyboardInterrupt
+
+
+@contextmanager
+def processes(directory: Path) -> Iterator[Measured]:
+    """Processes that are stopped at the end, whatever happens."""
+    with interruptible() as stop:
+        children = Measured(directory, stop)
+        try:
+            yield children
+        finally:
+            children.stop()

@@ -1,0 +1,152 @@
+"""What `scripts/fault_matrix.py` does: spoil a flight row by row and print what was noticed."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import os
+import tempfile
+import time
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.settings.result_files import write_text
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.checks.faults.expectations import REPRESENTATIVE, TABLE, Expectation, chosen
+from auv_sim.cli.fault_matrix import SPEED
+from auv_sim.command_line import (
+    EXIT_DONE,
+    EXIT_FAILED,
+    make_directory,
+    to_type,
+)
+from auv_sim.launch.processes.domains import free_domain
+from auv_sim.terminal import console as terminal
+from auv_sim.terminal import go_on, progress_bar
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Fly what the command line asks for; returns the exit code."""
+    if arguments.list:
+        print("\n".join(row.name for row in TABLE))
+        return EXIT_DONE
+    if arguments.hostile is not None and (arguments.rows or arguments.full or arguments.json):
+        raise ConfigurationError("--hostile", "together with rows or --json", "it alone")
+    rows = _rows(arguments)
+    if arguments.out is not None:
+        make_directory(arguments.out, new=True)
+    os.environ["ROS_DOMAIN_ID"] = str(arguments.domain if arguments.domain is not None else free_domain())
+    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    console = terminal()
+    with tempfile.TemporaryDirectory(prefix="auv-faults-") as scratch:
+        if arguments.hostile is not None:
+            directory = arguments.out or Path(scratch)
+            return _besiege(directory, arguments.speed, arguments.hostile, console)
+        results = _run(rows, arguments.out or Path(scratch), arguments.speed, console)
+    good = sum(result.good for result in results)
+    if arguments.json is not None:
+        from auv_sim.checks.faults.matrix import as_data
+
+        record = {"speed": arguments.speed, "good": good, "rows": [as_data(result) for result in results]}
+        write_text(arguments.json, json.dumps(record, indent=2) + "\n")
+    if not arguments.full and not arguments.rows:
+        speed = arguments.speed if arguments.speed != SPEED else None
+        again = to_type("fault_matrix.py", full=True, speed=speed)
+        go_on(console, f"All {len(TABLE)} rows", again)
+    return EXIT_DONE if good == len(results) == len(rows) else EXIT_FAILED
+
+
+def _rows(arguments: argparse.Namespace) -> list[Expectation]:
+    if arguments.full:
+        return list(TABLE)
+    try:
+        return chosen(tuple(arguments.rows) or REPRESENTATIVE)
+    except KeyError as error:
+        raise ConfigurationError("ROW", str(error), "a name that --list prints") from None
+
+
+def _run(rows: list[Expectation], directory: Path, speed: float, console: Console) -> list:  # type: ignore[type-arg]
+    from auv_sim.checks.faults.matrix import Matrix, Result  # rclpy, only when it is needed
+    from auv_sim.checks.faults.simulator_restart import kill_simulator
+
+    begin = time.monotonic()
+    results: list[Result] = []
+    with progress_bar(console, disable=not console.is_terminal) as bar:
+        task = bar.add_task("spoiling", total=len(rows))
+
+        def tell(result: Result) -> None:
+            bar.update(task, advance=1, description=result.row.name)
+            if not result.good:
+                console.print(f"{result.row.name}: {'; '.join(result.wrong)}", style="red", highlight=False)
+
+        simulator = [row for row in rows if row.place == topics.PLANT]
+        others = [row for row in rows if row not in simulator]
+        if others:
+            results += Matrix(directory, speed, tell).run(others)
+        for row in simulator:
+            results.append(kill_simulator(row, directory / "simulator", speed))
+            tell(results[-1])
+    console.print(_table(results))
+    good = sum(result.good for result in results)
+    console.print(
+        f"{good} of {len(results)} rows as docs/safety.md says, in {time.monotonic() - begin:.0f} s of wall"
+        f" time at {speed:g} times real time",
+        highlight=False,
+    )
+    return results
+
+
+def _besiege(directory: Path, speed: float, seconds: float, console: Console) -> int:
+    from auv_sim.checks.faults.siege import besiege  # rclpy, only when it is needed
+
+    with progress_bar(console, disable=not console.is_terminal) as bar:
+        task = bar.add_task("under attack", total=round(seconds))
+        found = besiege(
+            directory, speed, seconds, lambda share: bar.update(task, completed=round(share * seconds))
+        )
+    table = Table(title=f"{seconds:g} s beside a hostile node", title_justify="left")
+    for heading in ("process", "grew by (MB)", "topics named in /diagnostics"):
+        table.add_column(heading)
+    for name, grown in found.growth.items():
+        table.add_row(name, f"{grown:.1f}", ", ".join(sorted(found.named.get(name, ()))))
+    console.print(table)
+    console.print(
+        f"{found.refused} messages refused, rudder at most {math.degrees(found.largest_rudder):.1f} degrees",
+        highlight=False,
+    )
+    for text in found.wrong:
+        console.print(text, style="red", highlight=False, markup=False)
+    return EXIT_FAILED if found.wrong else EXIT_DONE
+
+
+def _table(results: list) -> Table:  # type: ignore[type-arg]
+    table = Table(title="What failed, and what was done about it", title_justify="left")
+    for heading in ("place", "fault", "noticed by"):
+        table.add_column(heading)
+    for heading in ("after (s)", "at most", "stopped (s)", "at most"):
+        table.add_column(heading, justify="right")
+    table.add_column("mission")
+    table.add_column("")
+    place = ""
+    for result in results:
+        row = result.row
+        if place and row.place != place:
+            table.add_section()
+        fault = row.fault + (", then abort" if row.then_abort else "")
+        table.add_row(
+            row.place if row.place != place else "", fault, row.noticed_by or "-",
+            _seconds(result.noticed),
+            f"{row.within:g}{' wall' if row.wall else ''}" if row.noticed_by else "-",
+            _seconds(result.safe), f"{row.safe:g}" if row.safe else "-", row.outcome,
+            "[green]ok[/green]" if result.good else f"[red]{'; '.join(result.wrong)}[/red]",
+        )  # fmt: skip
+        place = row.place
+    return table
+
+
+def _seconds(value: float) -> str:
+    return "-" if math.isnan(value) else f"{value:.2f}"

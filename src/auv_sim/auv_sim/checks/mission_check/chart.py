@@ -1,0 +1,140 @@
+"""The path for a chart: GeoJSON and KML, in degrees."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+
+from auv_msgs_py.settings.result_files import write_text
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following.curves.outline import polygon
+from auv_path_following.missions.geodesy import to_geodetic
+from auv_path_following.missions.mission_file import Mission
+
+#: How far the drawn line may be from the path, m.
+_ERROR = 0.05
+#: 1e-8 degrees are a millimetre.
+_DIGITS = 8
+_KML = "http://www.opengis.net/kml/2.2"
+
+Place = list[float]
+
+
+def export(mission: Mission, target: Path) -> None:
+    """Write the path as a line, and its waypoints and joints as points.
+
+    Args:
+        mission: with an origin.
+        target: the file to write; its suffix says which format.
+
+    Raises:
+        ConfigurationError: the mission has no origin, the suffix is unknown, or the file cannot be written.
+    """
+    writer = {".geojson": _geojson, ".kml": _kml}.get(target.suffix.lower())
+    if writer is None:
+        raise ConfigurationError("--export", f"{target}", "a file that ends with .geojson or .kml")
+    if mission.origin is None:
+        expected = "origin: {latitude_deg: ..., longitude_deg: ...}, to place the path on a chart"
+        raise ConfigurationError(f"{mission.source}: origin", "nothing", expected)
+    try:
+        write_text(target, writer(mission))
+    except OSError as error:
+        raise ConfigurationError(
+            "--export", f"{target} ({error.strerror})", "a file that can be written"
+        ) from None
+
+
+def _places(mission: Mission, north: Any, east: Any) -> list[Place]:
+    """[longitude, latitude] as both formats have it."""
+    if mission.origin is None or not len(north):
+        return []
+    latitude, longitude = to_geodetic(mission.origin, north, east)
+    places: list[Place] = np.column_stack((longitude, latitude)).round(_DIGITS).tolist()
+    return places
+
+
+def _line(mission: Mission) -> list[list[Place]]:
+    """The path in parts that end at the antimeridian, as RFC 7946, section 3.1.9, has it."""
+    pieces = [polygon(segment, _ERROR) for segment in mission.path.segments[: mission.once]]
+    kept = [(x[:-1], y[:-1]) for x, y in pieces[:-1]] + [pieces[-1]]
+    north, east = (np.concatenate(axis) for axis in zip(*kept, strict=True))
+    places = _places(mission, north, east)
+    parts = [places[:1]]
+    for k in range(1, len(places)):
+        (before, _), (after, _) = places[k - 1 : k + 1]
+        if abs(after - before) > 180.0:
+            edge = math.copysign(180.0, before)
+            latitude = _crossing(mission, north[k - 1 : k + 1], east[k - 1 : k + 1])
+            parts[-1].append([edge, latitude])
+            parts.append([[-edge, latitude]])
+        parts[-1].append(places[k])
+    # A point on the antimeridian itself is there twice, and alone in its part at an end of the path.
+    distinct = [[place for place, _ in itertools.groupby(part)] for part in parts]
+    return [part for part in distinct if len(part) > 1] or distinct
+
+
+def _crossing(mission: Mission, north: Any, east: Any) -> float:
+    """Latitude (deg) at which a straight piece of the path meets the antimeridian."""
+    begins_east = _places(mission, north[:1], east[:1])[0][0] > 0.0
+    low, high = 0.0, 1.0
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        x, y = (axis[:1] + middle * (axis[1:] - axis[:1]) for axis in (north, east))
+        longitude, latitude = _places(mission, x, y)[0]
+        low, high = (middle, high) if (longitude > 0.0) == begins_east else (low, middle)
+    return latitude
+
+
+def _points(mission: Mission) -> list[tuple[str, Place]]:
+    """Names and places of waypoints and joints."""
+    joints = mission.path.joints[: max(mission.once - 1, 0)]
+    named = [(f"waypoint {k}", *point) for k, point in enumerate(mission.waypoints, start=1)]
+    named += [(f"joint {joint.index} {joint.geometric}", joint.x, joint.y) for joint in joints]
+    places = _places(mission, [item[1] for item in named], [item[2] for item in named])
+    return [(item[0], place) for item, place in zip(named, places, strict=True)]
+
+
+def _geojson(mission: Mission) -> str:
+    def feature(kind: str, coordinates: Any, **properties: Any) -> dict[str, Any]:
+        geometry = {"type": kind, "coordinates": coordinates}
+        return {"type": "Feature", "properties": properties, "geometry": geometry}
+
+    parts = _line(mission)
+    line = feature(
+        "LineString" if len(parts) == 1 else "MultiLineString",
+        parts[0] if len(parts) == 1 else parts,
+        name=mission.name,
+        length_m=round(mission.path.length, 3),
+    )
+    points = [feature("Point", place, name=name) for name, place in _points(mission)]
+    return json.dumps({"type": "FeatureCollection", "features": [line, *points]}, indent=1) + "\n"
+
+
+def _kml(mission: Mission) -> str:
+    ElementTree.register_namespace("", _KML)
+    root = ElementTree.Element(f"{{{_KML}}}kml")
+    document = ElementTree.SubElement(root, f"{{{_KML}}}Document")
+
+    def placemark(parent: ElementTree.Element, name: str, kind: str, parts: list[list[Place]]) -> None:
+        mark = ElementTree.SubElement(parent, f"{{{_KML}}}Placemark")
+        ElementTree.SubElement(mark, f"{{{_KML}}}name").text = name
+        holder = mark if len(parts) == 1 else ElementTree.SubElement(mark, f"{{{_KML}}}MultiGeometry")
+        for places in parts:
+            shape = ElementTree.SubElement(holder, f"{{{_KML}}}{kind}")
+            text = " ".join(f"{longitude},{latitude}" for longitude, latitude in places)
+            ElementTree.SubElement(shape, f"{{{_KML}}}coordinates").text = text
+
+    ElementTree.SubElement(document, f"{{{_KML}}}name").text = mission.name
+    placemark(document, mission.name, "LineString", _line(mission))
+    folder = ElementTree.SubElement(document, f"{{{_KML}}}Folder")
+    ElementTree.SubElement(folder, f"{{{_KML}}}name").text = "waypoints and joints"
+    for name, place in _points(mission):
+        placemark(folder, name, "Point", [[place]])
+    ElementTree.indent(root)
+    return ElementTree.tostring(root, encoding="unicode", xml_declaration=True) + "\n"

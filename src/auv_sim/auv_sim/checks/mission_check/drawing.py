@@ -1,0 +1,164 @@
+"""One picture of a planned mission: the path on north-east axes, and its curvature below."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from auv_msgs_py.values.types import NO_CURRENT, Current
+from auv_path_following.curves.outline import look, polygon
+from auv_path_following.missions.mission_file import Mission
+from auv_sim.checks.mission_check.flyable import Verdicts
+from auv_sim.views.labels import arrow
+from auv_sim.views.plot_style import AREA, BLUE, GREEN, HALO, INK, MUTED, ORANGE, PATH, RED, save, style
+
+CONTINUITY = {"G0": RED, "G1": ORANGE, "G2": GREEN}
+_MEANING = {"G0": "corner", "G1": "curvature jumps", "G2": "smooth"}
+#: More joints or waypoints than this are drawn small and without numbers.
+_FEW = 60
+_ERROR = 0.05
+
+
+def draw(
+    mission: Mission, verdicts: Verdicts, vehicle_name: str, png: Path, current: Current = NO_CURRENT
+) -> None:
+    """Draw the plan, 1200 x 1300 pixels.
+
+    Args:
+        mission: what is planned.
+        verdicts: of its check.
+        vehicle_name: whose tightest turn is drawn.
+        png: the file to write.
+        current: that it was checked in, drawn as an arrow.
+    """
+    figure = Figure(figsize=(12.0, 13.0), dpi=100, facecolor="white")
+    FigureCanvasAgg(figure)
+    margins = {"left": 0.08, "right": 0.97, "top": 0.885, "bottom": 0.06}
+    grid = figure.add_gridspec(2, 1, height_ratios=(2.7, 1.0), hspace=0.16, **margins)
+    _headline(figure, mission, verdicts, vehicle_name)
+    _map(figure.add_subplot(grid[0]), mission, current)
+    _curvature(figure.add_subplot(grid[1]), mission, verdicts, vehicle_name)
+    save(figure, png)
+
+
+def _headline(figure: Figure, mission: Mission, verdicts: Verdicts, vehicle_name: str) -> None:
+    path = mission.path
+    state, color = ("flyable", GREEN) if not verdicts.refusals else ("refused", RED)
+    if not verdicts.refusals and verdicts.warnings:
+        count = len(verdicts.warnings)
+        state, color = f"flyable, {count} warning{'s' if count > 1 else ''}", ORANGE
+    figure.text(
+        0.08, 0.965, mission.name, fontsize=18, fontweight="bold", color=INK, va="center", parse_math=False
+    )
+    figure.text(0.97, 0.965, state, fontsize=14, fontweight="bold", color=color, va="center", ha="right")
+    times = mission.path.n // max(mission.once, 1)
+    facts = [f"{path.n} subpaths", f"{path.length:.1f} m", f"{verdicts.speed:.2f} m/s through the water"]
+    if times > 1:
+        facts.insert(0, f"{times} times round")
+    if np.isfinite(verdicts.duration):
+        facts.append(f"{verdicts.duration:.0f} s")
+    told = "   ·   ".join([*facts, vehicle_name])
+    figure.text(0.08, 0.935, told, fontsize=12, color=MUTED, va="center", parse_math=False)
+
+
+def _map(axes: Axes, mission: Mission, current: Current) -> None:
+    style(axes, "north x (m)")
+    axes.set_xlabel("east y (m)", color=INK)
+    once = mission.path.segments[: mission.once]
+    outlines = [polygon(segment, _ERROR) for segment in once]
+    x, y = (np.concatenate(axis) for axis in zip(*outlines, strict=True))
+    few = len(once) <= _FEW
+    _areas(axes, mission)
+    if mission.waypoints:
+        north, east = zip(*mission.waypoints, strict=True)
+        axes.plot(
+            east,
+            north,
+            "--x" if few else "--",
+            color=MUTED,
+            linewidth=0.9,
+            markersize=7,
+            label="waypoints",
+            zorder=2,
+        )
+        if len(mission.waypoints) <= _FEW // 2:
+            for number, (n, e) in enumerate(mission.waypoints, start=1):
+                axes.annotate(
+                    str(number), (e, n), xytext=(7, 7), textcoords="offset points", color=MUTED, fontsize=10,
+                    path_effects=HALO, zorder=7,
+                )  # fmt: skip
+    axes.plot(y, x, color=BLUE, linewidth=2.4 if few else 1.0, label="path", zorder=3)
+    joints = mission.path.joints[: max(mission.once - 1, 0)]
+    for name, color in CONTINUITY.items():
+        these = [joint for joint in joints if joint.geometric == name]
+        if these:
+            axes.plot(
+                [j.y for j in these], [j.x for j in these], "o", color=color, markersize=7 if few else 2.5,
+                markeredgecolor="white", markeredgewidth=0.8 if few else 0.0, linestyle="none", zorder=4,
+                label=f"joint {name}: {_MEANING[name]}",
+            )  # fmt: skip
+    _ends(axes, mission)
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.margins(0.06)
+    arrow(axes, "current", current.Vx, current.Vy, mission.path)
+    axes.legend(
+        loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=7, fontsize=9, frameon=False, borderpad=0.1
+    )
+
+
+def _areas(axes: Axes, mission: Mission) -> None:
+    """Draw the surveyed polygon filled and the geofence as a dashed outline."""
+    if mission.area:
+        north, east = zip(*mission.area, strict=True)
+        axes.fill(
+            east, north, facecolor=AREA, edgecolor=PATH, linewidth=1.0, label="surveyed area", zorder=0.5
+        )
+    if mission.geofence:
+        north, east = zip(*mission.geofence, mission.geofence[0], strict=True)
+        axes.plot(east, north, color=RED, linewidth=1.2, linestyle=(0, (6, 3)), label="geofence", zorder=1)
+
+
+def _ends(axes: Axes, mission: Mission) -> None:
+    start, end = mission.path.evaluate(0, 0.0), mission.path.evaluate(mission.path.n - 1, 1.0)
+    axes.annotate(
+        "", (start.y, start.x), xytext=(26 * np.sin(start.chi), 26 * np.cos(start.chi)),
+        textcoords="offset points", zorder=6,
+        arrowprops={"arrowstyle": "<-", "color": INK, "linewidth": 2.0},
+    )  # fmt: skip
+    axes.annotate(
+        "start", (start.y, start.x), xytext=(-14 * np.sin(start.chi), -14 * np.cos(start.chi)),
+        textcoords="offset points", color=INK, fontsize=10, ha="center", va="center", path_effects=HALO,
+    )  # fmt: skip
+    axes.plot(end.y, end.x, "s", color=INK, markersize=7, markeredgecolor="white", zorder=5, label="end")
+
+
+def _curvature(axes: Axes, mission: Mission, verdicts: Verdicts, vehicle_name: str) -> None:
+    style(axes, "curvature (1/m)")
+    axes.set_xlabel("distance along the path (m)", color=INK)
+    distance, kappa, done = [], [], 0.0
+    for segment in mission.path.segments[: mission.once]:
+        t, point = look(segment)
+        speed = np.asarray(point.speed)
+        steps = np.concatenate(([0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(t))))
+        # The sum is close; the segment's own length keeps the error from adding up.
+        distance.append(done + steps * (segment.length / steps[-1]))
+        kappa.append(np.asarray(point.kappa))
+        done += segment.length
+    axes.plot(np.concatenate(distance), np.concatenate(kappa), color=BLUE, linewidth=1.4)
+    limit = 1.0 / verdicts.turn.radius
+    for sign in (1.0, -1.0):
+        axes.axhline(sign * limit, color=RED, linewidth=1.4, linestyle="--")
+    turn = f"radius {verdicts.turn.radius:.2f} m, {verdicts.turn.source}"
+    look_of: dict[str, Any] = {"transform": axes.get_yaxis_transform(), "parse_math": False}
+    text = f"tightest turn of {vehicle_name}: {turn}"
+    axes.text(0.995, limit, text, color=RED, fontsize=10, ha="right", va="bottom", **look_of)
+    axes.text(0.005, -limit, "to port", color=MUTED, fontsize=9, va="bottom", **look_of)
+    axes.text(0.005, limit, "to starboard", color=MUTED, fontsize=9, va="top", **look_of)
+    largest = max(limit, float(np.abs(np.concatenate(kappa)).max()))
+    axes.set_ylim(-1.25 * largest, 1.25 * largest)
+    axes.set_xlim(0.0, done)

@@ -1,0 +1,152 @@
+"""What `scripts/plan.py` does: check a mission, draw it, export it, print what was found."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+from collections import Counter
+from pathlib import Path
+
+from rich import box
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+from rich.text import Text
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.settings import params_file
+from auv_msgs_py.settings.result_files import NotWritten
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_msgs_py.values.types import Current
+from auv_path_following import config_files, vehicle
+from auv_path_following.guidance.path_follower import PathFollowerConfig
+from auv_path_following.guidance.switching import with_overrides
+from auv_path_following.missions import mission_file
+from auv_path_following.missions.mission_file import Mission
+from auv_path_following.vehicle import Vehicle
+from auv_sim.checks.mission_check import chart, drawing
+from auv_sim.checks.mission_check.flyable import Verdicts, check, refusal
+from auv_sim.cli.plan import STILL, VEHICLE
+from auv_sim.command_line import EXIT_DONE, to_type
+from auv_sim.parameters import SUITE
+from auv_sim.terminal import console as terminal
+from auv_sim.terminal import go_on, wrote
+
+_ROWS = 40
+
+
+def plan(options: argparse.Namespace) -> int:
+    """Plan as the command line asks; returns the exit code."""
+    hull = vehicle.load(options.vehicle)
+    mission = mission_file.load(options.mission, hull)
+    guidance = _guidance(options, mission)
+    switching = with_overrides(guidance.switching, options.switching, None)
+    current = Current(*options.current)
+    verdicts = check(mission, hull, current, switching, guidance.lookahead)
+    console = terminal(options.quiet, soft_wrap=True, width=None if sys.stdout.isatty() else 110)
+    _tell(console, mission, hull, verdicts)
+    png = options.out or (None if options.quiet else Path(f"plan-{mission.source.stem}.png"))
+    if png is not None:
+        try:
+            drawing.draw(mission, verdicts, hull.name, png, current)
+        except (NotWritten, ValueError) as error:  # ValueError: a suffix that is no picture
+            reason = error.strerror if isinstance(error, NotWritten) else error
+            raise ConfigurationError("--out", f"{png} ({reason})", "a picture that can be written") from None
+        wrote(console, png, "the plan in one picture")
+    if options.export is not None:
+        chart.export(mission, options.export)
+        wrote(console, options.export, "the path for a chart")
+    if verdicts.refusals:
+        raise refusal(mission, verdicts, "scripts/mission.py --force would fly it all the same")
+    go_on(console, "Fly it", _command(options))
+    return EXIT_DONE
+
+
+def _command(options: argparse.Namespace) -> str:
+    """What flies it as it was checked."""
+    return to_type(
+        "mission.py",
+        mission=options.mission,
+        vehicle=options.vehicle if options.vehicle != VEHICLE else None,
+        params=options.params,
+        current=options.current if tuple(options.current) != STILL else None,
+        switching=options.switching,
+    )
+
+
+def _guidance(options: argparse.Namespace, mission: Mission) -> PathFollowerConfig:
+    """As in flight: the parameters, then the mission."""
+    source = config_files.find("params", options.params) if options.params else None
+    if source is None:
+        parameters = SUITE[topics.GUIDANCE]()
+    else:
+        parameters = params_file.load(source, SUITE)[topics.GUIDANCE]
+    guidance: PathFollowerConfig = parameters.with_wishes_of(mission).guidance
+    return guidance
+
+
+def _tell(console: Console, mission: Mission, hull: Vehicle, verdicts: Verdicts) -> None:
+    path = mission.path
+    times = path.n // max(mission.once, 1)
+    console.print(
+        f"[bold]{escape(mission.name)}[/bold]"
+        + (f": {escape(mission.description)}" if mission.description else "")
+    )
+    console.print(
+        f"  path      {path.n} subpaths, {path.length:.2f} m"
+        + (f", {times} times round" if times > 1 else "")
+    )
+    lasts = f"{verdicts.duration:.0f} s" if math.isfinite(verdicts.duration) else "no end"
+    console.print(
+        f"  duration  {lasts} at {verdicts.speed:.2f} m/s through the water"
+        f" ({mission.thrust:.2f} {hull.thrust_symbol})"
+    )
+    turn = f"{verdicts.turn.radius:.2f} m, {verdicts.turn.source}"
+    console.print(f"  vehicle   {escape(hull.name)}, tightest turn {turn}")
+    console.print(_joints(mission))
+    for verdict in verdicts.refusals:
+        console.print(f"[bold red]refused[/bold red]  {escape(str(verdict))}")
+    for verdict in verdicts.warnings:
+        console.print(f"[yellow]warning[/yellow]  {escape(str(verdict))}")
+    for notice in verdicts.notices:
+        console.print(f"[cyan]notice[/cyan]   {escape(notice)}")
+    if not verdicts.refusals and not verdicts.warnings:
+        console.print("[green]nothing to say against it[/green]")
+    console.print()
+
+
+def _joints(mission: Mission) -> Table | str:
+    joints = mission.path.joints[: max(mission.once - 1, 0)]
+    if not joints:
+        return "  joints    none"
+    if len(joints) > _ROWS:
+        counts = Counter(joint.geometric for joint in joints)
+        listed = ", ".join(f"{counts[name]} {name}" for name in ("G0", "G1", "G2") if counts[name])
+        worst = max(joints, key=lambda joint: joint.gap)
+        return f"  joints    {listed}, largest gap {worst.gap * 1e3:.2g} mm at joint {worst.index}"
+    table = Table(title="joints", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
+    for heading in ("", "between"):
+        table.add_column(heading, no_wrap=True)
+    for heading in ("north\n[m]", "east\n[m]", "gap\n[mm]", "course\nstep [deg]", "curvature\nstep [1/m]"):
+        table.add_column(Text(heading), justify="right", no_wrap=True)
+    table.add_column("")
+    colors = {"G0": "red", "G1": "yellow", "G2": "green"}
+    for joint in joints:
+        before, after = (mission.path.segments[joint.index - 1 + k].kind for k in (0, 1))
+        table.add_row(
+            str(joint.index),
+            f"{before}, {after}",
+            f"{joint.x:.2f}",
+            f"{joint.y:.2f}",
+            f"{joint.gap * 1e3:.3f}",
+            _clean(math.degrees(joint.angle_step), 2),
+            _clean(joint.curvature_step, 5),
+            f"[{colors[joint.geometric]}]{joint.geometric}[/] {joint.parametric}",
+        )
+    return table
+
+
+def _clean(value: float, digits: int) -> str:
+    """Rounded, and without a minus in front of a zero."""
+    return f"{round(value, digits) + 0.0:.{digits}f}"

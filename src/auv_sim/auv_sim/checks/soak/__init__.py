@@ -1,0 +1,1 @@
+"""Endurance: long flights, memory, lost messages."""

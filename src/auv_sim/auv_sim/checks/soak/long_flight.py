@@ -1,0 +1,182 @@
+"""What `scripts/soak.py` does: fly long, watch the memory of each process, count the messages."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import os
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.conversions import nanoseconds
+from auv_msgs_py.settings.result_files import write_text
+from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.reading.load import load, load_messages
+from auv_sim.checks.soak import memory
+from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, make_directory
+from auv_sim.flight.metrics import summarise
+from auv_sim.launch import launcher, mission_plan
+from auv_sim.launch.mission_plan import Plan
+from auv_sim.launch.options import Options
+from auv_sim.launch.outcome import MissionFailed
+from auv_sim.launch.processes.adopted import Loader
+from auv_sim.launch.processes.domains import free_domain
+from auv_sim.launch.progress import Progress
+from auv_sim.terminal import console as terminal
+from auv_sim.terminal import wrote
+
+#: A lawnmower with a way back, closed, 1.26 km: followed as often as the hour takes.
+SURVEY = """\
+version: 1
+name: soak survey
+description: four legs 40 m apart and the way back, over and over
+frame: ned
+speed: 1.9
+repeat: {repeat}
+waypoints:
+  points: [[0, 0], [180, 0], [180, 40], [20, 40], [20, 80], [180, 80], [180, 120], [0, 120], [-30, 60]]
+  closed: true
+  smoothing: {{kind: circular, radius: 8}}
+"""
+#: The share of the mission after which a process has everything it needs.
+_WARM = 0.2
+#: Least share of the path that has to be flown. In the current the turns of 8 m take the vehicle farther from
+#: the path than a flown cell may be, which costs two per cent.
+_LEAST_SHARE = 0.95
+#: How often memory is looked at, s of wall time.
+_PERIOD = 1.0
+
+
+class Watch(Progress):
+    """A progress bar that also keeps each process's memory.
+
+    Args:
+        resolved: what is flown.
+        console: where to draw.
+    """
+
+    def __init__(self, resolved: Plan, console: Console) -> None:
+        super().__init__(resolved.mission.path, console, quiet=not console.is_terminal)
+        #: (steps, {name: kB}), one row a second.
+        self.rows: list[tuple[float, dict[str, int]]] = []
+        self._step = resolved.parameters[topics.PLANT].step
+        self._next = 0.0
+
+    def update(self, s: float, ye: float, mission_time: float, wall_time: float) -> None:
+        super().update(s, ye, mission_time, wall_time)
+        if time.monotonic() >= self._next:
+            self._next = time.monotonic() + _PERIOD
+            self.rows.append((mission_time / self._step, memory.of_children(os.getpid())))
+
+
+@dataclass(frozen=True)
+class Growth:
+    """One process: resident memory after the warm-up and at the end (kB), slope (kB per 1000 steps)."""
+
+    name: str
+    warm: float
+    end: float
+    slope: float
+
+
+def growth(rows: Sequence[tuple[float, dict[str, int]]]) -> list[Growth]:
+    """Least squares over everything after the warm-up."""
+    steps = np.array([row[0] for row in rows])
+    late = steps >= _WARM * steps[-1]
+    found = []
+    for name in sorted(rows[-1][1]):
+        kilobytes = np.array([row[1].get(name, math.nan) for row in rows])
+        good = late & np.isfinite(kilobytes)
+        slope = float(np.polyfit(steps[good] / 1e3, kilobytes[good], 1)[0])
+        found.append(Growth(name, float(kilobytes[good][0]), float(kilobytes[good][-1]), slope))
+    return found
+
+
+def soak(arguments: argparse.Namespace) -> int:
+    """Fly as the command line asks; returns the exit code."""
+    directory = (arguments.out or Path("runs") / f"soak-{time.strftime('%Y%m%d-%H%M%S')}").absolute()
+    make_directory(directory, new=True)
+    mission = directory / "soak.yaml"
+    write_text(mission, SURVEY.format(repeat=1))
+    once = mission_plan.make(Options(mission=str(mission)), directory).verdicts.duration
+    write_text(mission, SURVEY.format(repeat=math.ceil(60.0 * arguments.minutes / once)))
+    resolved = mission_plan.make(Options(mission=str(mission), current=(0.1, 0.2)), directory)
+    console = terminal()
+    watch = Watch(resolved, console)
+    with watch, Loader() as loader:
+        outcome = launcher.fly(resolved, directory, free_domain(), watch, loader)
+    if outcome.state == "interrupted":
+        raise KeyboardInterrupt(f"interrupted: {outcome.reason}")
+    if outcome.state != "complete":
+        raise MissionFailed(f"{outcome.state}: {outcome.reason}")
+    if reason := summarise(load(directory / "bag"), resolved.mission.path).shortfall(_LEAST_SHARE):
+        raise MissionFailed(f"incomplete: {reason}")
+    steps, lost = _counted(directory / "bag", resolved.parameters[topics.PLANT].step)
+    grown = growth(watch.rows)
+    memory.draw(watch.rows, _WARM * watch.rows[-1][0], directory / "soak.png")
+    table = Table(
+        title=f"{outcome.mission_time / 60.0:.1f} minutes of mission, {steps} steps", title_justify="left"
+    )
+    table.add_column("process")
+    for heading in (
+        "after warm-up, MB",
+        "at the end, MB",
+        "slope, kB per 1000 steps",
+        "kB per minute flown",
+    ):
+        table.add_column(heading, justify="right")
+    per_minute = 60.0 / resolved.parameters[topics.PLANT].step / 1e3
+    for one in grown:
+        flat = one.slope <= arguments.flat
+        colour = "green" if flat else "red"
+        table.add_row(
+            one.name, f"{one.warm / 1e3:.1f}", f"{one.end / 1e3:.1f}",
+            f"[{colour}]{one.slope:+.2f}[/{colour}]", f"{one.slope * per_minute:+.2f}",
+        )  # fmt: skip
+    console.print(table)
+    console.print(
+        f"{steps / outcome.wall_time:.0f} steps a second,"
+        f" {outcome.mission_time / outcome.wall_time:.0f} times real time;"
+        f" {'; '.join(lost) if lost else 'no message lost, no step missed'}",
+        highlight=False,
+    )
+    record = {
+        "minutes": outcome.mission_time / 60.0,
+        "steps": steps,
+        "wall_time_s": outcome.wall_time,
+        "lost": lost,
+        "processes": [vars(one) for one in grown],
+    }
+    write_text(directory / "soak.json", json.dumps(record, indent=2) + "\n")
+    console.print()
+    wrote(console, directory / "soak.png", "memory of each process")
+    good = not lost and all(one.slope <= arguments.flat for one in grown)
+    return EXIT_DONE if good else EXIT_FAILED
+
+
+def _counted(bag: Path, step: float) -> tuple[int, list[str]]:
+    """How many steps were recorded, and what is missing of them."""
+    stamps = np.array(
+        [nanoseconds(message.header.stamp) for _, message in load_messages(bag, topics.ODOM.name)]
+    )
+    lost = []
+    missed = int(np.sum(np.diff(stamps) != round(step * 1e9)))
+    if missed:
+        lost.append(f"{missed} steps of odom missed")
+    counts = {topic.name.rsplit("/", 1)[-1]: topic.count for topic in read_bag(bag, _nothing).topics.values()}
+    for topic in topics.PER_STEP:
+        if counts.get(topic.name, 0) != len(stamps):
+            lost.append(f"{len(stamps) - counts.get(topic.name, 0)} of {topic.name} lost")
+    return len(stamps), lost
+
+
+def _nothing(_: str, __: str) -> bool:
+    return False

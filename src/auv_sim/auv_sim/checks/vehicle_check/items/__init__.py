@@ -1,0 +1,1 @@
+"""What is checked, one group of checks a file."""

@@ -1,0 +1,48 @@
+"""All checks, in the order in which a person reads them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from auv_path_following.vehicle import Vehicle
+from auv_sim.checks.vehicle_check.items.discovered import check_graph
+from auv_sim.checks.vehicle_check.items.kinematics import check_kinematics
+from auv_sim.checks.vehicle_check.items.response import ITEMS, check_response
+from auv_sim.checks.vehicle_check.items.timing import check_timing
+from auv_sim.checks.vehicle_check.items.values import check_values
+from auv_sim.checks.vehicle_check.samples import Recording, motion_of
+from auv_sim.checks.vehicle_check.verdict import Level, Mistake, Verdict, unknown
+
+#: Where the yaw rate cannot be used, the change of yaw can.
+_RATES = {Mistake.YAW_RATE_SIGN, Mistake.YAW_RATE_DEGREES, Mistake.YAW_RATE_WRONG}
+
+
+def check(recording: Recording, vehicle: Vehicle) -> list[Verdict]:
+    """Judge a recording.
+
+    Args:
+        recording: what was heard.
+        vehicle: what the vehicle is said to be, for rudder and thrust.
+    """
+    motion = motion_of(recording.odom)
+    graph, kinematics = check_graph(recording), check_kinematics(recording, motion)
+    deaf = [verdict for verdict in graph if verdict.level is Level.FAIL and verdict.item.endswith("listener")]
+    if deaf:
+        response = [unknown(item, "the commands are not heard", deaf[0].expected) for item in ITEMS]
+    else:
+        if mistakes(kinematics) & _RATES:
+            motion = motion._replace(r=np.gradient(motion.yaw, motion.t))
+        response = check_response(recording, motion, vehicle)
+    verdicts = [
+        *graph, *check_values(recording, motion), *check_timing(recording), *kinematics, *response
+    ]  # fmt: skip
+    if recording.wiggled and not mistakes(verdicts):  # otherwise it follows from what failed
+        left = Mistake.NOT_JUDGED
+        verdicts = [v._replace(mistake=left) if v.level is Level.UNKNOWN else v for v in verdicts]
+    return verdicts
+
+
+def mistakes(verdicts: list[Verdict]) -> set[Mistake]:
+    """The causes of what does not pass; empty: fit for a mission."""
+    levels = (Level.FAIL, Level.UNKNOWN)
+    return {v.mistake for v in verdicts if v.level in levels and v.mistake is not None}

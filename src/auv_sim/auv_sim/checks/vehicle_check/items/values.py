@@ -1,0 +1,150 @@
+"""Frames that are known, numbers that are numbers, covariances that can be."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.frames import Convention, FrameIds, FrameTable
+from auv_msgs_py.values.errors import MessageRefused
+from auv_sim.checks.vehicle_check.samples import Motion, Recording
+from auv_sim.checks.vehicle_check.verdict import Mistake, Verdict, failed, passed, unknown, warned
+
+#: No vehicle of this kind is faster, m/s; and a fix may be off by so much, m.
+_FASTEST, _FIX = 6.0, 2.0
+
+
+def check_values(recording: Recording, motion: Motion) -> list[Verdict]:
+    """What single messages say."""
+    verdicts = [*_frames(recording)]
+    if recording.odom:
+        verdicts += [_numbers(recording), _quaternions(recording)]
+    if recording.water:
+        bad = sum(not math.isfinite(sample.u + sample.v) for sample in recording.water)
+        verdicts.append(_finite(f"{topics.WATER_VELOCITY.name}: numbers", bad, len(recording.water)))
+    if recording.rudder_state:
+        bad = sum(not math.isfinite(sample.value) for sample in recording.rudder_state)
+        verdicts.append(_finite(f"{topics.RUDDER_STATE.name}: numbers", bad, len(recording.rudder_state)))
+    verdicts += _covariances(recording)
+    if motion.enough:
+        verdicts.append(_continuity(motion))
+    return verdicts
+
+
+def convention_of(recording: Recording) -> Convention | None:
+    """What the odometry's frame ids say; None where no convention has them."""
+    table = FrameTable(FrameIds())
+    try:
+        return table.of_pose(topics.ODOM.name, recording.odom[0].frame, recording.odom[0].child)
+    except (IndexError, MessageRefused):
+        return None
+
+
+def _frames(recording: Recording) -> list[Verdict]:
+    ids, table = FrameIds(), FrameTable(FrameIds())
+    known = {*ids.enu_world, *ids.ned_world, *ids.flu_body, *ids.frd_body}
+    verdicts = []
+    pairs = sorted({(sample.frame, sample.child) for sample in recording.odom})
+    bodies = sorted({sample.frame for sample in recording.water})
+    item = f"{topics.ODOM.name}: frame ids"
+    expected = "map or odom with base_link, map_ned or odom_ned with base_link_frd"
+    for world, body in pairs:
+        try:
+            convention = table.of_pose(topics.ODOM.name, world, body)
+        except MessageRefused:
+            bare = {name.rsplit("/", 1)[-1] for name in (world, body)}
+            mistake = Mistake.CONTRADICTING_FRAMES if bare <= known else Mistake.UNKNOWN_FRAME
+            verdicts.append(failed(item, mistake, f"'{world}' with '{body}'", expected))
+            break
+    else:
+        if pairs:
+            verdicts.append(
+                passed(item, f"'{pairs[0][0]}' with '{pairs[0][1]}': {convention.value}", expected)
+            )
+    item, expected = f"{topics.WATER_VELOCITY.name}: frame id", "base_link or base_link_frd"
+    for body in bodies:
+        try:
+            table.of_body(topics.WATER_VELOCITY.name, body)
+        except MessageRefused:
+            verdicts.append(failed(item, Mistake.UNKNOWN_FRAME, f"'{body}'", expected))
+            break
+    else:
+        if bodies:
+            verdicts.append(passed(item, f"'{bodies[0]}'", expected))
+    return verdicts
+
+
+def _finite(item: str, bad: int, of: int) -> Verdict:
+    if bad:
+        return failed(item, Mistake.NOT_A_NUMBER, f"{bad} of {of} with NaN or infinite", "finite numbers")
+    return passed(item, f"{of} finite", "finite numbers")
+
+
+def _numbers(recording: Recording) -> Verdict:
+    item = f"{topics.ODOM.name}: numbers"
+    bad = sum(
+        not np.isfinite((s.x, s.y, *s.orientation, s.r)).all() or math.isinf(s.u + s.v)
+        for s in recording.odom
+    )
+    if bad:
+        return _finite(item, bad, len(recording.odom))
+    unlocked = sum(math.isnan(s.u + s.v) for s in recording.odom)
+    if unlocked:
+        share = 100.0 * unlocked / len(recording.odom)
+        return passed(item, f"finite; no bottom lock in {share:.0f} %", "finite, a NaN linear twist apart")
+    return _finite(item, 0, len(recording.odom))
+
+
+def _quaternions(recording: Recording) -> Verdict:
+    item = f"{topics.ODOM.name}: orientation"
+    norms = np.array([math.sqrt(sum(q * q for q in sample.orientation)) for sample in recording.odom])
+    norms = norms[np.isfinite(norms)]
+    if norms.size == 0:
+        return unknown(item, "no number", "unit quaternions")
+    worst = float(norms[np.abs(norms - 1.0).argmax()])
+    if abs(worst * worst - 1.0) >= 0.02:
+        return failed(item, Mistake.NO_UNIT_QUATERNION, f"a norm of {worst:.3f}", "unit quaternions")
+    level = np.array([_tilt(sample.orientation) for sample in recording.odom])
+    tilt = math.degrees(float(np.nanmedian(level)))
+    if tilt > 60.0:
+        return warned(item, f"tilted by {tilt:.0f} deg", "a vehicle on an even keel (180: another z axis?)")
+    return passed(item, f"unit quaternions, tilt {tilt:.0f} deg", "unit quaternions")
+
+
+def _tilt(q: tuple[float, float, float, float]) -> float:
+    """Angle between the vehicle's z axis and the world's, rad."""
+    return math.acos(min(max(1.0 - 2.0 * (q[0] * q[0] + q[1] * q[1]), -1.0), 1.0))
+
+
+def _covariances(recording: Recording) -> Iterable[Verdict]:
+    groups = {
+        f"{topics.ODOM.name}: covariances": [
+            value for s in recording.odom for value in (*s.pose_covariance, *s.twist_covariance)
+        ],
+        f"{topics.WATER_VELOCITY.name}: covariances": [v for s in recording.water for v in s.covariance],
+    }
+    for item, values in groups.items():
+        if not values:
+            continue
+        array = np.array(values)
+        bad = ~(array >= 0.0)
+        if bad.any():
+            found = f"{int(bad.sum())} variances such as {array[bad][0]:g}"
+            yield failed(item, Mistake.BAD_COVARIANCE, found, "0 (not given) or greater")
+        else:
+            yield passed(item, "not given" if not array.any() else f"up to {array.max():.3g}", "0 or greater")
+
+
+def _continuity(motion: Motion) -> Verdict:
+    item = f"{topics.ODOM.name}: positions"
+    steps = np.hypot(np.diff(motion.x), np.diff(motion.y))
+    jumps = steps > _FASTEST * np.diff(motion.t) + _FIX
+    if jumps.any():
+        return failed(
+            item, Mistake.POSITION_JUMPS, f"{int(jumps.sum())} jumps, up to {steps[jumps].max():.1f} m",
+            f"no more than {_FIX:g} m beyond {_FASTEST:g} m/s",
+        )  # fmt: skip
+    return passed(item, f"steps of up to {steps.max():.2f} m", "no jumps")

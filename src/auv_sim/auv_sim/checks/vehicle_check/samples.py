@@ -1,0 +1,158 @@
+"""What was heard of a vehicle, as it was on the wire: nothing is converted, so that mistakes stay visible."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from auv_msgs_py.contract.frames import yaw_of_quaternion
+
+Array = NDArray[np.float64]
+
+
+class OdometrySample(NamedTuple):
+    """One `odom`: ROS time of its arrival and its stamp (s), its frames, and its numbers.
+
+    `orientation` is (x, y, z, w); the covariances are the six of the diagonal.
+    """
+
+    received: float
+    stamp: float
+    frame: str
+    child: str
+    x: float
+    y: float
+    orientation: tuple[float, float, float, float]
+    u: float
+    v: float
+    r: float
+    pose_covariance: tuple[float, ...] = (0.0,) * 6
+    twist_covariance: tuple[float, ...] = (0.0,) * 6
+
+
+class WaterSample(NamedTuple):
+    """One `velocity_through_water`: arrival, stamp (s), frame, velocity (m/s), diagonal of the covariance."""
+
+    received: float
+    stamp: float
+    frame: str
+    u: float
+    v: float
+    covariance: tuple[float, ...] = (0.0,) * 6
+
+
+class Value(NamedTuple):
+    """One Float64: ROS time of its arrival (s), and what it says."""
+
+    received: float
+    value: float
+
+
+class Endpoint(NamedTuple):
+    """A publisher or a subscription in the graph, as discovery shows it."""
+
+    topic: str
+    publishes: bool
+    type: str
+    node: str
+    reliable: bool = True
+    transient_local: bool = False
+
+
+@dataclass
+class Recording:
+    """Everything that was heard, in the order of arrival.
+
+    Attributes:
+        odom, water, rudder_state: from the vehicle.
+        rudder_cmd, thrust_cmd: to the vehicle, from any sender.
+        endpoints: publishers and subscriptions of the contract's topics, without the listener itself.
+        duration: how long was listened, s of ROS time.
+        sim_time: whether ROS time came from /clock.
+        wiggled: whether the small test was made: then everything can be judged, and has to be.
+        listened_in: ROS domain and discovery range of the listener, for people.
+    """
+
+    odom: list[OdometrySample] = field(default_factory=list)
+    water: list[WaterSample] = field(default_factory=list)
+    rudder_state: list[Value] = field(default_factory=list)
+    rudder_cmd: list[Value] = field(default_factory=list)
+    thrust_cmd: list[Value] = field(default_factory=list)
+    endpoints: tuple[Endpoint, ...] = ()
+    duration: float = 0.0
+    sim_time: bool = False
+    wiggled: bool = False
+    listened_in: str = ""
+
+
+class Motion(NamedTuple):
+    """The usable odometries as arrays of shape (n,): stamps that rise, finite numbers, still as on the wire.
+
+    Both conventions, ENU/FLU and NED/FRD, are right-handed when their z axis is looked along: at yaw 0 the
+    bow points along x, and yaw grows from x towards y. So what is checked here needs no frame's name.
+    """
+
+    t: Array
+    x: Array
+    y: Array
+    yaw: Array
+    r: Array
+    u: Array
+    v: Array
+
+    @property
+    def enough(self) -> bool:
+        """Whether there is something to judge: 20 samples over 3 s."""
+        return self.t.size >= 20 and float(self.t[-1] - self.t[0]) >= 3.0
+
+
+def motion_of(odom: list[OdometrySample]) -> Motion:
+    """Sort out what can be used of the odometries; what cannot has its own checks.
+
+    A jump of the stamps ends what belongs together: the longest stretch is taken.
+    """
+    newest = -np.inf
+    rows: list[tuple[float, ...]] = []
+    stretches = [rows]
+    for sample in odom:
+        q = sample.orientation
+        if not np.isfinite((sample.x, sample.y, *q, sample.r)).all():
+            continue
+        if newest - 1.0 < sample.stamp <= newest:
+            continue  # overtaken, or sent twice
+        if not newest - 1.0 < sample.stamp < newest + 2.0:
+            rows = []
+            stretches.append(rows)
+        newest = sample.stamp
+        yaw = yaw_of_quaternion(*q)
+        rows.append((sample.stamp, sample.x, sample.y, yaw, sample.r, sample.u, sample.v))
+    table = np.array(max(stretches, key=len), dtype=float).reshape(-1, 7)
+    t, x, y, yaw_wrapped, r, u, v = table.T
+    return Motion(t, x, y, np.unwrap(yaw_wrapped), r, u, v)
+
+
+def slope(t: Array, values: Array, span: float) -> tuple[Array, Array]:
+    """Rates of change over `span` seconds around the middle of each interval.
+
+    Returns:
+        (rates, middles), each of shape (m,): units per second, and times in s.
+    """
+    begin = np.searchsorted(t, t + span, side="left")
+    rows = np.flatnonzero(begin < t.size)
+    end = begin[rows]
+    dt = t[end] - t[rows]
+    keep = dt < 2.0 * span
+    rows, end, dt = rows[keep], end[keep], dt[keep]
+    return (values[end] - values[rows]) / dt, 0.5 * (t[end] + t[rows])
+
+
+def mean_over(t: Array, values: Array, middles: Array, span: float) -> Array:
+    """The mean of a signal over `span` seconds around each time (trapezoids); shape of `middles`."""
+    integral = np.concatenate(([0.0], np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(t))))
+    low, high = middles - 0.5 * span, middles + 0.5 * span
+    length = np.maximum(np.minimum(high, t[-1]) - np.maximum(low, t[0]), 1e-9)
+    mean: Array = (np.interp(high, t, integral) - np.interp(low, t, integral)) / length
+    return mean

@@ -1,0 +1,49 @@
+"""`scripts/bag.py`: parses the verb and hands over to its module."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import sys
+from collections.abc import Container, Sequence
+
+from auv_sim.command_line import Parser, command
+
+#: In the order in which a person needs them.
+VERBS = {
+    "inspect": "what is in a recording, and what happened: topics, mission, events",
+    "report": "one interactive HTML page, and pictures beside it",
+    "compare": "several runs laid over each other, and a table of their differences",
+    "replay": "play the recorded topics into a live graph",
+    "rerun": "feed the recorded sensors through guidance and control again, with other gains",
+    "export": "one table, as CSV or Parquet",
+    "repair": "make a damaged or unfinished recording whole",
+}
+
+
+def parser(verbs_with_options: Container[str] = VERBS) -> argparse.ArgumentParser:
+    """The command line. Verbs without their options are not imported, which would take long."""
+    top = Parser(
+        prog="bag.py", description="Look into recordings of missions and work with them.", allow_abbrev=False
+    )
+    verbs = top.add_subparsers(dest="verb", required=True, metavar="VERB", parser_class=Parser)
+    for name, what in VERBS.items():
+        if name not in verbs_with_options:
+            verbs.add_parser(name, help=what)
+            continue
+        module = importlib.import_module(f"auv_sim.bags.verbs.{name}")
+        verb = verbs.add_parser(
+            name, help=what, description=module.__doc__, allow_abbrev=False,
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+        )  # fmt: skip
+        module.add_arguments(verb)
+        verb.set_defaults(run=module.run)
+    return top
+
+
+@command("bag.py")
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one verb; returns 0 done, 1 a difference was found, 2 bad input, 130 interrupted."""
+    words = sys.argv[1:] if argv is None else argv
+    arguments = parser(words[:1]).parse_args(words)
+    return int(arguments.run(arguments))

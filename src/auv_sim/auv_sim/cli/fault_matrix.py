@@ -1,0 +1,47 @@
+"""`scripts/fault_matrix.py`: everything that can fail, made to fail, and what the suite does about it."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+
+from auv_sim.command_line import Parser, command, positive, ros_domain, target
+
+SPEED = 4.0
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    p = Parser(
+        prog="fault_matrix.py",
+        description="Kill nodes and spoil topics in flight; check who notices and what is done.",
+        allow_abbrev=False,
+    )
+    p.add_argument(
+        "rows", nargs="*", metavar="ROW", help="only these, e.g. 'odom jump' (default: a representative part)"
+    )
+    p.add_argument("--full", action="store_true", help="all rows of the table in docs/safety.md")
+    p.add_argument(
+        "--hostile", type=positive, metavar="S",
+        help="no rows: fly for S seconds of wall time beside a node that publishes nonsense on every topic",
+    )  # fmt: skip
+    p.add_argument("--list", action="store_true", help="print the names of all rows")
+    p.add_argument("--speed", type=positive, default=SPEED, metavar="N", help="of the simulator (default 4)")
+    p.add_argument("--json", type=target, metavar="FILE", help="write the results there")
+    p.add_argument("--out", type=Path, metavar="DIR", help="keep logs and bag there (default: thrown away)")
+    p.add_argument("--domain", type=ros_domain, help="ROS domain (default: one of its own)")
+    return p
+
+
+@command("fault matrix")
+def main(argv: Sequence[str] | None = None) -> int:
+    """Returns 0 when all rows are as expected, 1 when one is not, 2 for bad input, 130 when interrupted."""
+    arguments = parser().parse_args(argv)
+    from auv_sim.checks.faults.fault_session import run
+
+    return run(arguments)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

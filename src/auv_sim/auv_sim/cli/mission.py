@@ -1,0 +1,158 @@
+"""`scripts/mission.py`: fly a mission, from its files to its picture."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following import config_files
+from auv_sim.command_line import (
+    Parser,
+    add_flown_option,
+    command,
+    finite,
+    positive,
+    ros_domain,
+    ros_namespace,
+    whole,
+)
+from auv_sim.launch.options import DEFAULT_MISSION, DEFAULT_PARAMS, DEFAULT_VEHICLE, DRIVERS, Options
+from auv_sim.launch.processes.adopted import Loader
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    p = Parser(
+        prog="mission.py", description="Fly a mission over ROS 2, record it, draw it.", allow_abbrev=False
+    )
+    shipped = {
+        kind: ", ".join(config_files.shipped(kind)) for kind in ("missions", "vehicles", "params", "seas")
+    }
+    p.add_argument(
+        "--mission",
+        default=DEFAULT_MISSION,
+        metavar="FILE",
+        help=f"file or one of: {shipped['missions']}",
+    )
+    p.add_argument(
+        "--vehicle",
+        default=DEFAULT_VEHICLE,
+        metavar="FILE",
+        help=f"file or one of: {shipped['vehicles']}",
+    )
+    p.add_argument(
+        "--believed",
+        metavar="FILE",
+        help="the hull as the nodes know it, where the simulator has another (default: --vehicle's)",
+    )
+    p.add_argument(
+        "--params", default=DEFAULT_PARAMS, metavar="FILE", help=f"file or one of: {shipped['params']}"
+    )
+    p.add_argument(
+        "--current", nargs=2, type=finite, metavar=("VX", "VY"), help="current towards north and east, m/s"
+    )
+    p.add_argument(
+        "--initial",
+        nargs=3,
+        type=finite,
+        metavar=("X", "Y", "PSI_DEG"),
+        help="start: north, east (m), heading (deg)",
+    )
+    p.add_argument(
+        "--sea",
+        metavar="FILE",
+        help="what is not ideal: noise, fixes, currents, rudder;"
+        f" file or one of: {shipped['seas']} (default: all is ideal)",
+    )
+    p.add_argument("--seed", type=whole, metavar="N", help="of all that is random in the sea (default 0)")
+    p.add_argument("--switching", choices=("off", "g0", "all"), help="joints with a circle of acceptance")
+    p.add_argument(
+        "--speed",
+        type=positive,
+        metavar="N",
+        help="free running at N times real time; without it lockstep, as fast as it goes",
+    )
+    p.add_argument(
+        "--no-sim", action="store_true", help="all but the simulator: a vehicle speaks the contract's topics"
+    )
+    p.add_argument(
+        "--use-sim-time", action="store_true", help="with --no-sim: follow the /clock that somebody publishes"
+    )
+    p.add_argument(
+        "--vehicle-driver",
+        choices=tuple(DRIVERS),
+        help="a vehicle behind this driver, not the simulator (emulated, unless --vehicle-address)",
+    )
+    p.add_argument(
+        "--vehicle-address",
+        metavar="ADDRESS",
+        help="with --vehicle-driver: udpin:HOST:PORT to wait there, udpout:HOST:PORT to talk to it",
+    )
+    p.add_argument("--out", type=Path, metavar="DIR", help="run directory (default: runs/MISSION-DATE)")
+    p.add_argument("--composed", action="store_true", help="all nodes in one process")
+    p.add_argument(
+        "--any-processor", action="store_true", help="lockstep: let the system choose where each process runs"
+    )
+    p.add_argument("--namespace", type=ros_namespace, default="/auv", help="of all nodes (default /auv)")
+    p.add_argument(
+        "--domain", type=ros_domain, help="ROS domain (default: one of its own; with --no-sim ROS_DOMAIN_ID)"
+    )
+    add_flown_option(p, None)
+    p.add_argument("--force", action="store_true", help="fly what the check of the plan refuses")
+    p.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
+    return p
+
+
+@command("mission", interrupted="mission interrupted")
+def main(argv: Sequence[str] | None = None) -> int:
+    """Fly.
+
+    Returns:
+        The exit code: 0 complete, 1 failed, aborted or incomplete, 2 bad input, 130 interrupted.
+    """
+    options = _options(argv)
+    with Loader() as loader:
+        # While the loader loads for the nodes, this process loads for itself.
+        from auv_sim.launch.mission_flight import fly
+
+        return fly(options, loader)
+
+
+def _options(argv: Sequence[str] | None) -> Options:
+    given = vars(parser().parse_args(argv))
+    for name in ("current", "initial"):
+        given[name] = tuple(given[name]) if given[name] is not None else None
+    options = Options(**given)
+    if options.vehicle_address is not None:
+        if options.vehicle_driver is None:
+            raise ConfigurationError("--vehicle-address", "no --vehicle-driver", "both")
+        from auv_sim.nodes.mavlink.link import parse_address
+
+        parse_address(options.vehicle_address, "--vehicle-address")
+    if options.no_sim and options.vehicle_driver is not None:
+        raise ConfigurationError("--vehicle-driver", "together with --no-sim", "one of them")
+    conflicts: dict[str, Any] = {"--sea": options.sea, "--seed": options.seed}
+    if not options.emulator:
+        conflicts |= {"--speed": options.speed, "--initial": options.initial, "--current": options.current}
+    if not options.simulator:
+        reason = (
+            "--no-sim" if options.no_sim
+            else "--vehicle-address" if options.vehicle_address else "--vehicle-driver"
+        )  # fmt: skip
+        for flag, value in conflicts.items():
+            if value is not None:
+                raise ConfigurationError(
+                    flag, f"together with {reason}", "it only without, it is for the simulator"
+                )
+    if options.use_sim_time and (options.simulator or options.emulator):
+        raise ConfigurationError(
+            "--use-sim-time", "without --no-sim", "both (the simulator always has its own clock)"
+        )
+    return options
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,52 @@
+"""`scripts/plan.py`: look at a mission before the vehicle is in the water."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+
+from auv_path_following import config_files
+from auv_sim.command_line import Parser, command, finite
+
+VEHICLE, STILL = "remus100", (0.0, 0.0)
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    shipped = {kind: ", ".join(config_files.shipped(kind)) for kind in ("missions", "vehicles", "params")}
+    p = Parser(
+        prog="plan.py",
+        description="Check a mission, draw it, and say whether the vehicle can fly it.",
+        epilog="Exit code 0: it can be flown, perhaps with warnings. 2: it is refused, or a file is wrong.",
+        allow_abbrev=False,
+    )
+    p.add_argument("mission", metavar="MISSION", help=f"file or one of: {shipped['missions']}")
+    p.add_argument(
+        "--vehicle", default=VEHICLE, metavar="FILE", help=f"file or one of: {shipped['vehicles']}"
+    )
+    p.add_argument(
+        "--params", metavar="FILE", help=f"for its circles of acceptance: file or one of: {shipped['params']}"
+    )
+    p.add_argument(
+        "--current",
+        nargs=2,
+        type=finite,
+        default=STILL,
+        metavar=("VX", "VY"),
+        help="current towards north and east, m/s",
+    )
+    p.add_argument("--switching", choices=("off", "g0", "all"), help="joints with a circle of acceptance")
+    p.add_argument("--out", type=Path, metavar="PNG", help="the picture (default: plan-MISSION.png here)")
+    p.add_argument("--export", type=Path, metavar="FILE", help="write the path for a chart: .geojson or .kml")
+    p.add_argument("--quiet", action="store_true", help="print nothing but a refusal, draw only with --out")
+    return p
+
+
+@command("plan")
+def main(argv: Sequence[str] | None = None) -> int:
+    """Plan; returns the exit code: 0 flyable, 2 refused or bad input, 130 interrupted."""
+    options = parser().parse_args(argv)
+    from auv_sim.checks.mission_check.plan_session import plan
+
+    return plan(options)

@@ -1,1 +1,0 @@
-"""Real vehicles: a driver for MAVLink, a vehicle to try it on, and the check of any driver."""

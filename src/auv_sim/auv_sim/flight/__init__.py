@@ -1,0 +1,1 @@
+"""Flights without ROS, the record of a run, and its figures."""

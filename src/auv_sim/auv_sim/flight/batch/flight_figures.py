@@ -1,0 +1,170 @@
+"""The figures of many flights, one row each."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from auv_sim.flight.batch import tally
+
+Column = npt.NDArray[np.float64]
+
+#: Units of the figures that are one number for each flight; what is not here has none.
+UNITS = {
+    "duration": "s",
+    "rms_distance": "m",
+    "largest_distance": "m",
+    "late_rms_distance": "m",
+    "late_largest_distance": "m",
+    "time_to_path": "s",
+    "rms_heading_error": "deg",
+    "distance_covered": "m",
+    "rudder_travel": "deg",
+    "rudder_travel_per_metre": "deg/m",
+    "rms_rudder_rate": "deg/s",
+    "largest_rudder_rate": "deg/s",
+    "current_estimate_error": "m/s",
+    "last_x": "m",
+    "last_y": "m",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Flights:
+    """One row for each flight. Every column has shape (n,); NaN where a flight ended before.
+
+    Distances are to the path and in m, as in `analysis.metrics`; `subpath_*` have shape (n, most subpaths).
+
+    Attributes:
+        completed: whether the end of the path was reached.
+        flown_share: share of the path that was flown, 0 to 1, as `analysis.flown_share` defines it.
+        finite: whether the state stayed finite; a flight in which it did not has ended there.
+        steps: odometries.
+        duration: s.
+        progress: s of Eq. (1) at the end, in [0, number of subpaths].
+        rms_distance, largest_distance: over the whole flight.
+        late_rms_distance, late_largest_distance: from `time_to_path` on.
+        time_to_path: when the path was joined, as `tally.ARRIVED` defines it, s.
+        rms_heading_error: deg.
+        distance_covered: m.
+        rudder_travel: deg; rudder_travel_per_metre: deg/m.
+        rms_rudder_rate, largest_rudder_rate: of the command, deg/s.
+        saturated: share of the commands at the stop.
+        current_estimate_error: the largest after the observer has settled, m/s.
+        last_x, last_y: where it ended, NED, m.
+        subpath_rms_distance, subpath_largest_distance, subpath_duration: of each subpath (m, m, s).
+    """
+
+    completed: npt.NDArray[np.bool_]
+    flown_share: Column
+    finite: npt.NDArray[np.bool_]
+    steps: npt.NDArray[np.int64]
+    duration: Column
+    progress: Column
+    rms_distance: Column
+    largest_distance: Column
+    late_rms_distance: Column
+    late_largest_distance: Column
+    time_to_path: Column
+    rms_heading_error: Column
+    distance_covered: Column
+    rudder_travel: Column
+    rudder_travel_per_metre: Column
+    rms_rudder_rate: Column
+    largest_rudder_rate: Column
+    saturated: Column
+    current_estimate_error: Column
+    last_x: Column
+    last_y: Column
+    subpath_rms_distance: Column
+    subpath_largest_distance: Column
+    subpath_duration: Column
+
+    def __len__(self) -> int:
+        return len(self.steps)
+
+    @classmethod
+    def joined(cls, parts: Sequence[tuple[Sequence[int], dict[str, Any]]], number: int) -> Flights:
+        """Return all flights in their order.
+
+        Args:
+            parts: places of some flights, and their figures by name, see `figures_of`.
+            number: of all flights.
+        """
+        columns: dict[str, Any] = {}
+        for field in dataclasses.fields(cls):
+            blocks = [(places, np.asarray(figures[field.name])) for places, figures in parts]
+            kind = _KINDS.get(field.name, np.float64)
+            shape: tuple[int, ...] = (number,)
+            if field.name in _OF_SUBPATHS:
+                shape = (number, max((block.shape[1] for _, block in blocks), default=0))
+            column = np.full(shape, np.nan if kind is np.float64 else 0, kind)
+            for places, block in blocks:
+                if block.ndim == 2:
+                    column[np.asarray(places)[:, None], np.arange(block.shape[1])] = block
+                else:
+                    column[places] = block
+            columns[field.name] = column
+        return cls(**columns)
+
+
+_OF_SUBPATHS = ("subpath_rms_distance", "subpath_largest_distance", "subpath_duration")
+_KINDS: dict[str, Any] = {"completed": np.bool_, "finite": np.bool_, "steps": np.int64}
+
+
+def figures_of(ends: Column, whole: Column, subpaths: Column, dt: Column) -> dict[str, Any]:
+    """Return the figures of n flights of m subpaths from their tallies, by the names of `Flights`.
+
+    Args:
+        ends: shape (n, ENDS), how each ended, see `tally`.
+        whole: shape (n, FLIGHT_TALLIES).
+        subpaths: shape (n, m, SUBPATH_TALLIES).
+        dt: shape (n,), between two odometries, s.
+    """
+    rows = subpaths[:, :, tally.ROWS]
+    counted, commands = rows.sum(axis=1), whole[:, tally.COMMANDS]
+    covered = subpaths[:, :, tally.COVERED].sum(axis=1)
+    travel = np.degrees(subpaths[:, :, tally.TRAVEL].sum(axis=1))
+    finite = ends[:, tally.FINITE] > 0.0
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return {
+            "completed": finite & (ends[:, tally.S] >= subpaths.shape[1]),
+            "flown_share": ends[:, tally.SHARE],
+            "finite": finite,
+            "steps": ends[:, tally.ODOMETRIES].astype(np.int64),
+            "duration": (ends[:, tally.ODOMETRIES] - 1.0) * dt,
+            "progress": ends[:, tally.S],
+            "rms_distance": _root(subpaths[:, :, tally.SQUARES].sum(axis=1), counted),
+            "largest_distance": _known(subpaths[:, :, tally.LARGEST].max(axis=1)),
+            "late_rms_distance": _root(whole[:, tally.LATE_SQUARES], whole[:, tally.LATE_ROWS]),
+            "late_largest_distance": _known(whole[:, tally.LATE_LARGEST]),
+            "time_to_path": whole[:, tally.TIME_TO_PATH],
+            "rms_heading_error": np.degrees(
+                _root(subpaths[:, :, tally.HEADING_SQUARES].sum(axis=1), counted)
+            ),
+            "distance_covered": covered,
+            "rudder_travel": travel,
+            "rudder_travel_per_metre": np.where(covered > 0.0, travel / covered, np.nan),
+            "rms_rudder_rate": np.degrees(_root(whole[:, tally.RATE_SQUARES], commands)),
+            "largest_rudder_rate": np.degrees(whole[:, tally.RATE_LARGEST]),
+            "saturated": np.where(commands > 0.0, whole[:, tally.SATURATED] / commands, np.nan),
+            "current_estimate_error": _known(whole[:, tally.ESTIMATE_ERROR]),
+            "last_x": ends[:, tally.LAST_X],
+            "last_y": ends[:, tally.LAST_Y],
+            "subpath_rms_distance": np.sqrt(subpaths[:, :, tally.SQUARES] / rows),
+            "subpath_largest_distance": np.where(rows > 0, subpaths[:, :, tally.LARGEST], np.nan),
+            "subpath_duration": np.where(rows > 0, subpaths[:, :, tally.DURATION], np.nan),
+        }
+
+
+def _root(squares: Column, count: Column) -> Column:
+    return np.asarray(np.where(count > 0, np.sqrt(squares / count), np.nan))
+
+
+def _known(values: Column) -> Column:
+    return np.where(np.isfinite(values), values, np.nan)

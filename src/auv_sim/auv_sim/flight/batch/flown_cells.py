@@ -1,0 +1,56 @@
+"""Which cells of the path a flight passes: the compiled side of `analysis.flown_share`."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from auv_sim.flight.batch.compiled import compiled
+from auv_sim.flight.flown_share import AHEAD, BEHIND, LEAST_ADVANCE, Cells
+
+
+@compiled
+def pass_cells(
+    cells: Cells, flown: npt.NDArray[np.bool_], s: float, x0: float, y0: float, x1: float, y1: float
+) -> None:
+    """Mark the cells that one step of the track passes.
+
+    Args:
+        cells: the path.
+        flown: shape (cells,); written.
+        s: of the virtual point when the step began, Eq. (1).
+        x0, y0, x1, y1: where the step began and ended, NED, m.
+    """
+    metres = _metres_at(cells, s)
+    dx, dy = x1 - x0, y1 - y0
+    squared = dx * dx + dy * dy
+    if not (squared > 0.0 and math.isfinite(squared)):
+        return
+    least = LEAST_ADVANCE * math.sqrt(squared)
+    first = max(math.ceil((metres - BEHIND) / cells.spacing - 0.5), 0)
+    last = min(math.floor((metres + AHEAD) / cells.spacing - 0.5), len(flown) - 1)
+    middle = cells.cells
+    for k in range(first, last + 1):
+        if flown[k] or middle[k, 2] * dx + middle[k, 3] * dy < least:
+            continue
+        cx, cy, reach = middle[k, 0], middle[k, 1], middle[k, 4]
+        u = min(max(((cx - x0) * dx + (cy - y0) * dy) / squared, 0.0), 1.0)
+        off_x, off_y = x0 + u * dx - cx, y0 + u * dy - cy
+        flown[k] = off_x * off_x + off_y * off_y <= reach * reach
+
+
+@compiled
+def _metres_at(cells: Cells, s: float) -> float:
+    """Metres of path before s, as `numpy.interp` has them."""
+    knots = cells.knots
+    low, high = 0, len(knots) - 1
+    while high - low > 1:
+        centre = (low + high) // 2
+        if s >= knots[centre, 0]:
+            low = centre
+        else:
+            high = centre
+    share = min(max((s - knots[low, 0]) / (knots[high, 0] - knots[low, 0]), 0.0), 1.0)
+    return float(knots[low, 1] + share * (knots[high, 1] - knots[low, 1]))

@@ -1,0 +1,64 @@
+"""The figures of one flight from its track: what `flights.figures_of` has from tallies."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from auv_sim.flight.batch import tally
+from auv_sim.flight.closed_loop import Scenario
+from auv_sim.flight.metrics import summarise
+from auv_sim.flight.run_record import Run
+
+
+def judged(run: Run, scenario: Scenario) -> dict[str, Any]:
+    """A flight's figures by the names of `Flights`.
+
+    Args:
+        run: every odometry of it, as `closed_loop.fly` gives it.
+        scenario: what was flown.
+    """
+    path = scenario.path
+    x, y = run.track
+    summary = summarise(run, path)
+    arrived = bool(run.s[-1] >= path.n)
+    # The last command of a completed mission is the stop.
+    commands = run.rudder_cmd[:-1] if arrived else run.rudder_cmd
+    rate = np.degrees(np.diff(commands)) / scenario.step
+    stops = (scenario.controller_vehicle or scenario.vehicle).rudder.max_angle
+    elapsed = scenario.step * np.arange(run.steps)
+    distance = path.distance(x, y, run.subpath(path.n))
+    near = np.flatnonzero((run.s > 0.0) & (distance <= tally.ARRIVED))
+    late = distance[near[0] :] if near.size else distance[:0]
+    return {
+        "completed": arrived,
+        "flown_share": summary.flown_share,
+        "finite": bool(np.isfinite(x[-1] + y[-1] + run.psi[-1])),
+        "steps": run.steps,
+        "duration": float(elapsed[-1]),
+        "progress": float(run.s[-1]),
+        "rms_distance": summary.rms_distance,
+        "largest_distance": summary.largest_distance,
+        "late_rms_distance": _rms(late),
+        "late_largest_distance": float(late.max()) if late.size else math.nan,
+        "time_to_path": float(elapsed[near[0]]) if near.size else math.nan,
+        "rms_heading_error": summary.rms_heading_error,
+        "distance_covered": summary.distance_covered,
+        "rudder_travel": summary.rudder_travel,
+        "rudder_travel_per_metre": summary.rudder_travel_per_metre,
+        "rms_rudder_rate": _rms(rate),
+        "largest_rudder_rate": float(np.abs(rate).max()) if rate.size else 0.0,
+        "saturated": float(np.mean(np.abs(commands[1:]) >= stops - 1e-12)) if rate.size else math.nan,
+        "current_estimate_error": summary.current_estimate_error,
+        "last_x": float(x[-1]),
+        "last_y": float(y[-1]),
+        "subpath_rms_distance": np.array([part.rms_distance for part in summary.subpaths]),
+        "subpath_largest_distance": np.array([part.largest_distance for part in summary.subpaths]),
+        "subpath_duration": np.array([part.duration for part in summary.subpaths]),
+    }
+
+
+def _rms(values: Any) -> float:
+    return float(np.sqrt(np.mean(values**2))) if values.size else math.nan

@@ -1,0 +1,84 @@
+"""What is kept of a flight while it is flown: sums, largest values and times instead of a track."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from auv_sim.flight.batch.compiled import compiled
+from auv_sim.flight.metrics import OBSERVER_SETTLING_TIME
+
+#: The path is joined when the vehicle first is this near to it while s > 0, m: an approach to the path's
+#: start, with s = 0, may cross the path. From here on the `late_*` figures count.
+ARRIVED = 1.0
+
+# Rows of a subpath's tally.
+ROWS, DURATION, SQUARES, LARGEST, HEADING_SQUARES, TRAVEL, COVERED = range(7)
+SUBPATH_TALLIES = 7
+# The flight's own.
+LATE_ROWS, LATE_SQUARES, LATE_LARGEST, TIME_TO_PATH, ESTIMATE_ERROR = range(5)
+COMMANDS, RATE_SQUARES, RATE_LARGEST, SATURATED = range(5, 9)
+FLIGHT_TALLIES = 9
+# How it ended: odometries, s of Eq. (1), whether the state stayed finite, flown share, last position (m).
+ODOMETRIES, S, FINITE, SHARE, LAST_X, LAST_Y = range(6)
+ENDS = 6
+
+Array = npt.NDArray[np.float64]
+
+
+@compiled
+def begin(whole: Array, subpaths: Array) -> None:
+    """Nothing counted yet."""
+    whole[:] = 0.0
+    subpaths[:] = 0.0
+    subpaths[:, LARGEST] = -math.inf
+    whole[LATE_LARGEST] = whole[ESTIMATE_ERROR] = -math.inf
+    whole[TIME_TO_PATH] = math.nan
+
+
+@compiled
+def count(
+    whole: Array,
+    subpaths: Array,
+    i: int,
+    s: float,
+    elapsed: float,
+    distance: float,
+    psi_e: float,
+    error_Vx: float,
+    error_Vy: float,
+) -> None:
+    """One odometry: `elapsed` s after the start, at s of Eq. (1), `distance` m from the path."""
+    subpaths[i, ROWS] += 1.0
+    subpaths[i, SQUARES] += distance * distance
+    subpaths[i, LARGEST] = max(subpaths[i, LARGEST], distance)
+    subpaths[i, HEADING_SQUARES] += psi_e * psi_e
+    if s > 0.0 and distance <= ARRIVED and math.isnan(whole[TIME_TO_PATH]):
+        whole[TIME_TO_PATH] = elapsed
+    if not math.isnan(whole[TIME_TO_PATH]):
+        whole[LATE_ROWS] += 1.0
+        whole[LATE_SQUARES] += distance * distance
+        whole[LATE_LARGEST] = max(whole[LATE_LARGEST], distance)
+    if elapsed >= OBSERVER_SETTLING_TIME:
+        squared = error_Vx * error_Vx + error_Vy * error_Vy
+        whole[ESTIMATE_ERROR] = max(whole[ESTIMATE_ERROR], math.sqrt(squared))
+
+
+@compiled
+def count_step(subpaths: Array, i: int, dt: float, travel: float, covered: float) -> None:
+    """The way from one odometry to the next; `travel` is the rudder's, rad, `covered` in m."""
+    subpaths[i, DURATION] += dt
+    subpaths[i, TRAVEL] += travel
+    subpaths[i, COVERED] += covered
+
+
+@compiled
+def count_command(whole: Array, rate: float, saturated: bool) -> None:
+    """How fast the command moved from one odometry to the next, rad/s; whether it stands at the stop."""
+    whole[COMMANDS] += 1.0
+    whole[RATE_SQUARES] += rate * rate
+    whole[RATE_LARGEST] = max(whole[RATE_LARGEST], abs(rate))
+    if saturated:
+        whole[SATURATED] += 1.0

@@ -1,0 +1,1 @@
+"""The substance of `scripts/mission.py`: options, plan, supervision, progress, results."""

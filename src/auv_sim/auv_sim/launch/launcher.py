@@ -1,0 +1,248 @@
+"""Flies one mission: starts the nodes, starts the mission, watches both, and leaves nothing running."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import time
+from pathlib import Path
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.node.runtime import StopRequest
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.command_line import ros_domain
+from auv_sim.launch.composed import NODES
+from auv_sim.launch.mission_plan import Plan
+from auv_sim.launch.outcome import MissionFailed, Outcome
+from auv_sim.launch.processes import discovery
+from auv_sim.launch.processes.adopted import Loader
+from auv_sim.launch.processes.domains import free_domain
+from auv_sim.launch.processes.placement import Processor
+from auv_sim.launch.processes.process_group import Child, Children
+from auv_sim.launch.progress import Progress
+from auv_sim.launch.vehicle_driver import EMULATOR, EMULATOR_MODULE
+
+#: Wall time for all nodes to find each other, s.
+_DISCOVERY_BOUND = 60.0
+#: Wall time to wait for a foreign vehicle's first odometry, s.
+_VEHICLE_BOUND = 120.0
+#: Wall time without a step of the simulator after which nothing is expected to move any more, s. The
+#: simulator names a node that does not answer well before; this is for what it cannot see.
+_STALL_BOUND = 60.0
+_COMPOSED = "composed"
+
+
+def domain_of(plan: Plan) -> int:
+    """The ROS domain: asked for; else a foreign vehicle's, from the environment; else one of our own.
+
+    Raises:
+        ConfigurationError: the environment names none.
+    """
+    if plan.options.domain is not None:
+        return plan.options.domain
+    if plan.options.no_sim:
+        # As ROS has it: empty is not set, and that is 0.
+        try:
+            return ros_domain(os.environ.get("ROS_DOMAIN_ID") or "0")
+        except argparse.ArgumentTypeError:
+            found = repr(os.environ["ROS_DOMAIN_ID"])
+            raise ConfigurationError("ROS_DOMAIN_ID", found, "a ROS domain from 0 to 232") from None
+    return free_domain()
+
+
+def fly(plan: Plan, directory: Path, domain: int, progress: Progress, loader: Loader) -> Outcome:
+    """Run a mission.
+
+    Args:
+        plan: what to fly.
+        directory: logs and the bag go below it.
+        domain: ROS domain.
+        progress: what a person sees.
+        loader: of the nodes; it has none yet.
+
+    Raises:
+        MissionFailed: a node died or never came up; nothing is left running.
+    """
+    # ROS's own logs, too, belong to the run: a service has no home to put them.
+    environment = {"ROS_DOMAIN_ID": str(domain), "ROS_LOG_DIR": str(directory / "log" / "ros")}
+    environment |= discovery.variables()
+    if plan.options.simulator or "ROS_AUTOMATIC_DISCOVERY_RANGE" not in os.environ:
+        environment["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    os.environ.update(environment)
+    interrupt = StopRequest()
+    children = Children(directory / "log", environment)
+    separate = plan.lockstep and not plan.options.composed
+    processor = Processor(None if separate and not plan.options.any_processor else ())
+    try:
+        _start_nodes(plan, children, loader, plan.write(directory / "config"))
+        # Only now: the nodes are to load meanwhile, and a process with DDS threads must not fork.
+        from auv_sim.launch.monitor import Monitor
+
+        look = discovery.look_for(domain)
+        monitor = Monitor(plan.options.namespace)
+        try:
+            return _Flight(plan, children, loader, monitor, progress, interrupt, processor).run(look)
+        finally:
+            # The recorder first, while the others still hold what it has not yet taken in.
+            children.stop([topics.RECORDER])
+            children.stop()
+            monitor.close()
+    finally:
+        children.stop()
+        processor.release()
+        interrupt.withdraw()
+
+
+def _start_nodes(plan: Plan, children: Children, loader: Loader, parameters: Path) -> None:
+    sim_time = "true" if plan.use_sim_time else "false"
+    ros = [
+        "-r",
+        f"__ns:={plan.options.namespace}",
+        "--params-file",
+        str(parameters),
+        "-p",
+        f"use_sim_time:={sim_time}",
+    ]
+    if plan.emulator is not None:
+        children.start(EMULATOR, EMULATOR_MODULE, plan.emulator)
+    names = [name for name in NODES if name in plan.parameters]
+    nodes = {name: (NODES[name].split(":")[0], ["--ros-args", *ros]) for name in names}
+    if plan.options.composed:
+        nodes = {_COMPOSED: ("auv_sim.launch.composed", [json.dumps(dict.fromkeys(names, ros))])}
+    children.fork(loader, nodes)
+
+
+class _Flight:
+    """The stages of one mission, each with its own way to end."""
+
+    def __init__(  # type: ignore[no-untyped-def]
+        self, plan, children, loader, monitor, progress, interrupt, processor: Processor
+    ) -> None:
+        self._plan: Plan = plan
+        self._children: Children = children
+        self._loader: Loader = loader
+        self._monitor = monitor
+        self._progress: Progress = progress
+        self._interrupt: StopRequest = interrupt
+        self._processor = processor
+
+    def run(self, look: float) -> Outcome:
+        """Fly, after at least `look` s of looking at the graph."""
+        begin = time.monotonic()
+        if not self._graph_free(look) or not self._all_listening() or not self._vehicle_there():
+            return Outcome("interrupted", "stopped before the mission began", time.monotonic() - begin, 0.0)
+        self._processor.place(self._children.ids)
+        self._look.check()
+        refused = self._monitor.start()
+        if refused:
+            raise MissionFailed(f"the mission could not be started: {refused}")
+        if not self._plan.lockstep:
+            self._monitor.first_stamp = None  # what came before was no mission
+        begin = time.monotonic()
+        state = self._until_over(begin)
+        wall = time.monotonic() - begin
+        self._monitor.look(0.05)
+        self._progress.update(self._monitor.s, self._monitor.ye, self._monitor.mission_time, wall)
+        reason = ""
+        if state == "interrupted":
+            reason = "stopped by a signal"
+            self._stop_vehicle()
+        elif state == "aborted":
+            reason = self._why_aborted()
+        return Outcome(state, reason, wall, self._monitor.mission_time)
+
+    def _graph_free(self, look: float) -> bool:
+        """Look at the graph for `look` s and while the nodes load, which enter it only then.
+
+        A busy machine discovers late and loads late: looking until all have loaded takes account of both.
+
+        Returns:
+            False when interrupted.
+
+        Raises:
+            GraphTaken: another has what this mission needs.
+        """
+        self._look = self._monitor.look_around(self._plan.claim(), look)
+        while not self._look.ended(self._loader.at_gate()):
+            if self._interrupt.requested:
+                return False
+            self._check_children()
+            self._monitor.look(0.02)
+        self._loader.open_gate()
+        return True
+
+    def _all_listening(self) -> bool:
+        """Wait until every node listens to what it needs; False when interrupted."""
+        names = set(self._plan.parameters)
+        deadline = time.monotonic() + _DISCOVERY_BOUND
+        while not self._interrupt.requested:
+            self._check_children()
+            self._look.check()
+            missing = self._monitor.missing_nodes(names, topics.RECORDER in names)
+            if not missing:
+                return True
+            self._progress.waiting_for(", ".join(sorted(missing)))
+            if time.monotonic() > deadline:
+                raise MissionFailed(f"no sign of {', '.join(sorted(missing))} within {_DISCOVERY_BOUND:g} s")
+            self._monitor.look(0.05)
+        return False
+
+    def _vehicle_there(self) -> bool:
+        """Without our simulator: wait for somebody's odometry; False when interrupted."""
+        deadline = time.monotonic() + _VEHICLE_BOUND
+        topic = topics.full_name(self._plan.options.namespace, topics.ODOM.name)
+        while not self._plan.options.simulator and not self._monitor.odometry_seen:
+            if self._interrupt.requested:
+                return False
+            self._check_children()
+            self._progress.waiting_for(f"a vehicle's {topic}")
+            if time.monotonic() > deadline:
+                raise MissionFailed(
+                    f"no odometry on {topic} within {_VEHICLE_BOUND:g} s: is the vehicle's driver running?"
+                )
+            self._monitor.look(0.1)
+        return True
+
+    def _until_over(self, begin: float) -> str:
+        m = self._monitor
+        moved_at, stamp = begin, m.stamp
+        while not self._interrupt.requested:
+            self._check_children()
+            m.look(0.1)
+            if m.stamp != stamp:
+                moved_at, stamp = time.monotonic(), m.stamp
+            elif self._plan.options.simulator and time.monotonic() - moved_at > _STALL_BOUND:
+                raise MissionFailed(
+                    f"time stood still at {m.mission_time:.2f} s of the mission for {_STALL_BOUND:g} s"
+                )
+            self._progress.update(m.s, m.ye, m.mission_time, time.monotonic() - begin)
+            if m.completed(self._plan.mission.path.n):
+                return "complete"
+            if m.state == "aborted":
+                return "aborted"
+        return "interrupted"
+
+    def _stop_vehicle(self) -> None:
+        """Ctrl-C must not leave a propeller running: abort, and let the zero commands reach the vehicle."""
+        self._monitor.abort()
+        self._monitor.look(0.3)
+
+    def _why_aborted(self) -> str:
+        for child in self._children:
+            for line in reversed(child.last_lines(20)):
+                if "aborted: " in line:
+                    return str(line.split("aborted: ", 1)[1])
+        return "the mission was aborted"
+
+    def _check_children(self) -> None:
+        dead = self._children.dead()
+        if dead is not None:
+            raise MissionFailed(_obituary(dead))
+
+
+def _obituary(child: Child) -> str:
+    code = child.exit_code or 0
+    how = f"was killed by signal {-code}" if code < 0 else f"ended with code {code}"
+    lines = "\n".join(f"  | {line}" for line in child.last_lines())
+    return f"{child.name} {how}; its last lines ({child.log}):\n{lines}"

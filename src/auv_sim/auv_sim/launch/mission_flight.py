@@ -1,0 +1,85 @@
+"""One mission from its files to its picture, with what a person sees of it."""
+
+from __future__ import annotations
+
+import shutil
+import time
+from pathlib import Path
+
+from rich.markup import escape
+
+from auv_msgs_py.node.graph_look import GraphTaken
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, EXIT_INTERRUPTED, make_directory, say
+from auv_sim.launch import launcher, mission_plan
+from auv_sim.launch.options import Options
+from auv_sim.launch.processes.adopted import Loader
+from auv_sim.launch.progress import Progress
+from auv_sim.terminal import console as terminal
+
+_EXIT = {
+    "complete": EXIT_DONE,
+    "incomplete": EXIT_FAILED,
+    "aborted": EXIT_FAILED,
+    "interrupted": EXIT_INTERRUPTED,
+}
+
+
+def fly(options: Options, loader: Loader) -> int:
+    """Fly a mission from its files to its picture; returns the exit code.
+
+    Args:
+        options: what was asked for.
+        loader: of the nodes.
+
+    Raises:
+        SuiteError: what the launcher and the check of the plan raise.
+    """
+    directory = _run_directory(options)
+    resolved = mission_plan.make(options, directory)
+    domain = launcher.domain_of(resolved)
+    console = terminal(options.quiet)
+    make_directory(directory, new=True)
+    path = resolved.mission.path
+    timing = "lockstep" if resolved.lockstep else "free running"
+    console.print(
+        f"[bold]{escape(resolved.mission.name)}[/bold]: {path.n} subpaths, {path.length:.1f} m,"
+        f" {escape(resolved.vehicle.name)}, {timing}, ROS domain {domain},"
+        f" namespace {options.namespace}",
+        highlight=False,
+    )
+    for level, verdicts in (("refused", resolved.verdicts.refusals), ("warning", resolved.verdicts.warnings)):
+        for verdict in verdicts:
+            console.print(f"[yellow]{level}[/yellow] {escape(str(verdict))}", highlight=False, soft_wrap=True)
+    for notice in resolved.verdicts.notices:
+        console.print(f"[cyan]notice[/cyan] {escape(notice)}", highlight=False, soft_wrap=True)
+    try:
+        with Progress(path, console, options.quiet) as progress:
+            outcome = launcher.fly(resolved, directory, domain, progress, loader)
+    except GraphTaken:
+        shutil.rmtree(directory)  # nothing was flown, and the same command is to work again
+        raise
+    if outcome.state != "complete":
+        say(f"mission {outcome.state}: {outcome.reason}", error=True)
+    from auv_sim.launch import results  # its libraries draw: nothing to load before the flight
+
+    outcome, summary = results.conclude(resolved, directory, outcome)
+    if summary is not None:
+        results.show(resolved, directory, outcome, summary, console)
+    if outcome.state == "incomplete":
+        say(f"mission incomplete: {outcome.reason}", error=True)
+    return _EXIT[outcome.state]
+
+
+def _run_directory(options: Options) -> Path:
+    if options.out is not None:
+        if options.out.exists():
+            raise ConfigurationError("--out", f"{options.out}, which exists", "a new directory")
+        return options.out.absolute()
+    name = Path(options.mission).stem
+    base = Path.cwd() / "runs" / f"{name}-{time.strftime('%Y%m%d-%H%M%S')}"
+    directory, number = base, 1
+    while directory.exists():
+        number += 1
+        directory = base.with_name(f"{base.name}-{number}")
+    return directory

@@ -1,0 +1,29 @@
+"""How a mission ends."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from auv_msgs_py.values.errors import SuiteError
+
+
+class MissionFailed(SuiteError):
+    """The mission ended otherwise than by reaching the end of the path."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How the mission ended.
+
+    Attributes:
+        state: complete, aborted or interrupted; `results.conclude` makes incomplete of a complete mission of
+            which too little was flown.
+        reason: for people; empty when complete.
+        wall_time: seconds between start and end of the mission.
+        mission_time: the same in the mission's own time.
+    """
+
+    state: str
+    reason: str
+    wall_time: float
+    mission_time: float

@@ -1,0 +1,1 @@
+"""The processes of a mission: loading, starting, placing, finding each other, ending."""

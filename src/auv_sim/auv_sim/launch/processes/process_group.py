@@ -1,0 +1,114 @@
+"""Child processes of one mission: started together, watched, and gone together."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+from auv_sim.launch.processes.adopted import Adopted, Loader
+from auv_sim.launch.processes.kin import end_with_parent
+
+
+class Process(Protocol):
+    """The part of `subprocess.Popen` that is used here."""
+
+    pid: int
+
+    def poll(self) -> int | None: ...
+    def wait(self, timeout: float | None = None) -> int: ...
+    def send_signal(self, sig: int) -> None: ...
+    def kill(self) -> None: ...
+
+
+@dataclass(frozen=True)
+class Child:
+    """One process and its log."""
+
+    name: str
+    process: Process
+    log: Path
+
+    @property
+    def exit_code(self) -> int | None:
+        """None while it runs."""
+        return self.process.poll()
+
+    def last_lines(self, count: int = 6) -> list[str]:
+        """The end of its log."""
+        text = self.log.read_text(encoding="utf-8", errors="replace")
+        return [line for line in text.splitlines() if line.strip()][-count:]
+
+
+class Children:
+    """Starts and stops child processes.
+
+    Args:
+        log_directory: stdout and stderr of each go to ``<name>.log`` there.
+        environment: variables on top of the launcher's own.
+    """
+
+    def __init__(self, log_directory: Path, environment: Mapping[str, str]) -> None:
+        self._directory = log_directory
+        self._environment = dict(environment)
+        self._children: dict[str, Child] = {}
+        log_directory.mkdir(parents=True, exist_ok=True)
+
+    def start(self, name: str, module: str, arguments: Sequence[str]) -> None:
+        """Run ``python -m module arguments`` in its own session: Ctrl-C reaches only the launcher."""
+        log = self._log(name)
+        with log.open("wb") as stream:
+            process = subprocess.Popen(  # noqa: S603 - our own interpreter, our own modules
+                [sys.executable, "-m", module, *arguments],
+                stdin=subprocess.DEVNULL,
+                stdout=stream,
+                stderr=subprocess.STDOUT,
+                env={**os.environ, **self._environment, "PYTHONUNBUFFERED": "1"},
+                start_new_session=True,
+                preexec_fn=end_with_parent,
+            )
+        self._children[name] = Child(name, process, log)
+
+    def fork(self, loader: Loader, nodes: Mapping[str, tuple[str, Sequence[str]]]) -> None:
+        """Have nodes forked by `loader`: name -> module and arguments. They wait at the loader's gate."""
+        order = [
+            (name, module, list(arguments), str(self._log(name)))
+            for name, (module, arguments) in nodes.items()
+        ]
+        for name, pid in loader.fork(self._environment, order).items():
+            self._children[name] = Child(name, Adopted(pid), self._log(name))
+
+    def _log(self, name: str) -> Path:
+        return self._directory / f"{name}.log"
+
+    def __iter__(self) -> Iterator[Child]:
+        return iter(self._children.values())
+
+    @property
+    def ids(self) -> dict[str, int]:
+        """Name -> process id."""
+        return {name: child.process.pid for name, child in self._children.items()}
+
+    def dead(self) -> Child | None:
+        """The first child that has ended, if any has."""
+        return next((child for child in self._children.values() if child.exit_code is not None), None)
+
+    def stop(self, names: Sequence[str] | None = None, patience: float = 10.0) -> None:
+        """SIGINT to the named children (all by default); who does not leave within `patience` s is killed."""
+        chosen = [self._children[name] for name in names or self._children if name in self._children]
+        for child in chosen:
+            if child.exit_code is None:
+                child.process.send_signal(signal.SIGINT)
+        deadline = time.monotonic() + patience
+        for child in chosen:
+            try:
+                child.process.wait(max(0.0, deadline - time.monotonic()))
+            except subprocess.TimeoutExpired:
+                child.process.kill()
+                child.process.wait()

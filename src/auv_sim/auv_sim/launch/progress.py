@@ -1,0 +1,59 @@
+"""What a person sees while a mission flies."""
+
+from __future__ import annotations
+
+from types import TracebackType
+
+from rich.console import Console
+from rich.progress import BarColumn, TaskProgressColumn, TextColumn, TimeElapsedColumn
+from rich.progress import Progress as Bar
+
+from auv_path_following.curves.composite import CompositePath
+
+
+class Progress:
+    """A bar along the path: subpath, s, distance to the path, speed relative to real time.
+
+    Args:
+        path: the path being flown.
+        console: where to draw.
+        quiet: draw nothing.
+    """
+
+    def __init__(self, path: CompositePath, console: Console, quiet: bool = False) -> None:
+        self._path = path
+        self._bar = Bar(
+            TextColumn("{task.description}"),
+            BarColumn(),
+            TaskProgressColumn(),
+            TimeElapsedColumn(),
+            console=console,
+            transient=False,
+            disable=quiet,
+        )
+        self._task = self._bar.add_task("starting the nodes", total=path.length)
+
+    def __enter__(self) -> Progress:
+        self._bar.__enter__()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._bar.__exit__(kind, error, trace)
+
+    def waiting_for(self, whom: str) -> None:
+        """Say what the mission waits for."""
+        self._bar.update(self._task, description=f"waiting for {whom}")
+
+    def update(self, s: float, ye: float, mission_time: float, wall_time: float) -> None:
+        """Show where the vehicle is: s, cross-track error (m), times (s)."""
+        i = min(int(s), self._path.n - 1)
+        segment = self._path.segments[i]
+        flown = self._path.length - self._path.distance_to_go(i, min(s - i, 1.0))
+        speed = mission_time / wall_time if wall_time > 0.0 else 0.0
+        text = (
+            f"subpath {i + 1}/{self._path.n} {segment.kind:<16.16} s {s:5.2f}  off {abs(ye):5.2f} m  "
+            f"{mission_time:6.1f} s  x{speed:.0f}"
+        )
+        self._bar.update(self._task, completed=flown, description=text)

@@ -1,0 +1,145 @@
+"""What a mission leaves behind: figures, a picture, a table, and the next command."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from auv_msgs_py.settings.result_files import write_text
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.bags.reading.load import load
+from auv_sim.command_line import to_type
+from auv_sim.flight.metrics import MissionSummary, farthest, summarise
+from auv_sim.launch.mission_plan import Plan
+from auv_sim.launch.outcome import Outcome
+from auv_sim.terminal import go_on, wrote
+from auv_sim.views.overview import draw
+
+#: What was said on `mission_state` is no proof; what was recorded is.
+_UNFINISHED = "found a recording without the path's end, expected it where mission_state is complete"
+
+#: Of more subpaths and corners than this the farthest are printed; summary.json has all.
+_MOST_ROWS, _MOST_CORNERS = 40, 10
+
+
+def conclude(plan: Plan, directory: Path, outcome: Outcome) -> tuple[Outcome, MissionSummary | None]:
+    """Load the bag, judge the mission, write `summary.json` and `overview.png`.
+
+    Args:
+        plan: what was flown.
+        directory: the run directory.
+        outcome: how the mission ended on the graph.
+
+    Returns:
+        The outcome, incomplete where too little of the path was flown or its end was not reached; and the
+        figures, None without a bag.
+    """
+    try:
+        run = load(directory / "bag")
+    except ConfigurationError:
+        return outcome, None
+    summary = summarise(run, plan.mission.path)
+    if outcome.state == "complete":
+        reason = summary.shortfall(plan.options.least_flown) or ("" if summary.completed else _UNFINISHED)
+        if reason:
+            outcome = dataclasses.replace(outcome, state="incomplete", reason=reason)
+    record: dict[str, Any] = {
+        "outcome": outcome.state,
+        "reason": outcome.reason,
+        "wall_time_s": round(outcome.wall_time, 3),
+        "times_real_time": round(outcome.mission_time / outcome.wall_time, 2) if outcome.wall_time else None,
+        "timing": "lockstep" if plan.lockstep else "free running",
+        "mission": plan.mission.name,
+        "vehicle": plan.vehicle.name,
+        **json.loads(summary.to_json()),
+    }
+    write_text(directory / "summary.json", json.dumps(record, indent=2) + "\n")
+    rudder = plan.vehicle.rudder
+    draw(
+        run,
+        plan.mission.path,
+        summary,
+        directory / "overview.png",
+        f"{plan.mission.name}, {plan.vehicle.name}",
+        rudder_limit=rudder.max_angle,
+        rudder_rate_limit=rudder.max_rate,
+        command=plan.options.command,
+    )
+    return outcome, summary
+
+
+def show(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary, console: Console) -> None:
+    """The table, the files, the next command."""
+    table = Table(title=f"{escape(plan.mission.name)}: {outcome.state}", title_justify="left")
+    table.add_column("subpath")
+    for heading in (
+        "time (s)",
+        "rms distance (m)",
+        "largest (m)",
+        "rms heading error (°)",
+        "rudder (°/m)",
+    ):
+        table.add_column(heading, justify="right")
+    for part in farthest(summary.subpaths, _MOST_ROWS):
+        table.add_row(
+            f"{part.number} {part.kind}",
+            _number(part.duration, 1),
+            _number(part.rms_distance, 3),
+            _number(part.largest_distance, 3),
+            _number(part.rms_heading_error, 2),
+            _number(part.rudder_travel_per_metre, 2),
+        )
+    table.add_section()
+    if (others := len(summary.subpaths) - _MOST_ROWS) > 0:
+        table.add_row(f"{others} others, nearer to the path")
+    table.add_row(
+        "all",
+        _number(summary.duration, 1),
+        _number(summary.rms_distance, 3),
+        _number(summary.largest_distance, 3),
+        _number(summary.rms_heading_error, 2),
+        _number(summary.rudder_travel_per_metre, 2),
+    )
+    console.print(table)
+    console.print(summary.flown_line(), soft_wrap=True)
+    for corner in farthest(summary.corners, _MOST_CORNERS):
+        if math.isnan(corner.largest_distance):  # not reached
+            continue
+        console.print(
+            f"corner at joint {corner.joint}: at most {_number(corner.largest_distance, 2)} m off the path"
+        )
+    if (others := len(summary.corners) - _MOST_CORNERS) > 0:
+        console.print(f"{others} more corners, nearer to the path: summary.json")
+    if not math.isnan(summary.navigation_error):
+        away = summary.largest_distance_off_corners
+        there = "" if math.isnan(away) else f" at most {away:.2f} m away from corners,"
+        console.print(f"true distances;{there} odometry off by at most {summary.navigation_error:.2f} m")
+    if not math.isnan(summary.current_estimate_error):
+        console.print(
+            f"current estimate: within {summary.current_estimate_error:.4f} m/s of the truth after 15 s"
+        )
+    speed = outcome.mission_time / outcome.wall_time if outcome.wall_time else 0.0
+    console.print(
+        f"{outcome.mission_time:.1f} s of mission in {outcome.wall_time:.1f} s, {speed:.0f} times real time"
+    )
+    console.print()
+    for name, what in (
+        ("overview.png", "the mission in one picture"),
+        ("summary.json", "the figures above, for programs"),
+        ("bag", "every topic, rosbag2 (MCAP): ros2 bag play, Foxglove, rosbags"),
+        ("config", "mission, vehicle and parameters as flown"),
+        ("log", "what each node said"),
+    ):
+        wrote(console, directory / name, what)
+    go_on(console, "Look further", to_type("bag.py", "report", directory))
+
+
+def _number(value: float, digits: int) -> str:
+    return "-" if math.isnan(value) else f"{value:.{digits}f}"

@@ -1,1 +1,0 @@
-"""The launcher's substance: configuration, processes, supervision, progress."""

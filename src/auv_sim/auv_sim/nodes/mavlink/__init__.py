@@ -1,0 +1,1 @@
+"""The driver for vehicles that speak MAVLink, and an emulated vehicle to try it on."""

@@ -1,0 +1,149 @@
+"""MAVLink 2 over UDP: one socket, one peer, messages in and out. ROS-free."""
+
+from __future__ import annotations
+
+import re
+import socket
+import time
+from collections.abc import Callable
+from typing import Any
+
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.nodes.mavlink.codec import LARGEST_DATAGRAM, Codec, Frame
+from auv_sim.nodes.mavlink.peer import Address, Peer, text_of
+
+#: Where ground stations listen for vehicles.
+STANDARD_PORT = 14550
+_ADDRESS = re.compile(r"(udp|udpin|udpout):([\w.\-]+):(\d+)")
+#: Asked of the system, bytes; what it grants has to hold all that comes while the process does not run.
+_RECEIVE_BUFFER = 4_000_000
+
+
+def parse_address(text: str, where: str) -> tuple[bool, str, int]:
+    """`udpin:HOST:PORT` waits there for the vehicle, `udpout:HOST:PORT` talks to it; `udp` is `udpin`.
+
+    Returns:
+        (whether to wait, host, port).
+
+    Raises:
+        ConfigurationError: another form, or a port that there is not.
+    """
+    match = _ADDRESS.fullmatch(text)
+    if match is None or not 0 < int(match[3]) < 65536:
+        raise ConfigurationError(
+            where, f"'{text}'", f"udpin:0.0.0.0:{STANDARD_PORT} to wait for the vehicle, or udpout:HOST:PORT"
+        )
+    return match[1] != "udpout", match[2], int(match[3])
+
+
+class MavlinkLink:
+    """Sends and receives MAVLink messages.
+
+    Args:
+        address: as `parse_address` reads it.
+        system, component: our own ids.
+        where: what to name when the address cannot be used.
+        peer: decides which sender is the vehicle; any sender and system if None.
+        key: of signatures, see `Codec`.
+        clock: wall time, s.
+
+    Raises:
+        ConfigurationError: the address cannot be used.
+    """
+
+    def __init__(
+        self,
+        address: str,
+        system: int,
+        component: int,
+        where: str = "address",
+        peer: Peer | None = None,
+        key: bytes | None = None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        waits, host, port = parse_address(address, where)
+        self.peer = peer if peer is not None else Peer()
+        self._clock = clock
+        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, _RECEIVE_BUFFER)
+        try:
+            if waits:
+                self._socket.bind((host, port))
+            else:  # the system then delivers nothing from anywhere else
+                self._socket.connect((host, port))
+                self.peer.address = self._socket.getpeername()
+        except OSError as error:
+            self._socket.close()
+            raise ConfigurationError(
+                where, f"'{address}' ({error.strerror})", "an address that is free"
+            ) from None
+        self._waits = waits
+        self._sender: Address = ("", 0)
+        self._codec = Codec(system, component, key)
+        self._numbers: dict[tuple[int, int], int] = {}
+        self._known: Address | None = None
+        #: The peer's messages that never came, by the gaps in their numbering; datagrams that could not be
+        #: read to the end, and why the last of them could not.
+        self.lost = self.damaged = 0
+        self.damage = ""
+
+    def receive(self, timeout: float) -> bytes | None:
+        """One datagram, which may be empty; None when none came within `timeout` s."""
+        try:
+            self._socket.settimeout(timeout)
+            data, self._sender = self._socket.recvfrom(LARGEST_DATAGRAM + 1)
+        except OSError:  # nothing came, or an ICMP error: no socket at the other end yet
+            return None
+        return data
+
+    def messages(self, datagram: bytes) -> list[Any]:
+        """The peer's messages in the datagram last received; what cannot be read is counted and left out."""
+        sender, now = self._sender, self._clock()
+        if not self.peer.may_be(sender, now):
+            self.peer.refuse(sender, now)
+            return []
+        frames, damage = self._codec.unpack(datagram)
+        if damage:
+            self.damaged += 1
+            self.damage = f"{damage}, from {text_of(sender)}"
+        if not self.peer.is_vehicle(sender, frames, now):
+            self.peer.refuse(sender, now)
+            return []
+        if sender != self._known:
+            self._known = sender
+            self._numbers.clear()
+        self._count(frames)
+        return [frame.message for frame in frames if frame.message is not None]
+
+    def _count(self, frames: list[Frame]) -> None:
+        """Look for gaps in the numbering of each component."""
+        for frame in frames:
+            source = frame.system, frame.component
+            missing = (frame.number - self._numbers.get(source, frame.number - 1) - 1) % 256
+            if missing < 128:  # otherwise it was overtaken
+                self.lost += missing
+                self._numbers[source] = frame.number
+
+    def pack(self, message: Any, component: int | None = None, line: int = 0) -> bytes:
+        """A message as our next datagram, see `Codec.pack`."""
+        return self._codec.pack(message, component, line)
+
+    def send(self, message: Any) -> None:
+        """Send a message; before the vehicle has been heard it goes nowhere."""
+        self.send_bytes(self.pack(message))
+
+    def send_bytes(self, data: bytes) -> None:
+        """Send what `pack` made. UDP promises nothing, so neither does this."""
+        if self.peer.address is None:
+            return
+        try:
+            if self._waits:
+                self._socket.sendto(data, self.peer.address)
+            else:
+                self._socket.send(data)
+        except OSError:
+            return  # no socket there, or the network is down: the other side notices the silence
+
+    def close(self) -> None:
+        """Close the socket."""
+        self._socket.close()

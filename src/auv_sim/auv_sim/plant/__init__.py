@@ -1,1 +1,0 @@
-"""The vehicle that is simulated: hull, rudder, water."""

@@ -1,1 +1,0 @@
-"""Recordings: writing a rosbag2 directory (MCAP) and reading one back as a `Run`."""

@@ -1,0 +1,1 @@
+"""Studies of many flights: campaigns, sea trials, noise, the gallery, the paper."""

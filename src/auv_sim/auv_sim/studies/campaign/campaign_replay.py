@@ -1,0 +1,148 @@
+"""One run of a campaign again, alone: in the batch engine, or over ROS 2 with its files written out."""
+
+from __future__ import annotations
+
+import dataclasses
+import shutil
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow.parquet as pq
+from rich.console import Console
+from rich.markup import escape
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.settings import params_file, yaml_file
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.bags.reading.load import load
+from auv_sim.cli import mission as mission_command
+from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, to_type
+from auv_sim.flight.batch import engine
+from auv_sim.flight.closed_loop import Scenario, start_of
+from auv_sim.flight.metrics import summarise
+from auv_sim.flight.run_record import Run
+from auv_sim.parameters import ConstantCurrent, InitialPose
+from auv_sim.studies.campaign.campaign_plan import StudyPlan
+from auv_sim.studies.campaign.store import RESULTS, Store
+from auv_sim.terminal import go_on, wrote
+from auv_sim.views.overview import draw
+
+
+def replay(store: Store, number: int, graph: bool, console: Console) -> int:
+    """Fly run `number` again.
+
+    Args:
+        store: the campaign.
+        number: of the run, from 0.
+        graph: over ROS 2, recorded; else in the batch engine.
+        console: where to tell.
+
+    Returns:
+        the exit code: 0 if the path was flown to its end, else 1.
+
+    Raises:
+        ConfigurationError: there is no such run.
+    """
+    plan = store.plan
+    if number >= plan.runs:
+        raise ConfigurationError("--replay-run", str(number), f"a run from 0 to {plan.runs - 1}")
+    console.print(f"[bold]{escape(plan.study.name)}[/bold], run {number}")
+    for name, value in plan.values(number).items():
+        told = f"{value:.6g}" if isinstance(value, float) else escape(str(value))
+        console.print(f"  {name:<32} {told}")
+    scenario = plan.scenario(number)
+    directory = store.directory / "runs" / f"{number:07d}"
+    shutil.rmtree(directory, ignore_errors=True)
+    write_files(plan, number, directory / "config")
+    flown = engine.track(scenario)
+    code = _tell(store, number, flown, scenario, console)
+    _picture(plan, number, flown, scenario, directory / "overview.png")
+    wrote(console, directory / "overview.png", "the run in one picture")
+    if not graph:
+        again = to_type("campaign.py", store.directory, replay_run=number, graph=True)
+        go_on(console, "Fly it over ROS 2", again)
+        return code
+    least = ["--flown", f"{plan.study.flown:g}"]
+    code = mission_command.main(
+        [*command_line(directory / "config"), *least, "--out", str(directory / "graph")]
+    )
+    recorded = load(directory / "graph" / "bag")
+    rows = min(recorded.steps, flown.steps)
+    apart = np.hypot(recorded.x[:rows] - flown.x[:rows], recorded.y[:rows] - flown.y[:rows])
+    console.print(f"graph and batch engine: {rows} steps, at most {apart.max():.2g} m apart", soft_wrap=True)
+    return code
+
+
+def write_files(plan: StudyPlan, number: int, directory: Path) -> None:
+    """Mission, hulls, sea and parameters of one run, such that `scripts/mission.py` flies it."""
+    values, scenario = plan.values(number), plan.scenario(number)
+    mission = plan.mission_of(values)
+    told = plan.parameters(str(values.get("params", plan.study.params)))
+    directory.mkdir(parents=True)
+    mission.copy_to(directory)
+    yaml_file.dump(_written(scenario.vehicle), directory / "vehicle.yaml")
+    yaml_file.dump(_written(scenario.controller_vehicle), directory / "believed.yaml")
+    plant: dict[str, Any] = {"step": scenario.step, "seed": scenario.seed}
+    if scenario.sea is not None:
+        yaml_file.dump(_written(scenario.sea), directory / "sea.yaml")
+        plant["sea"] = str(directory / "sea.yaml")
+    x, y, psi, surge, *_ = scenario.initial or start_of(scenario.path)
+    plant["initial"] = InitialPose(x=x, y=y, psi=psi, surge=surge)
+    plant["current"] = ConstantCurrent(Vx=scenario.current.Vx, Vy=scenario.current.Vy)
+    limits = dataclasses.replace(told[topics.GUIDANCE].limits, duration=plan.study.time_limit)
+    parameters = told | {
+        topics.PLANT: dataclasses.replace(told[topics.PLANT], **plant),
+        topics.OBSERVER: dataclasses.replace(told[topics.OBSERVER], observer=scenario.observer),
+        topics.AUTOPILOT: dataclasses.replace(told[topics.AUTOPILOT], autopilot=scenario.autopilot),
+        topics.GUIDANCE: dataclasses.replace(
+            told[topics.GUIDANCE], guidance=scenario.guidance, limits=limits, mission_switching=False
+        ),
+    }
+    yaml_file.dump(params_file.as_ros(parameters), directory / "params.yaml")
+
+
+def command_line(config: Path) -> list[str]:
+    """Arguments for `scripts/mission.py`. A campaign flies what the check of a plan would refuse, too."""
+    names = ("mission", "vehicle", "believed", "params")
+    files = [part for name in names for part in (f"--{name}", str(config / f"{name}.yaml"))]
+    return [*files, "--force"]
+
+
+def _written(settings: Any) -> Any:
+    """A settings object as it stands in a file: what is not given is left out."""
+    if not dataclasses.is_dataclass(settings):
+        return list(settings) if isinstance(settings, tuple) else settings
+    named = {field.name: getattr(settings, field.name) for field in dataclasses.fields(settings)}
+    return {name: _written(value) for name, value in named.items() if value is not None}
+
+
+def _tell(store: Store, number: int, flown: Run, scenario: Scenario, console: Console) -> int:
+    """Print the figures; returns the exit code."""
+    summary = summarise(flown, scenario.path)
+    outcome = summary.outcome(store.plan.study.flown)
+    console.print(
+        f"\n{outcome} after {summary.duration:.1f} s,"
+        f" rms distance {summary.rms_distance:.4g} m, largest {summary.largest_distance:.4g} m"
+    )
+    console.print(summary.flown_line(), soft_wrap=True)
+    if store.finished:
+        table = pq.read_table(store.directory / RESULTS, columns=["rms_distance"])
+        kept = table.column(0)[number].as_py()
+        console.print(
+            f"in the campaign: rms distance {kept:.4g} m, {abs(kept - summary.rms_distance):.1g} m apart"
+        )
+    return EXIT_DONE if outcome == "complete" else EXIT_FAILED
+
+
+def _picture(plan: StudyPlan, number: int, flown: Run, scenario: Scenario, file: Path) -> None:
+    rudder = scenario.vehicle.rudder
+    draw(
+        flown,
+        scenario.path,
+        summarise(flown, scenario.path),
+        file,
+        f"{plan.study.name}, run {number}",
+        rudder_limit=rudder.max_angle,
+        rudder_rate_limit=rudder.max_rate,
+    )

@@ -1,0 +1,68 @@
+"""Runs as rows of a table: their number, what was varied, and the figures of their flights."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+import pyarrow as pa
+
+from auv_sim.flight.batch.flight_figures import Flights
+from auv_sim.studies.campaign.campaign_plan import StudyPlan
+from auv_sim.studies.campaign.study_file import Study
+
+
+def schema_of(plan: StudyPlan) -> pa.Schema:
+    """The columns of a study's table."""
+    fields = [pa.field("run", pa.int64())]
+    for name, distribution in plan.study.vary.items():
+        switches = all(isinstance(value, bool) for value in distribution.extremes)
+        kind = pa.float64() if distribution.is_numeric else pa.bool_() if switches else pa.string()
+        fields.append(pa.field(name, kind))
+    fields.append(pa.field("success", pa.bool_()))
+    for field in dataclasses.fields(Flights):
+        if field.name.startswith("subpath_"):
+            fields.append(pa.field(field.name, pa.list_(pa.float64())))
+        elif field.name in ("completed", "finite"):
+            fields.append(pa.field(field.name, pa.bool_()))
+        else:
+            fields.append(pa.field(field.name, pa.int64() if field.name == "steps" else pa.float64()))
+    return pa.schema(fields)
+
+
+def table_of(plan: StudyPlan, runs: range, flights: Flights, subpaths: list[int]) -> pa.Table:
+    """One row for each run.
+
+    Args:
+        plan: the study.
+        runs: the numbers of the runs.
+        flights: their figures, in order.
+        subpaths: how many subpaths the path of each has.
+    """
+    schema = schema_of(plan)
+    drawn = [plan.values(run) for run in runs]
+    columns: dict[str, Any] = {"run": list(runs)}
+    for name in plan.study.vary:
+        values = [row[name] for row in drawn]
+        columns[name] = [str(v) for v in values] if schema.field(name).type == pa.string() else values
+    columns["success"] = successes(plan.study, flights)
+    for field in dataclasses.fields(Flights):
+        values = getattr(flights, field.name)
+        if field.name.startswith("subpath_"):
+            columns[field.name] = [row[:n].tolist() for row, n in zip(values, subpaths, strict=True)]
+        else:
+            columns[field.name] = values
+    return pa.table({name: pa.array(columns[name], schema.field(name).type) for name in schema.names}, schema)
+
+
+def flown_enough(study: Study, shares: Any) -> Any:
+    """Which flown shares (0 to 1) reach the study's least one."""
+    return shares >= study.flown
+
+
+def successes(study: Study, flights: Flights) -> Any:
+    """Which flights flew the path to its end within the study's limits; a figure that is NaN exceeds any."""
+    good = flights.completed & flown_enough(study, flights.flown_share)
+    for figure, most in study.success.items():
+        good &= getattr(flights, figure) <= most
+    return good

@@ -1,0 +1,121 @@
+"""Flies a campaign's chunks: on all cores of this machine, or through Dask on as many as there are."""
+
+from __future__ import annotations
+
+import functools
+import tempfile
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import pyarrow as pa
+
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.flight.batch import engine
+from auv_sim.studies.campaign.campaign_plan import StudyPlan
+from auv_sim.studies.campaign.run_table import table_of
+from auv_sim.studies.campaign.store import Store, bundle_of, fingerprint, write_bundle
+from auv_sim.studies.pool import WorkerDied, each
+
+#: A chunk, or the three parts of the error that ended it: an exception of ours does not survive pickling.
+Result: TypeAlias = "pa.Table | tuple[str, str, str]"
+
+
+def fly_chunk(source: str, first: int, end: int) -> Result:
+    """Fly runs `first` to `end - 1` of the study in a file."""
+    try:
+        plan = _plan(source)
+        runs = range(first, end)
+        scenarios = [plan.scenario(run) for run in runs]
+        flights = engine.fly(scenarios)
+        return table_of(plan, runs, flights, [scenario.path.n for scenario in scenarios])
+    except ConfigurationError as error:
+        return error.where, error.found, error.expected
+
+
+def fly_bundled(files: Mapping[str, bytes], study: str, first: int, end: int) -> Result:
+    """The same on a machine that has none of the files."""
+    return fly_chunk(_unpacked(fingerprint(files), study, files), first, end)
+
+
+@functools.cache
+def _plan(source: str) -> StudyPlan:
+    return StudyPlan(Path(source))
+
+
+_directories: dict[str, tempfile.TemporaryDirectory[str]] = {}
+
+
+def _unpacked(name: str, study: str, files: Mapping[str, bytes]) -> str:
+    """Once in each process; gone when it ends."""
+    if name not in _directories:
+        _directories[name] = tempfile.TemporaryDirectory(prefix="auv_campaign_")
+        write_bundle(files, Path(_directories[name].name))
+    return str(Path(_directories[name].name) / f"{study}.yaml")
+
+
+def on_this_machine(store: Store, chunks: list[range], workers: int) -> Iterator[tuple[range, pa.Table]]:
+    """Every chunk with its table, as they are finished.
+
+    Raises:
+        ConfigurationError: a run whose values do not go together.
+        WorkerDied: a process of the pool is gone.
+    """
+    for index, result in each(functools.partial(_fly, str(store.plan.source)), chunks, workers):
+        yield chunks[index], _table(result)
+
+
+def _fly(source: str, runs: range) -> Result:
+    return fly_chunk(source, runs.start, runs.stop)
+
+
+def through_dask(
+    store: Store, chunks: list[range], workers: int, scheduler: str
+) -> Iterator[tuple[range, pa.Table]]:
+    """Every chunk with its table, as they are finished.
+
+    Args:
+        store: the campaign.
+        chunks: what to fly.
+        workers: processes of a cluster on this machine, if there is no scheduler.
+        scheduler: its address; empty for a cluster on this machine.
+
+    Raises:
+        ConfigurationError: Dask is missing, nobody answers, or a run whose values do not go together.
+        WorkerDied: a chunk ended several workers, one after the other.
+    """
+    try:
+        import distributed as dask
+    except ImportError:
+        raise ConfigurationError("--dask", "no Dask", "pip install -r requirements/cluster.txt") from None
+    distributed: Any = dask  # its functions have no types
+    if scheduler:
+        cluster: Any = scheduler
+    else:
+        cluster = distributed.LocalCluster(
+            n_workers=workers, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
+        )
+    try:
+        client = distributed.Client(cluster, timeout=20)
+    except (OSError, ValueError) as error:
+        raise ConfigurationError("--dask", f"{scheduler} ({error})", "a scheduler that answers") from None
+    with client:
+        files = client.scatter(bundle_of(store.plan), broadcast=True)
+        study = store.plan.source.stem
+        futures = {
+            client.submit(fly_bundled, files, study, chunk.start, chunk.stop, pure=False): chunk
+            for chunk in chunks
+        }
+        try:
+            for future in distributed.as_completed(list(futures)):
+                yield futures[future], _table(future.result())
+        except distributed.KilledWorker:
+            raise WorkerDied("workers died again and again: killed, or out of memory") from None
+    if not scheduler:
+        cluster.close()
+
+
+def _table(result: Result) -> pa.Table:
+    if isinstance(result, tuple):
+        raise ConfigurationError(*result)
+    return result

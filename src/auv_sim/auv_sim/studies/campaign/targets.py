@@ -1,0 +1,122 @@
+"""What a study can vary: the start, the water, the hull, every gain, every flaw of the sea, by dotted names.
+
+initial.along                           place on the path, 0 (start) to 1 (end); the others are relative to it
+initial.distance, initial.bearing_deg   how far from that place, and where; clockwise from the path's course
+initial.ahead, initial.starboard        the same along the course and across it, m; all of them add up
+initial.heading_deg, initial.surge      off the path's course, deg; speed through the water, m/s
+current.speed, current.course_deg       m/s, and where it flows to, clockwise from north
+current.north, current.east             m/s; all of them add up
+vehicle.NAME, sea.NAME                  a key of the vehicle's or the sea's file: vehicle.hull.Nuud
+guidance.NAME, observer.NAME, autopilot.NAME        a parameter: autopilot.nism.k1
+mission, vehicle, params                a file, or the name of a shipped one
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any, TypeVar
+
+from auv_msgs_py.settings.schema import flattened, nested, validated
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_msgs_py.values.types import Current
+from auv_path_following.curves.composite import CompositePath
+from auv_path_following.curves.segment import PathPoint
+from auv_sim.parameters import CRUISE
+from auv_sim.vehicle.remus import PlantState
+
+T = TypeVar("T")
+#: Steps of the search for a place on a path.
+_HALVINGS = 60
+
+START = ("along", "distance", "bearing_deg", "ahead", "starboard", "heading_deg", "surge")
+CURRENT = ("speed", "course_deg", "north", "east")
+#: Groups whose names are those of a settings class.
+CONFIGURED = ("vehicle", "sea", "guidance", "observer", "autopilot")
+WORDS = ("mission", "vehicle", "params")
+
+
+def group_of(name: str, where: str) -> tuple[str, str]:
+    """`autopilot.nism.k1` -> ``("autopilot", "nism.k1")``.
+
+    Raises:
+        ConfigurationError: nothing of this name can be varied.
+    """
+    group, _, rest = name.partition(".")
+    known = {"initial": START, "current": CURRENT}.get(group)
+    if (known and rest in known) or (group in CONFIGURED and rest) or name in WORDS:
+        return group, rest
+    names = [f"initial.({'|'.join(START)})", f"current.({'|'.join(CURRENT)})"]
+    names += [f"{other}.NAME" for other in CONFIGURED] + list(WORDS)
+    raise ConfigurationError(f"{where}: vary.{name}", "an unknown name", f"one of {', '.join(names)}")
+
+
+def start(path: CompositePath, given: Mapping[str, float]) -> PlantState:
+    """The plant's first state.
+
+    Args:
+        path: at one of whose points, the first if nothing else is given, everything is relative to it and its
+            course.
+        given: values by the names of `START`.
+    """
+    place = _point_along(path, given.get("along", 0.0))
+    x, y, chi = place.x, place.y, place.chi
+    away, bearing = given.get("distance", 0.0), math.radians(given.get("bearing_deg", 0.0))
+    ahead = given.get("ahead", 0.0) + away * math.cos(bearing)
+    starboard = given.get("starboard", 0.0) + away * math.sin(bearing)
+    cos_chi, sin_chi = math.cos(chi), math.sin(chi)
+    return PlantState(
+        x + ahead * cos_chi - starboard * sin_chi,
+        y + ahead * sin_chi + starboard * cos_chi,
+        chi + math.radians(given.get("heading_deg", 0.0)),
+        given.get("surge", CRUISE),
+        0.0,
+        0.0,
+    )
+
+
+def _point_along(path: CompositePath, share: float) -> PathPoint:
+    """Return the point behind `share` (0 to 1) of a path's length."""
+    to_go = (1.0 - share) * path.length
+    low, high = 0.0, float(path.n)
+    for _ in range(_HALVINGS if share > 0.0 else 0):
+        middle = 0.5 * (low + high)
+        i = min(int(middle), path.n - 1)
+        low, high = (middle, high) if path.distance_to_go(i, middle - i) > to_go else (low, middle)
+    return path.at(low)
+
+
+def current(given: Mapping[str, float]) -> Current:
+    """The constant current from values by the names of `CURRENT`."""
+    speed, course = given.get("speed", 0.0), math.radians(given.get("course_deg", 0.0))
+    return Current(
+        given.get("north", 0.0) + speed * math.cos(course), given.get("east", 0.0) + speed * math.sin(course)
+    )
+
+
+def changed(config: T, values: Mapping[str, Any], where: str) -> T:
+    """A settings object with dotted names replaced: ``{"nism.k1": 0.4}``.
+
+    Raises:
+        ConfigurationError: a name that it does not have, a value that it does not take.
+    """
+    if not values:
+        return config
+    return validated(type(config), nested(_written(config) | dict(values)), where)
+
+
+def multiplied(config: Any, name: str, factor: float, where: str) -> float:
+    """What a settings object has under a dotted name, times a factor.
+
+    Raises:
+        ConfigurationError: it has no number there.
+    """
+    value = _written(config).get(name)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise ConfigurationError(where, f"no number under {name}", "the name of a number, to multiply")
+    return float(value * factor)
+
+
+def _written(config: Any) -> dict[str, Any]:
+    """As it would stand in a file, flat; what is not given there stays out."""
+    return {name: value for name, value in flattened(config).items() if value is not None}

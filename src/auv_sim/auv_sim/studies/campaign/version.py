@@ -1,0 +1,37 @@
+"""Names the version of the code that a campaign is flown with: runs of two versions are not put together."""
+
+from __future__ import annotations
+
+import functools
+from pathlib import Path
+
+import auv_msgs_py
+import auv_path_following
+import auv_sim
+from auv_sim.flight.batch.compiled import digest_of, files_of
+
+#: All that a run passes through, from the study's file to its row: more than what is compiled.
+_FLOWN_BY = (
+    *((auv_msgs_py, f"{room}/*.py") for room in ("values", "settings", "contract")),
+    (auv_path_following, "*.py"),
+    *((auv_path_following, f"{room}/**/*.py") for room in ("curves", "missions", "navigation")),
+    *((auv_path_following, f"{room}/**/*.py") for room in ("guidance", "control")),
+    (auv_sim, "*parameters.py"),
+    (auv_sim, "flight/**/*.py"),
+    (auv_sim, "vehicle/*.py"),
+    *(
+        (auv_sim, f"studies/campaign/{name}.py")
+        for name in ("distributions", "campaign_plan", "study_file", "run_table", "targets")
+    ),
+)
+
+
+def files() -> list[Path]:
+    """The files of that code, in order."""
+    return files_of(_FLOWN_BY)
+
+
+@functools.cache
+def code_digest() -> str:
+    """Another one for every other version of these files."""
+    return digest_of(files())

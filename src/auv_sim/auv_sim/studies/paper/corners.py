@@ -1,0 +1,184 @@
+"""One corner at a time: each hull with its own model and with that of the REMUS 100, in any current.
+
+A better model must not make the controller fly worse. A corner shows it best: there the limits of the heading
+reference and the circle of acceptance follow from the model.
+"""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import functools
+import itertools
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.settings import params_file
+from auv_msgs_py.values.types import NO_CURRENT, Current
+from auv_path_following import config_files, vehicle
+from auv_path_following.curves.composite import CompositePath
+from auv_path_following.curves.kinds.line import Line
+from auv_sim.flight.batch import engine
+from auv_sim.flight.closed_loop import Scenario
+from auv_sim.parameters import SUITE
+
+#: (hull that is flown, hull of the controller's model).
+PAIRS = (
+    ("remus100", "remus100"),
+    ("remus100_mismatch", "remus100_mismatch"),
+    ("remus100_mismatch", "remus100"),
+    ("remus100_table2", "remus100_table2"),
+    ("remus100_table2", "remus100"),
+)
+ANGLES = (30, 45, 60, 90, 120)
+SIDES = (1, -1)
+#: Strength of the currents, m/s, and from how many sides they come.
+STRENGTH, DIRECTIONS = 0.4, 8
+#: Length of the leg in, m: the corner comes after the current was found, or within the first minute.
+SETTLED, EARLY = 150.0, 40.0
+_LEG_OUT = 60.0
+_TIME_LIMIT = 200.0
+
+
+@dataclass(frozen=True)
+class Corner:
+    """One flight over one corner.
+
+    Attributes:
+        hull, model: vehicle files of the plant and of the controllers.
+        angle: course change, deg, positive to starboard.
+        direction: where the current flows to, deg from the leg in; None in still water.
+        leg_in: m.
+    """
+
+    hull: str
+    model: str
+    angle: int
+    direction: float | None
+    leg_in: float
+
+    def scenario(self, params: str = "robust") -> Scenario:
+        """Everything that decides its course; the vehicle starts on the leg in, at cruising speed."""
+        told, hull = _parameters(params), _vehicle(self.hull)
+        current = NO_CURRENT
+        if self.direction is not None:
+            flow = math.radians(self.direction)
+            current = Current(STRENGTH * math.cos(flow), STRENGTH * math.sin(flow))
+        return Scenario(
+            path=_path(self.angle, self.leg_in),
+            vehicle=hull,
+            thrust=hull.thrust_max,
+            current=current,
+            guidance=told[topics.GUIDANCE].guidance,
+            observer=told[topics.OBSERVER].observer,
+            autopilot=told[topics.AUTOPILOT].autopilot,
+            controller_vehicle=_vehicle(self.model),
+            time_limit=_TIME_LIMIT,
+        )
+
+
+@dataclass(frozen=True)
+class Result:
+    """A corner, and the largest distances to the path: after the switch at the corner, and before it (m)."""
+
+    corner: Corner
+    distance: float
+    distance_before: float
+
+
+@dataclass(frozen=True)
+class Row:
+    """All currents and both sides of one corner.
+
+    Attributes:
+        hull, model, angle: as in `Corner`, without the side.
+        still, worst: largest distance in still water and in any current, m.
+        early: the same as `worst`, where the corner comes within the first minute.
+        ratio: largest distance over that with the REMUS 100's model, in the worst of all currents.
+    """
+
+    hull: str
+    model: str
+    angle: int
+    still: float
+    worst: float
+    early: float
+    ratio: float
+
+
+def corners(pairs: Sequence[tuple[str, str]] = PAIRS, angles: Sequence[int] = ANGLES) -> list[Corner]:
+    """Return every flight of the study."""
+    directions = [None, *(360.0 / DIRECTIONS * k for k in range(DIRECTIONS))]
+    return [
+        Corner(hull, model, side * angle, direction, leg_in)
+        for (hull, model), angle, side, direction, leg_in in itertools.product(
+            pairs, angles, SIDES, directions, (SETTLED, EARLY)
+        )
+    ]
+
+
+def fly(flown: Sequence[Corner], workers: int, done: Callable[[], None] = lambda: None) -> list[Result]:
+    """Fly them with the batch engine; results in their order.
+
+    Args:
+        flown: what to fly.
+        workers: threads.
+        done: called after each flight, from any thread.
+    """
+    flights = engine.fly([corner.scenario() for corner in flown], workers, lambda _: done())
+    largest = flights.subpath_largest_distance
+    return [
+        Result(corner, float(after), float(before))
+        for corner, before, after in zip(flown, largest[:, 0], largest[:, 1], strict=True)
+    ]
+
+
+def table(results: Sequence[Result]) -> list[Row]:
+    """Return one row for each hull, model and angle."""
+    by_corner = {result.corner: result.distance for result in results}
+    rows = []
+    for key in dict.fromkeys((c.hull, c.model, abs(c.angle)) for c in by_corner):
+        mine = [c for c in by_corner if (c.hull, c.model, abs(c.angle)) == key]
+        settled = [c for c in mine if c.leg_in == SETTLED]
+        other = [dataclasses.replace(c, model="remus100") for c in settled]
+        rows.append(
+            Row(
+                *key,
+                still=max(by_corner[c] for c in settled if c.direction is None),
+                worst=max(by_corner[c] for c in settled),
+                early=max((by_corner[c] for c in mine if c.leg_in == EARLY), default=math.nan),
+                ratio=max(
+                    by_corner[c] / by_corner.get(o, math.nan) for c, o in zip(settled, other, strict=True)
+                ),
+            )
+        )
+    return rows
+
+
+def write(results: Sequence[Result], file: Path) -> None:
+    """Write every flight as a line of CSV."""
+    with file.open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.writer(stream)
+        names = [field.name for field in dataclasses.fields(Corner)]
+        writer.writerow([*names, "distance", "distance_before"])
+        for result in results:
+            writer.writerow([*dataclasses.astuple(result.corner), result.distance, result.distance_before])
+
+
+@functools.cache
+def _path(angle: int, leg_in: float) -> CompositePath:
+    return CompositePath([Line(0.0, 0.0, leg_in, 0.0), Line(leg_in, 0.0, _LEG_OUT, math.radians(angle))])
+
+
+@functools.cache
+def _parameters(name: str) -> dict[str, Any]:
+    return params_file.load(config_files.find("params", name), SUITE)
+
+
+@functools.cache
+def _vehicle(name: str) -> vehicle.Vehicle:
+    return vehicle.load(name)

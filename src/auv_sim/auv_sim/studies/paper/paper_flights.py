@@ -1,0 +1,139 @@
+"""What is flown for the paper: each flight by name, and a pool that flies them."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.settings import params_file
+from auv_msgs_py.values.types import Current
+from auv_path_following import config_files, vehicle
+from auv_path_following.missions import mission_file
+from auv_path_following.vehicle import Vehicle
+from auv_sim.flight import closed_loop
+from auv_sim.flight.closed_loop import Scenario
+from auv_sim.flight.run_record import Run
+from auv_sim.parameters import CRUISE, SUITE
+from auv_sim.vehicle.remus import PlantState
+
+T = TypeVar("T")
+
+MISSION = "paper_composite"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plant:
+    """A hull that is flown, and the one that the controller believes in."""
+
+    label: str
+    hull: str
+    believed: str
+
+
+PLANTS: Mapping[str, Plant] = {
+    "prestero": Plant(label="Prestero", hull="remus100", believed="remus100"),
+    "mismatch": Plant(label="Nuud -4.15 in the plant only", hull="remus100_mismatch", believed="remus100"),
+    "table2": Plant(label="Table 2 as printed", hull="remus100_table2", believed="remus100_table2"),
+}
+#: Where figures compare plants.
+PLANT_NAMES = tuple(PLANTS)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Flight:
+    """One flight of the paper's path.
+
+    Attributes:
+        name: what files and claims call it.
+        plant: of `PLANTS`.
+        params: parameter file.
+        controller: heading controller, None for the parameter file's.
+        law: guidance law, None for the parameter file's.
+        switching: joints with a circle of acceptance.
+        current: m/s, NED.
+        compensated: whether guidance uses the observer's estimate.
+        start: x, y (m), heading (rad); the path's start if None.
+        changes: further parameters, node -> dotted name -> value.
+        time_limit: s.
+    """
+
+    name: str
+    plant: str = "prestero"
+    params: str = "paper"
+    controller: str | None = None
+    law: str | None = None
+    switching: str = "g0"
+    current: tuple[float, float] = (0.0, 0.0)
+    compensated: bool = True
+    start: tuple[float, float, float] | None = None
+    changes: Mapping[str, Mapping[str, Any]] = dataclasses.field(default_factory=dict)
+    time_limit: float = 1500.0
+    step: float = 0.05
+
+    def scenario(self) -> Scenario:
+        """All that `closed_loop.fly` needs.
+
+        Raises:
+            ConfigurationError: a file or a value that cannot be used.
+        """
+        mission = _mission()
+        parameters = _parameters(self.params)
+        guidance = parameters[topics.GUIDANCE].guidance
+        autopilot = parameters[topics.AUTOPILOT].autopilot
+        switching = dataclasses.replace(guidance.switching, mode=self.switching)
+        guidance = dataclasses.replace(guidance, switching=switching, compensate_current=self.compensated)
+        guidance = changed(guidance, {"approach.enabled": False})  # the paper's P waits at the path's start
+        if self.law is not None:
+            guidance = dataclasses.replace(guidance, law=self.law)
+        if self.controller is not None:
+            autopilot = dataclasses.replace(autopilot, controller=self.controller)
+        guidance = changed(guidance, self.changes.get("guidance", {}))
+        autopilot = changed(autopilot, self.changes.get("autopilot", {}))
+        x, y, psi = self.start or mission.path.start_pose
+        plant = PLANTS[self.plant]
+        return Scenario(
+            path=mission.path,
+            vehicle=_vehicle(plant.hull),
+            thrust=mission.thrust,
+            initial=PlantState(x, y, psi, CRUISE, 0.0, 0.0),
+            current=Current(*self.current),
+            step=self.step,
+            guidance=guidance,
+            observer=parameters[topics.OBSERVER].observer,
+            autopilot=autopilot,
+            controller_vehicle=_vehicle(plant.believed),
+            time_limit=self.time_limit,
+        )
+
+
+def changed(config: T, values: Mapping[str, Any]) -> T:
+    """A settings object with dotted names replaced: ``{"nism.k1": 0.4}``."""
+    for name, value in values.items():
+        head, _, rest = name.partition(".")
+        new = changed(getattr(config, head), {rest: value}) if rest else value
+        config = dataclasses.replace(config, **{head: new})  # type: ignore[type-var]
+    return config
+
+
+@functools.cache
+def _mission() -> Any:
+    return mission_file.load(MISSION)
+
+
+@functools.cache
+def _parameters(name: str) -> dict[str, Any]:
+    return params_file.load(config_files.find("params", name), SUITE)
+
+
+@functools.cache
+def _vehicle(name: str) -> Vehicle:
+    return vehicle.load(name)
+
+
+def fly(flight: Flight) -> Run:
+    """Fly it here and now."""
+    return closed_loop.fly(flight.scenario())

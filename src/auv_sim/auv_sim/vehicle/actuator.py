@@ -1,0 +1,181 @@
+"""Rudder servo: limited in angle and rate; a real one also has a dead band, play and a dead time."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import NamedTuple
+
+from auv_msgs_py.settings.schema import setting, settings
+from auv_msgs_py.values.pure import bounded, dispatched, pure
+from auv_path_following.vehicle import Rudder, Vehicle
+
+
+@settings
+class RudderFlaws:
+    """What an ideal servo does not have; each is off by default."""
+
+    dead_band_deg: float = setting(
+        0.0, "a servo at rest does not start for a smaller difference", unit="deg", ge=0.0, le=20.0
+    )
+    backlash_deg: float = setting(
+        0.0, "play between servo and rudder, from stop to stop", unit="deg", ge=0.0, le=20.0
+    )
+    dead_time: float = setting(0.0, "from a command to the servo's start", unit="s", ge=0.0, le=5.0)
+
+
+#: Commanded angle, rad, and whether it was commanded at the beginning of this step or is held.
+Order = tuple[float, bool]
+#: Angle of the rudder itself at the beginning, the middle and the end of a step, rad.
+Deflection = tuple[float, float, float]
+
+
+class Servo(NamedTuple):
+    """Configuration of an ideal servo: largest angle (rad) and rate (rad/s)."""
+
+    max_angle: float
+    max_rate: float
+
+
+class ServoState(NamedTuple):
+    """Measured angle, rad."""
+
+    angle: float = 0.0
+
+
+@pure
+def turn(config: Servo, state: ServoState, inputs: Order, dt: float) -> tuple[ServoState, Deflection]:
+    """Move towards the command at the greatest rate, never past the stops."""
+    max_angle, max_rate = config
+    angle = state.angle
+    error = bounded(inputs[0], max_angle) - angle
+    end = angle + bounded(error, max_rate * dt)
+    return ServoState(end), (angle, angle + bounded(error, max_rate * (0.5 * dt)), end)
+
+
+class FlawedServo(NamedTuple):
+    """Configuration of a servo with flaws.
+
+    Attributes:
+        max_angle, max_rate: rad, rad/s.
+        band: dead band, rad.
+        play: half of the backlash, rad.
+        dead_time: s.
+        size: how many commands can be within their dead time.
+        ring: written; when their dead time is over (s), then their angles (rad), `size` each.
+    """
+
+    max_angle: float
+    max_rate: float
+    band: float
+    play: float
+    dead_time: float
+    size: int
+    ring: list[float]
+
+
+class FlawedServoState(NamedTuple):
+    """State of a servo with flaws.
+
+    Attributes:
+        angle: of the servo, which it measures, rad.
+        target, fin: where it turns to, and the angle of the rudder itself, rad.
+        clock: s.
+        first, after: the range of commands within their dead time, as numbers of all commands.
+    """
+
+    angle: float = 0.0
+    target: float = 0.0
+    fin: float = 0.0
+    clock: float = 0.0
+    first: int = 0
+    after: int = 0
+
+
+def with_rate(vehicle: Vehicle, share: float) -> Vehicle:
+    """Return the vehicle with a share of its rudder rate."""
+    rate = share * vehicle.rudder.max_rate_deg_s
+    return dataclasses.replace(vehicle, rudder=dataclasses.replace(vehicle.rudder, max_rate_deg_s=rate))
+
+
+def servo_of(rudder: Rudder) -> Servo:
+    """Return the configuration of an ideal servo."""
+    return Servo(rudder.max_angle, rudder.max_rate)
+
+
+def flawed_servo_of(rudder: Rudder, flaws: RudderFlaws, step: float) -> FlawedServo:
+    """Return the configuration of a servo with flaws.
+
+    Args:
+        rudder: limits.
+        flaws: in degrees and s.
+        step: shortest time between two commands, s.
+    """
+    size = math.ceil(flaws.dead_time / step) + 3
+    band, play = math.radians(flaws.dead_band_deg), math.radians(0.5 * flaws.backlash_deg)
+    limits = rudder.max_angle, rudder.max_rate
+    return FlawedServo(*limits, band, play, flaws.dead_time, size, [0.0] * (2 * size))
+
+
+@pure
+def turn_flawed(
+    config: FlawedServo, state: FlawedServoState, inputs: Order, dt: float
+) -> tuple[FlawedServoState, Deflection]:
+    """Move towards the last command whose dead time is over; the rudder follows at the end of the play.
+
+    A command whose dead time ends within the step counts from its end on.
+
+    Raises:
+        IndexError: commands came faster than the ring was made for.
+    """
+    max_angle, max_rate, band, play, dead_time, size, ring = config
+    angle, target, fin, clock, first, after = state
+    ordered, is_new = inputs
+    if is_new:
+        command = bounded(ordered, max_angle)
+        if dead_time > 0.0:
+            if after - first >= size:
+                raise IndexError("more commands within their dead time than the servo's ring holds")
+            ring[after % size], ring[size + after % size] = clock + dead_time, command
+            after += 1
+            target, first = _due(config, angle, target, clock, first, after)
+        else:
+            target = _aim(band, angle, target, command)
+    error = target - angle
+    middle, end = angle + bounded(error, max_rate * (0.5 * dt)), angle + bounded(error, max_rate * dt)
+    if play > 0.0:
+        fins = (
+            min(max(fin, angle - play), angle + play),
+            min(max(fin, middle - play), middle + play),
+            min(max(fin, end - play), end + play),
+        )
+    else:
+        fins = angle, middle, end
+    if dead_time > 0.0:
+        clock += dt
+        target, first = _due(config, end, target, clock, first, after)
+    return FlawedServoState(end, target, fins[2], clock, first, after), fins
+
+
+@pure
+def _due(
+    config: FlawedServo, angle: float, target: float, clock: float, first: int, after: int
+) -> tuple[float, int]:
+    """Take the commands whose dead time is over; return the target and the first that remains."""
+    while first < after and config.ring[first % config.size] <= clock + 1e-9:
+        target = _aim(config.band, angle, target, config.ring[config.size + first % config.size])
+        first += 1
+    return target, first
+
+
+@pure
+def _aim(band: float, angle: float, target: float, command: float) -> float:
+    """Return the new target, rad: a servo at rest ignores a command within its dead band."""
+    at_rest = abs(target - angle) < 1e-12
+    if not at_rest or abs(command - angle) > band or not band > 0.0:
+        return command
+    return target
+
+
+#: One step of the servo: (configuration, state, `Order`, dt) -> (state, `Deflection`).
+servo_step = dispatched({Servo: turn, FlawedServo: turn_flawed})

@@ -1,0 +1,159 @@
+"""Random numbers and rings of one run at sea, laid out before it: steps read, count and overwrite.
+
+Every law has generators of its own, made from the seed of the run and the law's place in it: two runs are
+equal to the last bit, a reset begins the same run again, and switching one error off leaves all others as
+they were. What a generator gives does not depend on how many numbers are drawn at once.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+
+from auv_msgs_py.values.pure import pure
+
+#: The seed of the run, and the place of the law in it.
+Seed = Sequence[int]
+
+_Kind = Literal["standard_normal", "standard_exponential", "random"]
+
+
+class Memory(NamedTuple):
+    """What steps write to: lists for CPython, arrays for compiled code.
+
+    Attributes:
+        drawn: random numbers, one row for each law.
+        used: for each row, where its next number is in `drawn`; counted up.
+        kept: rings; overwritten.
+    """
+
+    drawn: Any
+    used: Any
+    kept: Any
+
+
+class Now(NamedTuple):
+    """The run's memory, and the time (s) and the number of this measurement; both begin with 0."""
+
+    memory: Memory
+    time: float
+    k: int
+
+
+class Row(NamedTuple):
+    """A row of random numbers: its place in `Memory.used`, and where it ends in `Memory.drawn`."""
+
+    number: int
+    end: int
+
+
+class Ring(NamedTuple):
+    """A ring in `Memory.kept`: where it begins, how many entries it has, and the numbers of each."""
+
+    begin: int
+    size: int
+    width: int
+
+
+@pure
+def draw(memory: Memory, row: Row) -> float:
+    """Return the next random number of a row.
+
+    Raises:
+        IndexError: the row is used up.
+    """
+    number, end = row
+    at = memory.used[number]
+    if at >= end:
+        raise IndexError("a row of random numbers is used up")
+    memory.used[number] = at + 1
+    return memory.drawn[at]  # type: ignore[no-any-return]
+
+
+@pure
+def slot(ring: Ring, k: int) -> int:
+    """Return where entry `k` of a ring begins in `Memory.kept`."""
+    return ring.begin + k % ring.size * ring.width
+
+
+class Draws:
+    """Lays out a run's rows and rings while its laws are prepared, draws, and draws on between two steps.
+
+    Args:
+        step: time between two steps of the run, s.
+        steps: how many steps the rows last.
+        arrays: whether the memory is for compiled code; otherwise it is for CPython, whose lists are several
+            times as fast as arrays there.
+    """
+
+    def __init__(self, step: float, steps: int, arrays: bool = False) -> None:
+        self.step, self.steps, self._arrays = step, steps, arrays
+        self._rows: list[tuple[np.random.Generator, _Kind, int, int]] = []
+        self._drawn = self._kept = 0
+
+    def generator(self, seed: Seed) -> np.random.Generator:
+        """Return the generator of a law."""
+        return np.random.default_rng(tuple(seed))
+
+    def normals(self, generator: np.random.Generator, rate: float = 0.0) -> Row:
+        """Lay out standard normal numbers, one for each step or for each sample of `rate` (1/s)."""
+        return self._row(generator, "standard_normal", self._samples(rate))
+
+    def uniforms(self, generator: np.random.Generator, count: int, rate: float) -> Row:
+        """Lay out numbers from [0, 1), `count` for each sample of `rate` (1/s; 0: for each step)."""
+        return self._row(generator, "random", count * self._samples(rate))
+
+    def exponentials(self, generator: np.random.Generator, mean: float) -> Row:
+        """Lay out exponential numbers, one for every `mean` seconds and ample ones more."""
+        expected = self.steps * self.step / mean
+        return self._row(
+            generator, "standard_exponential", math.ceil(expected + 12.0 * math.sqrt(expected)) + 20
+        )
+
+    def none(self) -> Row:
+        """Lay out a row that is never read."""
+        return Row(0, 0)
+
+    def ring(self, entries: int, width: int = 1) -> Ring:
+        """Lay out a ring of `entries` times `width` numbers."""
+        begin, self._kept = self._kept, self._kept + entries * width
+        return Ring(begin, entries, width)
+
+    def _samples(self, rate: float) -> int:
+        return min(self.steps, math.ceil(self.steps * self.step * rate) + 2) if rate > 0.0 else self.steps
+
+    def _row(self, generator: np.random.Generator, kind: _Kind, size: int) -> Row:
+        begin, self._drawn = self._drawn, self._drawn + size
+        self._rows.append((generator, kind, begin, size))
+        return Row(len(self._rows) - 1, self._drawn)
+
+    def table(self, size: int) -> Any:
+        """Return a table of zeros of its own."""
+        return np.zeros(size) if self._arrays else [0.0] * size
+
+    def memory(self) -> Memory:
+        """Draw; return the memory of the run. To be called once, when everything is laid out."""
+        drawn = np.empty(self._drawn)
+        for generator, kind, begin, size in self._rows:
+            drawn[begin : begin + size] = getattr(generator, kind)(size)
+        used = np.array([begin for _, _, begin, _ in self._rows], np.int64)
+        memory = Memory(drawn, used, np.zeros(self._kept))
+        return memory if self._arrays else Memory(*(values.tolist() for values in memory))
+
+    def refill(self, memory: Memory) -> None:
+        """Draw on between two steps: replace what was used of every row, so that it lasts as long again.
+
+        Args:
+            memory: lists.
+        """
+        drawn, used, _ = memory
+        for number, (generator, kind, begin, size) in enumerate(self._rows):
+            count = used[number] - begin
+            if count:
+                drawn[begin : begin + size] = (
+                    drawn[begin + count : begin + size] + getattr(generator, kind)(count).tolist()
+                )
+                used[number] = begin

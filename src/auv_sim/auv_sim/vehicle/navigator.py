@@ -1,0 +1,233 @@
+"""The simulated vehicle's own navigation: dead reckoning by Doppler log, corrected by acoustic fixes.
+
+With bottom lock the velocity over ground carries the position on, in between the velocity through the water
+and a current that it has learned. A Kalman filter weighs the fixes against it; what no fix can be is refused.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from auv_msgs_py.settings.schema import setting, settings
+from auv_msgs_py.values.pure import modulus, numbers, numbers_of, pure, squared
+from auv_msgs_py.values.types import Navigation
+from auv_sim.vehicle.draws import Draws, Now, Ring, slot
+from auv_sim.vehicle.position_fixes import Fixes
+from auv_sim.vehicle.sensors import Measurements
+
+#: For so long dead reckoning is kept, s: no fix is older.
+TRACK_TIME = 30.0
+
+
+@numbers
+@settings
+class NavigatorConfig:
+    """What the navigator assumes of its instruments."""
+
+    start: float = setting(
+        0.5, "standard deviation of the position it starts with, north and east", unit="m", gt=0.0
+    )
+    fix: float = setting(1.0, "standard deviation of a fix, north and east", unit="m", gt=0.0)
+    gate: float = setting(3.5, "a fix is refused beyond so many standard deviations", gt=0.0, le=100.0)
+    patience: int = setting(5, "after so many refusals in a row the navigator doubts itself", ge=1)
+    walk: float = setting(
+        0.05, "how fast dead reckoning goes astray at random: m after a second", unit="m/s^0.5", gt=0.0
+    )
+    bottom_error: float = setting(
+        0.03, "standard deviation of the error of the velocity over ground", unit="m/s", gt=0.0
+    )
+    water_error: float = setting(
+        0.15, "standard deviation of the error of the current it has learned", unit="m/s", gt=0.0
+    )
+    error_time: float = setting(2000.0, "time in which these errors change", unit="s", gt=0.0)
+    current_time: float = setting(20.0, "over which the current is learned", unit="s", gt=0.0)
+    blend: float = setting(5.0, "a correction is spread over so long: the pose never jumps", unit="s", ge=0.0)
+
+
+class Navigator(NamedTuple):
+    """Configuration of the navigator.
+
+    Attributes:
+        assumed: the numbers of a `NavigatorConfig`.
+        latency, fixes: of the position fixes: s, and their ring.
+        track: ring of 30 s of dead reckoning: time (s), way north and east (m) since the beginning.
+    """
+
+    assumed: Any
+    latency: float
+    fixes: Ring
+    track: Ring
+
+
+class NavigatorState(NamedTuple):
+    """State of the filter.
+
+    Attributes:
+        z: position, north + i east, m.
+        shown: what is still to be corrected in the pose that is shown, m.
+        P_z, P_ze: variance of the position, m^2; covariance with the error of the source of velocity.
+        bottom, water: the slow errors of both sources of velocity, north + i east, m/s.
+        P_bottom, P_water: their variances.
+        on_water: whether the last velocity was one through the water.
+        velocity: the last one, north + i east, m/s.
+        way: dead reckoning since the beginning, m.
+        in_a_row, refused: fixes that were refused since one was taken, and in all.
+    """
+
+    z: complex
+    shown: complex
+    P_z: float
+    P_ze: complex
+    bottom: complex
+    P_bottom: float
+    water: complex
+    P_water: float
+    on_water: bool
+    velocity: complex
+    way: complex
+    in_a_row: int
+    refused: int
+
+
+def navigator_of(config: NavigatorConfig, fixes: Fixes, draws: Draws) -> Navigator:
+    """Return the configuration of a navigator.
+
+    Args:
+        config: what it assumes of its instruments.
+        fixes: the position fixes that it gets.
+        draws: of the run.
+    """
+    track = draws.ring(math.ceil(TRACK_TIME / draws.step) + 3, 3)
+    return Navigator(numbers_of(config), fixes.latency, fixes.ring, track)
+
+
+def navigator_at(config: Navigator, x: float, y: float) -> NavigatorState:
+    """Return the state of a navigator that starts from a position (m, north, east), known to `start`."""
+    c = config.assumed
+    P_bottom, P_water = c.bottom_error * c.bottom_error, c.water_error * c.water_error
+    return NavigatorState(
+        complex(x, y), 0j, c.start * c.start, 0j, 0j, P_bottom, 0j, P_water, False, 0j, 0j, 0, 0
+    )
+
+
+@pure
+def navigate(
+    config: Navigator, state: NavigatorState, measured: Measurements, now: Now, dt: float
+) -> tuple[NavigatorState, Navigation]:
+    """Carry on by dead reckoning, weigh the fixes that came; return the pose that is shown as well.
+
+    A Kalman filter for the position and the slow error of the velocity that carries it on. North and east are
+    the real and the imaginary part of one complex number, for their errors are alike and independent: so two
+    states are enough, z (m) and the error e (m/s), which walks at random. With bottom lock
+    z' = exp(i psi) (u + i v + e), and e turns with the vehicle: a crooked compass, a wrong scale. Without,
+    z' = exp(i psi) (ur + i vr) + e, and e is the current. Variances are those of one axis: P_z and that of e
+    are real, P_ze, between them, is complex.
+    """
+    state = _carry_on(config, state, measured, now, dt)
+    for k in range(measured.first, measured.after):
+        at, kept = slot(config.fixes, k), now.memory.kept
+        age = config.latency + max(now.time - kept[at], 0.0)
+        state = _weigh(config, state, complex(kept[at + 1], kept[at + 2]), age, now)
+    shown = state.z + state.shown
+    return state, Navigation(shown.real, shown.imag, measured.psi, measured.r)
+
+
+@pure
+def _carry_on(
+    config: Navigator, state: NavigatorState, measured: Measurements, now: Now, dt: float
+) -> NavigatorState:
+    c = config.assumed
+    z, shown, P_z, P_ze, bottom, P_bottom, water, P_water, on_water, last, way, in_a_row, refused = state
+    psi, _, (ur, vr), _, u, v, lock, _, _ = measured
+    turn = complex(math.cos(psi), math.sin(psi))
+    through = turn * complex(ur, vr)
+    if on_water == lock:
+        P_ze, P_water = 0j, squared(c.water_error)
+    axes, velocity, error, variance, deviation = 1.0 + 0j, through, water, P_water, c.water_error
+    if lock:
+        axes, velocity, error, variance, deviation = (
+            turn,
+            turn * complex(u, v),
+            bottom,
+            P_bottom,
+            c.bottom_error,
+        )
+        water += (velocity + turn * bottom - through - water) * -math.expm1(-dt / c.current_time)
+    # Trapezoidal: the velocity is the mean of its two ends.
+    velocity += axes * error
+    step = 0.5 * (velocity + last) * dt
+    P_z += 2.0 * dt * (axes * P_ze.conjugate()).real + dt * dt * variance
+    P_z += c.walk * c.walk * dt
+    P_ze += axes * dt * variance
+    variance += 2.0 * squared(deviation) * dt / c.error_time
+    if lock:
+        P_bottom = variance
+    else:
+        P_water = variance
+    shown *= math.exp(-dt / c.blend) if c.blend > 0.0 else 0.0
+    way += step
+    at, kept = slot(config.track, now.k), now.memory.kept
+    kept[at], kept[at + 1], kept[at + 2] = now.time, way.real, way.imag
+    return NavigatorState(
+        z + step,
+        shown,
+        P_z,
+        P_ze,
+        bottom,
+        P_bottom,
+        water,
+        P_water,
+        not lock,
+        velocity,
+        way,
+        in_a_row,
+        refused,
+    )
+
+
+@pure
+def _weigh(config: Navigator, state: NavigatorState, fix: complex, age: float, now: Now) -> NavigatorState:
+    """Take a fix (north + i east, m) that was true `age` seconds ago, or refuse it."""
+    c = config.assumed
+    z, shown, P_z, P_ze, bottom, P_bottom, water, P_water, on_water, velocity, way, in_a_row, refused = state
+    innovation = fix - (z - _way_since(config.track, way, age, now))
+    S = P_z + c.fix * c.fix
+    if squared(modulus(innovation)) > c.gate * c.gate * S:
+        refused, in_a_row = refused + 1, in_a_row + 1
+        if in_a_row >= c.patience:
+            P_z *= 2.0
+    else:
+        in_a_row = 0
+        correction, error = P_z / S * innovation, P_ze.conjugate() / S * innovation
+        known = squared(modulus(P_ze)) / S
+        if on_water:
+            water, P_water = water + error, P_water - known
+        else:
+            bottom, P_bottom = bottom + error, P_bottom - known
+        P_ze *= 1.0 - P_z / S
+        P_z *= 1.0 - P_z / S
+        z += correction
+        if c.blend > 0.0:
+            shown -= correction
+    return NavigatorState(
+        z, shown, P_z, P_ze, bottom, P_bottom, water, P_water, on_water, velocity, way, in_a_row, refused
+    )
+
+
+@pure
+def _way_since(track: Ring, newest: complex, age: float, now: Now) -> complex:
+    """Return how far dead reckoning has come since `age` seconds ago, north + i east, m."""
+    then, kept = now.time - age, now.memory.kept
+    later, further = now.time, newest
+    for k in range(now.k, -1, -1):
+        at = slot(track, k)
+        time, way = float(kept[at]), complex(kept[at + 1], kept[at + 2])
+        if time <= then:
+            if k == now.k:
+                return newest - way
+            return newest - way - (further - way) * (then - time) / (later - time)
+        later, further = time, way
+        if time < now.time - TRACK_TIME:
+            break
+    return newest - further

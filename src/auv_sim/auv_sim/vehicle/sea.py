@@ -1,0 +1,36 @@
+"""A sea and a vehicle that are not ideal, as one file describes them: `config/seas/*.yaml`."""
+
+from __future__ import annotations
+
+from auv_msgs_py.settings import yaml_file
+from auv_msgs_py.settings.schema import setting, settings
+from auv_path_following import config_files
+from auv_sim.vehicle.actuator import RudderFlaws
+from auv_sim.vehicle.currents import CurrentConfig
+from auv_sim.vehicle.navigator import NavigatorConfig
+from auv_sim.vehicle.noise import NoiseConfig
+from auv_sim.vehicle.sensors import SensorsConfig
+
+
+@settings
+class Sea:
+    """Water, rudder, propeller, instruments and navigator. What a file leaves out is ideal."""
+
+    name: str = setting(doc="what people call it")
+    current: CurrentConfig = setting(factory=CurrentConfig, doc="the water's own movement")
+    rudder: RudderFlaws = setting(factory=RudderFlaws, doc="what the servo does wrong")
+    thrust: NoiseConfig = setting(factory=NoiseConfig, doc="errors of the thrust, as a share of it")
+    sensors: SensorsConfig = setting(factory=SensorsConfig, doc="instruments")
+    navigator: NavigatorConfig = setting(factory=NavigatorConfig, doc="what it assumes of them")
+
+
+def load(name_or_path: str) -> Sea:
+    """Read a sea file.
+
+    Args:
+        name_or_path: a path, or a shipped name such as ``rough``.
+
+    Raises:
+        ConfigurationError: one line with file and key, what was found and what was expected.
+    """
+    return yaml_file.load(config_files.find("seas", name_or_path), Sea)

@@ -1,0 +1,151 @@
+"""The simulated vehicle's instruments: compass, gyro, two velocity logs, acoustic position fixes."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from auv_msgs_py.settings.schema import setting, settings
+from auv_msgs_py.values.angles import wrap
+from auv_msgs_py.values.pure import pure
+from auv_msgs_py.values.types import WaterVelocity
+from auv_sim.vehicle.draws import Draws, Now, Seed, slot
+from auv_sim.vehicle.noise import Delay, Noise, NoiseConfig, delay_of, delayed, noise, noise_of
+from auv_sim.vehicle.position_fixes import FixConfig, Fixes, FixesState, fixes_of, measure_position
+from auv_sim.vehicle.remus import PlantState
+from auv_sim.vehicle.velocity_log import Log, LogState, VelocityConfig, log_of, measure_velocity
+
+
+@settings
+class AngleConfig:
+    """Compass (degrees) or gyro (degrees a second)."""
+
+    noise_deg: NoiseConfig = setting(factory=NoiseConfig, doc="errors, deg or deg/s")
+    latency: float = setting(0.0, "age of its measurements", unit="s", ge=0.0, le=5.0)
+
+
+@settings
+class SensorsConfig:
+    """All instruments; ideal by default."""
+
+    heading: AngleConfig = setting(factory=AngleConfig, doc="compass (AHRS)")
+    yaw_rate: AngleConfig = setting(factory=AngleConfig, doc="gyro")
+    water_track: VelocityConfig = setting(factory=VelocityConfig, doc="velocity through the water")
+    bottom_track: VelocityConfig = setting(factory=VelocityConfig, doc="velocity over ground (DVL)")
+    position: FixConfig = setting(factory=FixConfig, doc="position fixes (USBL)")
+
+
+class Measurements(NamedTuple):
+    """One step's measurements.
+
+    Attributes:
+        psi, r: rad, rad/s.
+        water: through the water, m/s, FRD; the last one measured.
+        water_lock: whether it was measured now.
+        u, v: over ground, m/s, FRD; the last ones measured.
+        bottom_lock: whether they were measured now.
+        first, after: the range of fixes that arrived, as numbers of entries in the ring of fixes.
+    """
+
+    psi: float
+    r: float
+    water: WaterVelocity
+    water_lock: bool
+    u: float
+    v: float
+    bottom_lock: bool
+    first: int
+    after: int
+
+
+class Angle(NamedTuple):
+    """Configuration of compass or gyro; the noise is in deg or deg/s. Its state is the drift."""
+
+    noise: Noise
+    delay: Delay
+
+
+@pure
+def measure_angle(config: Angle, drift: float, truth: float, now: Now, dt: float) -> tuple[float, float]:
+    """Return the drift and the measured angle or rate, rad or rad/s."""
+    drift, error = noise(config.noise, drift, now.memory, dt)
+    measured = truth + math.radians(error)
+    if config.delay.steps == 0:
+        return drift, measured
+    now.memory.kept[slot(config.delay.ring, now.k)] = measured
+    return drift, now.memory.kept[delayed(config.delay, now.k)]
+
+
+class Sensors(NamedTuple):
+    """Configuration of all instruments of one vehicle in one run."""
+
+    heading: Angle
+    yaw_rate: Angle
+    water_track: Log
+    bottom_track: Log
+    position: Fixes
+
+
+class SensorsState(NamedTuple):
+    """State of all instruments: the drifts of compass and gyro, and of the others what their names say."""
+
+    heading: float
+    yaw_rate: float
+    water_track: LogState
+    bottom_track: LogState
+    position: FixesState
+
+
+def sensors_of(config: SensorsConfig, seed: Seed, draws: Draws) -> tuple[Sensors, SensorsState]:
+    """Return configuration and first state of all instruments.
+
+    Args:
+        config: their errors.
+        seed: of their generators.
+        draws: of the run.
+    """
+    heading, compass = noise_of(config.heading.noise_deg, (*seed, 0), draws)
+    yaw_rate, gyro = noise_of(config.yaw_rate.noise_deg, (*seed, 1), draws)
+    water, water_state = log_of(config.water_track, (*seed, 2), draws)
+    bottom, bottom_state = log_of(config.bottom_track, (*seed, 3), draws)
+    fixes, fixes_state = fixes_of(config.position, (*seed, 4), draws)
+    angles = (
+        Angle(heading, delay_of(config.heading.latency, draws)),
+        Angle(yaw_rate, delay_of(config.yaw_rate.latency, draws)),
+    )
+    state = SensorsState(compass, gyro, water_state, bottom_state, fixes_state)
+    return Sensors(*angles, water, bottom, fixes), state
+
+
+@pure
+def sense(
+    config: Sensors, state: SensorsState, truth: PlantState, u: float, v: float, now: Now, dt: float
+) -> tuple[SensorsState, Measurements]:
+    """Measure, `dt` seconds after the last time.
+
+    Args:
+        config, state: of the instruments.
+        truth: pose and velocity through the water.
+        u, v: true velocity over ground, m/s, FRD.
+        now: of the run.
+        dt: s; 0 for the first time.
+    """
+    x, y, true_psi, ur, vr, true_r = truth
+    compass, gyro, water, bottom, fixes = state
+    water, water_lock = measure_velocity(config.water_track, water, ur, vr, now, dt)
+    bottom, bottom_lock = measure_velocity(config.bottom_track, bottom, u, v, now, dt)
+    compass, psi = measure_angle(config.heading, compass, true_psi, now, dt)
+    gyro, r = measure_angle(config.yaw_rate, gyro, true_r, now, dt)
+    fixes = measure_position(config.position, fixes, x, y, now, dt)
+    measured = Measurements(
+        wrap(psi),
+        r,
+        WaterVelocity(water.u, water.v),
+        water_lock,
+        bottom.u,
+        bottom.v,
+        bottom_lock,
+        state.position.first,
+        fixes.first,
+    )
+    return SensorsState(compass, gyro, water, bottom, fixes), measured

@@ -1,0 +1,184 @@
+"""The simulated vehicle as its driver sees it: commands in, its own navigation out.
+
+Without a sea the navigation is ideal and only the current given moves the water. With one, instruments
+measure, the navigator fuses, the servo has play, and only the truth is true.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from auv_msgs_py.values.pure import dispatched, pure
+from auv_msgs_py.values.types import NO_CURRENT, STOP, Command, Current, Navigation, WaterVelocity
+from auv_path_following.vehicle import Vehicle
+from auv_sim.vehicle.at_sea import Seen, VehicleAtSea, at_sea_of, measure_at_sea, step_at_sea
+from auv_sim.vehicle.draws import Draws
+from auv_sim.vehicle.remus import (
+    Afloat,
+    Plant,
+    PlantInputs,
+    PlantState,
+    ground_velocity,
+    navigation_of,
+    plant_at,
+    plant_of,
+    plant_step,
+)
+from auv_sim.vehicle.sea import Sea
+
+#: After so many steps random numbers are drawn anew.
+_BLOCK = 1000
+
+
+@pure
+def measure(config: Plant, state: Afloat, inputs: PlantInputs, dt: float) -> tuple[Afloat, Seen]:
+    """Return ideal measurements; velocity over ground is not among them."""
+    hull, (_, current, _) = state.hull, inputs
+    water = WaterVelocity(hull.ur, hull.vr)
+    seen = Seen(navigation_of(hull), water, True, math.nan, math.nan, hull, state.servo.angle, current)
+    return state, seen
+
+
+@pure
+def step(config: Plant, state: Afloat, inputs: PlantInputs, dt: float) -> tuple[Afloat, Seen]:
+    """Let `dt` seconds pass under a held command and current, then measure."""
+    state, _ = plant_step(config, state, inputs, dt)
+    return measure(config, state, inputs, dt)
+
+
+#: The first measurement of a vehicle, and one step of it: (configuration, state, `PlantInputs` with the
+#: constant current, dt) -> (state, `Seen`). A vehicle without a sea pays nothing for one.
+vehicle_measure = dispatched({Plant: measure, VehicleAtSea: measure_at_sea})
+vehicle_step = dispatched({Plant: step, VehicleAtSea: step_at_sea})
+
+
+class SimulatedVehicle:
+    """Hull, water, instruments and navigator under one clock. The node and `closed_loop` both drive this.
+
+    Args:
+        vehicle: hull, rudder, thruster.
+        initial: state to begin with, and to go back to on reset.
+        sea: what is not ideal; None: nothing.
+        seed: of everything that is random in it.
+        current: constant current, m/s, NED, on top of the sea's own; may be changed at any time.
+        step: time that passes at each `advance` at sea, s.
+    """
+
+    def __init__(
+        self,
+        vehicle: Vehicle,
+        initial: PlantState,
+        sea: Sea | None = None,
+        seed: int = 0,
+        current: Current = NO_CURRENT,
+        step: float = 0.05,
+    ) -> None:
+        self._vehicle, self._initial, self._sea, self._seed = vehicle, initial, sea, seed
+        self._step = step
+        self.constant_current = current
+        self.reset()
+
+    def reset(self) -> None:
+        """Begin the same run again."""
+        self._left = _BLOCK
+        self._config: Any
+        self.state: Any
+        self.seen: Seen
+        if self._sea is None:
+            self._config, self.state = plant_of(self._vehicle), plant_at(self._initial)
+        else:
+            # One more for the first measurement.
+            self._draws = Draws(self._step, _BLOCK + 1)
+            self._config, self.state = at_sea_of(
+                self._vehicle, self._initial, self._sea, self._seed, self._draws
+            )
+        inputs = STOP, self.constant_current, 1.0
+        self.state, self.seen = vehicle_measure(self._config, self.state, inputs, 0.0)
+
+    def advance(self, command: Command, dt: float) -> Seen:
+        """Let `dt` seconds pass under a held command, then measure.
+
+        Returns:
+            The measurements, which `seen` keeps.
+
+        Raises:
+            ValueError: at sea, not the step that random numbers and rings were laid out for.
+        """
+        if self._sea is not None:
+            if dt != self._step:
+                raise ValueError(
+                    f"dt: found {dt:g} s, expected the step of this run at sea, {self._step:g} s"
+                )
+            if self._left == 0:
+                self._draws.refill(self._config.memory)
+                self._left = _BLOCK
+            self._left -= 1
+        inputs = command, self.constant_current, 1.0
+        self.state, self.seen = vehicle_step(self._config, self.state, inputs, dt)
+        return self.seen
+
+    def place(self, motion: PlantState) -> None:
+        """Move the hull; servo, instruments and navigator keep their state."""
+        afloat = Afloat(motion, self._afloat.servo)
+        self.state = afloat if self._sea is None else self.state._replace(afloat=afloat)
+        if self._sea is None:
+            inputs = STOP, self.constant_current, 1.0
+            self.state, self.seen = vehicle_measure(self._config, afloat, inputs, 0.0)
+
+    @property
+    def _afloat(self) -> Afloat:
+        return self.state if self._sea is None else self.state.afloat  # type: ignore[no-any-return]
+
+    @property
+    def motion(self) -> PlantState:
+        """True pose and velocity through the water."""
+        return self._afloat.hull  # type: ignore[no-any-return]
+
+    @property
+    def rudder(self) -> float:
+        """The rudder angle that its servo measures, rad."""
+        return self._afloat.servo.angle  # type: ignore[no-any-return]
+
+    @property
+    def navigation(self) -> Navigation:
+        """Navigation as the vehicle reports it."""
+        return self.seen.navigation
+
+    @property
+    def truth(self) -> tuple[Navigation, float, float]:
+        """True navigation, and true (u, v) over ground, m/s."""
+        return navigation_of(self.motion), *ground_velocity(self.motion, self.current)
+
+    @property
+    def passing_water(self) -> WaterVelocity:
+        """Velocity through the water while held over ground: the reversed current, m/s, FRD."""
+        psi, (Vx, Vy) = self.navigation.psi, self.current
+        cos, sin = math.cos(psi), math.sin(psi)
+        return WaterVelocity(-cos * Vx - sin * Vy, sin * Vx - cos * Vy)
+
+    @property
+    def water_velocity(self) -> WaterVelocity:
+        """Velocity through the water as its log reports it, m/s, FRD."""
+        return self.seen.water
+
+    @property
+    def water_lock(self) -> bool:
+        """Whether that was measured; otherwise it is the last one that was."""
+        return self.seen.water_lock
+
+    @property
+    def current(self) -> Current:
+        """The true current where the vehicle is, m/s, NED."""
+        constant = self.constant_current
+        if self._sea is None:
+            return constant
+        own = self.state.own
+        return Current(constant.Vx + own.Vx, constant.Vy + own.Vy)
+
+    @property
+    def ground_velocity(self) -> tuple[float, float]:
+        """(u, v) over ground in the body frame, m/s, as measured; NaN without bottom lock."""
+        if self._sea is None:
+            return ground_velocity(self.motion, self.constant_current)
+        return self.seen.u, self.seen.v

@@ -1,0 +1,87 @@
+"""One picture of a flown mission: the track over the path, and what happened along it."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from auv_path_following.curves.composite import CompositePath
+from auv_sim.flight.flown_share import percent
+from auv_sim.flight.metrics import MissionSummary, under_way
+from auv_sim.flight.run_record import Run
+from auv_sim.views.plot_style import INK, MUTED, fact, save
+from auv_sim.views.signal_panels import cross_track, current, heading_error, rudder, rudder_rate, switches
+from auv_sim.views.track_panel import table, track
+
+_SIZE_INCHES = (16.0, 10.0)
+_DOTS_PER_INCH = 100
+
+
+def draw(
+    run: Run,
+    path: CompositePath,
+    summary: MissionSummary,
+    png: Path,
+    title: str,
+    *,
+    rudder_limit: float | None = None,
+    rudder_rate_limit: float | None = None,
+    command: str = "",
+) -> None:
+    """Draw the overview, 1600 x 1000 pixels.
+
+    Args:
+        run: the flown mission.
+        path: the path of that mission, NED.
+        summary: its figures, told in the headline.
+        png: the file to write.
+        title: what was flown.
+        rudder_limit, rudder_rate_limit: drawn where given, rad and rad/s.
+        command: what flies this mission again, printed below the picture.
+    """
+    figure = Figure(figsize=_SIZE_INCHES, dpi=_DOTS_PER_INCH, facecolor="white")
+    FigureCanvasAgg(figure)
+    margins = {"left": 0.05, "right": 0.985, "top": 0.875, "bottom": 0.06}
+    grid = figure.add_gridspec(5, 2, width_ratios=(1.0, 1.12), wspace=0.12, hspace=0.22, **margins)
+    flown = under_way(run, path.n)
+    _headline(figure, summary, title)
+    left = grid[:, 0].subgridspec(2, 1, height_ratios=(2.5, 1.0), hspace=0.18)
+    track(figure.add_subplot(left[0]), flown, path, summary.missed)
+    table(figure.add_subplot(left[1]), summary)
+    rows = [figure.add_subplot(grid[0, 1])]
+    rows += [figure.add_subplot(grid[k, 1], sharex=rows[0]) for k in range(1, 5)]
+    if flown.steps:
+        time = flown.t - flown.t[0]
+        cross_track(rows[0], time, flown, path)
+        heading_error(rows[1], time, flown)
+        rudder(rows[2], time, flown, rudder_limit)
+        rudder_rate(rows[3], time, flown, rudder_rate_limit)
+        current(rows[4], time, flown)
+        switches(rows, time, flown, path)
+    for axes in rows[:-1]:
+        axes.tick_params(labelbottom=False)
+    rows[-1].set_xlabel("time since the start (s)", color=INK)
+    figure.align_ylabels(rows)
+    figure.text(
+        0.05, 0.018, command, fontsize=10, family="monospace", color=MUTED, va="center", parse_math=False
+    )
+    save(figure, png, dpi=_DOTS_PER_INCH)
+
+
+def _headline(figure: Figure, summary: MissionSummary, title: str) -> None:
+    facts = [
+        "end of the path reached" if summary.completed else "end of the path not reached",
+        "" if math.isnan(summary.flown_share) else f"{percent(summary.flown_share)} of the path flown",
+        fact(summary.duration, "{:.1f} s"),
+        fact(summary.distance_covered, "{:.1f} m"),
+        fact(summary.rms_distance, "rms distance {:.3f} m"),
+        fact(summary.largest_distance, "largest {:.2f} m"),
+        fact(summary.navigation_error, "odometry off by {:.2f} m at most"),
+        fact(summary.current_estimate_error, "current estimate within {:.4f} m/s"),
+    ]
+    figure.text(0.05, 0.957, title, fontsize=18, fontweight="bold", color=INK, va="center", parse_math=False)
+    told = "   ·   ".join(text for text in facts if text)
+    figure.text(0.05, 0.921, told, fontsize=12, color=MUTED, va="center")

@@ -1,0 +1,114 @@
+"""The right half of the overview: signals over time, one panel for each question."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from auv_path_following.curves.composite import CompositePath
+from auv_sim.flight.run_record import Column, Run
+from auv_sim.views.labels import Labels
+from auv_sim.views.plot_style import BLUE, MUTED, ORANGE, PATH, RED, style
+
+#: More switches than this are not drawn one by one: they would grey the panels.
+_MOST_SWITCHES = 200
+
+
+def cross_track(axes: Axes, time: Column, flown: Run, path: CompositePath) -> None:
+    """How far from the path: the geometric distance, and the error that guidance works on, Eq. (20)."""
+    style(axes, "distance (m)")
+    distance = path.distance(*flown.track, flown.subpath(path.n))
+    label = "true distance to the path" if np.isfinite(flown.x_true).any() else "distance to the path"
+    axes.fill_between(time, distance, color=PATH, alpha=0.6, linewidth=0.0, label=label)
+    _line(axes, time, flown.ye, BLUE, "cross-track error ye (starboard positive)")
+    _spread(axes, 0.1)
+    _legend(axes)
+
+
+def heading_error(axes: Axes, time: Column, flown: Run) -> None:
+    """wrap(psi - psi_d)."""
+    style(axes, "heading error (°)")
+    _line(axes, time, np.degrees(flown.psi_e), BLUE, "psi − psi_d")
+    _spread(axes, 1.0)
+    _legend(axes)
+
+
+def rudder(axes: Axes, time: Column, flown: Run, limit: float | None) -> None:
+    """Rudder angle, limit in rad."""
+    style(axes, "rudder (°)")
+    _line(axes, time, np.degrees(flown.rudder_cmd), ORANGE, "commanded")
+    _line(axes, time, np.degrees(flown.rudder), BLUE, "measured (port positive)")
+    _limits(axes, limit)
+    _spread(axes, 1.0)
+    _legend(axes)
+
+
+def rudder_rate(axes: Axes, time: Column, flown: Run, limit: float | None) -> None:
+    """Rate between rows of the measured rudder, or of the commanded one; limit in rad/s."""
+    style(axes, "rudder rate (°/s)")
+    rudder = flown.rudder if np.isfinite(flown.rudder).any() else flown.rudder_cmd
+    if time.size > 1:
+        rate = np.diff(rudder) / np.diff(time)
+        _line(axes, time[1:], np.degrees(rate), BLUE, "")
+    _limits(axes, limit)
+    _spread(axes, 1.0)
+    _legend(axes)
+
+
+def current(axes: Axes, time: Column, flown: Run) -> None:
+    """The estimate, Eq. (35), against the truth where a simulator told it."""
+    style(axes, "current (m/s)")
+    _line(axes, time, flown.Vx_true, PATH, "true", width=5.0)
+    _line(axes, time, flown.Vy_true, PATH, "", width=5.0)
+    _line(axes, time, flown.Vx_est, BLUE, "estimate, north Vx")
+    _line(axes, time, flown.Vy_est, ORANGE, "estimate, east Vy")
+    _spread(axes, 0.05)
+    _legend(axes)
+
+
+def switches(rows: list[Axes], time: Column, flown: Run, path: CompositePath) -> None:
+    """Light lines where the next subpath begins; the subpaths' numbers in the top panel."""
+    subpath = flown.subpath(path.n)
+    starts = [0.0, *time[1:][np.diff(subpath) > 0]]
+    numbers = [int(subpath[0]), *subpath[1:][np.diff(subpath) > 0]]
+    for axes in rows:
+        if len(starts) <= _MOST_SWITCHES:
+            axes.vlines(
+                starts[1:], 0.0, 1.0, transform=axes.get_xaxis_transform(), colors=MUTED, linewidth=0.7,
+                alpha=0.5, zorder=0,
+            )  # fmt: skip
+        axes.set_xlim(0.0, float(time[-1]) or 1.0)
+    labels = Labels(rows[0])
+    top = rows[0].get_ylim()[1]
+    spans = zip(starts, [*starts[1:], float(time[-1])], numbers, strict=True)
+    for start, end, number in sorted(spans, key=lambda span: span[0] - span[1])[:_MOST_SWITCHES]:
+        at = (0.5 * (start + end), top)
+        labels.write(str(number + 1), at, (0.0, -8.0), 10, color=MUTED, fontweight="bold")
+
+
+def _limits(axes: Axes, limit: float | None) -> None:
+    if limit is not None:
+        for degrees, label in ((math.degrees(limit), "limit"), (-math.degrees(limit), "")):
+            axes.axhline(degrees, color=RED, linewidth=1.0, linestyle=(0, (4, 3)), label=label)
+
+
+def _line(axes: Axes, time: Column, values: Column, color: str, label: str, width: float = 1.2) -> None:
+    if np.isfinite(values).any():
+        axes.plot(time, values, color=color, linewidth=width, label=label)
+
+
+def _legend(axes: Axes) -> None:
+    handles, _ = axes.get_legend_handles_labels()
+    if handles:
+        axes.legend(
+            loc="lower right", bbox_to_anchor=(1.0, 0.97), ncols=4, fontsize=9, frameon=False, borderpad=0.0
+        )
+
+
+def _spread(axes: Axes, least: float) -> None:
+    """Leave room above for the legend, and do not blow noise up to the full height."""
+    low, high = axes.get_ylim()
+    lacking = max(0.0, least - (high - low)) / 2.0
+    axes.set_ylim(low - lacking, high + lacking + 0.08 * (high - low))

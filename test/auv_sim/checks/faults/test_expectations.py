@@ -1,0 +1,71 @@
+"""The table of expectations: complete, and the one that docs/safety.md prints."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.settings.schema import leaves
+from auv_sim.checks.faults.expectations import REPRESENTATIVE, TABLE, as_markdown, chosen
+from auv_sim.nodes.fault_injection import FAULTS
+from auv_sim.nodes.fault_relay import RELAYED
+from auv_sim.parameters import SUITE
+
+PAGE = Path(__file__).resolve().parents[4] / "docs" / "safety.md"
+#: A text has no number that can jump, no frame, and its past cannot be told from its present.
+NOT_FOR_A_TEXT = {"jump", "reverse", "frameless", "timeless"}
+
+
+def test_the_page_prints_the_table() -> None:
+    """`python -m auv_sim.checks.faults.expectations` prints what belongs there."""
+    printed = re.search(
+        r"<!-- table: begin -->\n(.*?)<!-- table: end -->", PAGE.read_text(encoding="utf-8"), re.DOTALL
+    )
+    assert printed is not None
+    assert printed.group(1) == as_markdown()
+
+
+@pytest.mark.parametrize("name", RELAYED)
+def test_every_fault_of_every_topic_has_a_row(name: str) -> None:
+    wanted = set(FAULTS)
+    if "Float64" in RELAYED[name].type:
+        wanted -= {"frameless", "timeless"}
+    if "String" in RELAYED[name].type:
+        wanted -= NOT_FOR_A_TEXT
+    else:
+        wanted -= {"forge"}
+    assert {row.fault for row in TABLE if row.place == name} == wanted
+
+
+def test_every_node_is_killed() -> None:
+    """A driver stands where the simulator stands, and is not of the graph that the matrix flies."""
+    graph = {topics.PLANT, topics.OBSERVER, topics.GUIDANCE, topics.AUTOPILOT, topics.RECORDER}
+    assert {row.place for row in TABLE if row.fault == "kill"} == graph
+
+
+def test_the_bounds_are_set_by_parameters_that_exist() -> None:
+    known = {leaf.name for cls in SUITE.values() for leaf in leaves(cls)}
+    for row in TABLE:
+        assert not row.set_by or set(row.set_by.split(", ")) <= known, row.name
+
+
+@pytest.mark.parametrize("row", TABLE, ids=lambda row: row.name)
+def test_a_row_does_not_contradict_itself(row) -> None:  # type: ignore[no-untyped-def]
+    assert bool(row.noticed_by) == bool(row.says) == (row.within > 0.0)
+    assert row.noticed_by in {"", *SUITE}
+    assert (row.safe > 0.0) == (row.outcome != "goes on")
+    assert row.lasts >= row.safe
+    assert row.wall or row.then_abort or row.fault == "kill" or row.lasts >= row.within
+    assert row.fault != "jump" or row.place != topics.ODOM.name or row.lasts < 3.0  # else it is believed
+
+
+def test_names_are_unique_and_choose() -> None:
+    names = [row.name for row in TABLE]
+    assert len(set(names)) == len(names)
+    assert [row.name for row in chosen(("odom nan", "odom stop"))] == ["odom stop", "odom nan"]
+    assert len(chosen(REPRESENTATIVE)) == len(REPRESENTATIVE)
+    with pytest.raises(KeyError):
+        chosen(("odom burn",))

@@ -1,0 +1,174 @@
+"""The launcher makes the plan's check, and works out whose switching counts."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.settings import params_file
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following import config_files, vehicle
+from auv_path_following.missions import mission_file
+from auv_sim.cli import mission as mission_command
+from auv_sim.flight.closed_loop import Scenario, fly
+from auv_sim.launch import mission_plan
+from auv_sim.launch.options import Options
+from auv_sim.parameters import SUITE
+from auv_sim.vehicle.remus import PlantState
+
+TIGHT = Path(__file__).parents[1] / "cli" / "wrong_missions" / "20_turn_too_tight.yaml"
+
+
+def _mission(folder: Path, more: str = "") -> str:
+    file = folder / "own.yaml"
+    route = "waypoints: {file: points/a.csv, smoothing: {kind: linear}}\n"
+    file.write_text(f"version: 1\nname: own\nframe: ned\nthrust: 6\n{more}{route}", encoding="utf-8")
+    (folder / "points").mkdir()
+    (folder / "points" / "a.csv").write_text("north,east\n0,0\n50,0\n50,50\n", encoding="utf-8")
+    return str(file)
+
+
+def test_what_cannot_be_flown_is_refused_before_anything_starts(tmp_path, capsys):
+    assert mission_command.main(["--mission", str(TIGHT), "--out", str(tmp_path / "run")]) == 2
+    err = capsys.readouterr().err
+    assert "1.21 m too tight" in err and "--force" in err and err.count("\n") == 1
+    assert not (tmp_path / "run").exists()
+
+
+def test_force_overrides(tmp_path):
+    made = mission_plan.make(Options(mission=str(TIGHT), force=True), tmp_path)
+    assert len(made.verdicts.refusals) == 1
+
+
+def test_a_current_too_strong_is_refused(tmp_path):
+    with pytest.raises(ConfigurationError, match=r"a current of 2\.50 m/s against a speed of 2\.00 m/s"):
+        mission_plan.make(Options(current=(2.5, 0.0)), tmp_path)
+
+
+def test_the_papers_mission_is_flown_with_warnings_only(tmp_path):
+    made = mission_plan.make(Options(current=(0.1, 0.2)), tmp_path)
+    assert not made.verdicts.refusals
+    assert len(made.verdicts.warnings) == 2
+
+
+@pytest.mark.parametrize(
+    ("wish", "option", "expected"),
+    [
+        ("", None, ("g0", 6.0)),
+        ("switching: {mode: all, radius: 3}\n", None, ("all", 3.0)),
+        ("switching: {mode: all, radius: 3}\n", "off", ("off", 3.0)),
+        ("", "off", ("off", 6.0)),
+    ],
+)
+def test_option_before_mission_before_parameters(tmp_path, wish, option, expected):
+    made = mission_plan.make(
+        Options(mission=_mission(tmp_path, wish), params="paper", switching=option), tmp_path
+    )
+    guidance = made.parameters[topics.GUIDANCE]
+    assert (guidance.guidance.switching.mode, guidance.guidance.switching.radius) == expected
+    assert made.scenario().guidance.switching == guidance.guidance.switching
+
+
+def test_the_written_configuration_flies_the_same_again(tmp_path):
+    wish = "switching: {mode: all, radius: 3}\n"
+    made = mission_plan.make(Options(mission=_mission(tmp_path, wish), switching="off"), tmp_path)
+    written = made.write(tmp_path / "config")
+    again = params_file.load(written, SUITE)[topics.GUIDANCE]
+    copy = mission_file.load(again.mission)
+    assert Path(again.mission).parent == tmp_path / "config"
+    assert copy.waypoints == made.mission.waypoints
+    assert again.with_wishes_of(copy).guidance.switching.mode == "off"
+    third = mission_plan.make(Options(mission=again.mission, params=str(written)), tmp_path)
+    assert third.parameters[topics.GUIDANCE].guidance.switching.mode == "off"
+
+
+def test_circles_far_beyond_the_look_ahead_of_these_gains_are_refused(tmp_path):
+    file = tmp_path / "wide.yaml"
+    file.write_text(
+        "version: 1\nname: wide\nframe: ned\nthrust: 6\nswitching: {radius: 11}\n"
+        "waypoints: {points: [[0, 0], [90, 0], [90, 90]], smoothing: {kind: linear}}\n"
+    )
+    with pytest.raises(
+        ConfigurationError, match=r"wide\.yaml: switching\.radius: found 11 m with a look-ahead of 5\.2"
+    ):
+        mission_plan.make(Options(mission=str(file), params="robust"), tmp_path / "run")
+    (_, warning) = mission_plan.make(
+        Options(mission=str(file), params="paper"), tmp_path / "run"
+    ).verdicts.warnings
+    assert "look-ahead of 6 m" in str(warning)
+
+
+def test_of_a_file_for_two_vehicles_the_one_in_this_namespace_counts(tmp_path):
+    file = tmp_path / "fleet.yaml"
+    file.write_text(
+        "".join(
+            f"/{name}/ailos_guidance: {{ros__parameters: {{guidance.virtual_point.k: {k}}}}}\n"
+            for name, k in (("auv1", 0.5), ("auv2", 2.0))
+        )
+    )
+    for namespace, k in (("/auv1", 0.5), ("/auv2", 2.0)):
+        made = mission_plan.make(Options(params=str(file), namespace=namespace), tmp_path / "run")
+        assert made.parameters[topics.GUIDANCE].guidance.virtual_point.k == k
+    with pytest.raises(ConfigurationError, match="found another namespace than /auv, expected"):
+        mission_plan.make(Options(params=str(file)), tmp_path / "run")
+
+
+def test_a_vehicle_without_a_hull_can_be_planned_for_but_not_simulated(tmp_path, capsys):
+    path = tmp_path / "measured.yaml"
+    path.write_text(
+        "name: measured\nlength: 2.0\nthrust_max: 10\nrudder: {max_angle_deg: 25, max_rate_deg_s: 10}\n"
+        "cruise: {thrust: 8, speed: 2}\nturning: {radius: 9.5}\n"
+    )
+    options = Options(vehicle=str(path), no_sim=True, params="paper")
+    assert mission_plan.make(options, tmp_path / "run").vehicle.hull is None
+    with pytest.raises(ConfigurationError, match="hull: found nothing, expected the hull's coefficients"):
+        mission_plan.make(dataclasses.replace(options, no_sim=False), tmp_path / "run")
+
+
+BARE = """
+name: measured
+length: 1.6
+thrust_max: 100
+thrust_unit: percent
+rudder: {max_angle_deg: 35, max_rate_deg_s: 15}
+cruise: {thrust: 100, speed: 2.0}
+turning: {radius: 4.2}
+"""
+
+
+def test_a_vehicle_without_a_hull_needs_limits_and_flies_by_those_that_the_launcher_advises(tmp_path):
+    file, params = tmp_path / "bare.yaml", tmp_path / "limits.yaml"
+    file.write_text(BARE, encoding="utf-8")
+    asked = Options(mission=_mission(tmp_path), vehicle=str(file), no_sim=True)
+    with pytest.raises(ConfigurationError) as error:
+        mission_plan.make(asked, tmp_path / "run")
+    advised = error.value.expected.rsplit("turning: ", 1)[1]
+    assert advised == "max_rate: 0.42, max_acceleration: 0.29, max_jerk: 0.37"
+    assert error.value.where.endswith("robust.yaml: heading_autopilot: measured: hull")
+    robust = config_files.find("params", "robust")
+    text = robust.read_text(encoding="utf-8").replace("damping: 0.8", f"damping: 0.8, {advised}")
+    params.write_text(text, encoding="utf-8")
+    by_rule = mission_plan.make(dataclasses.replace(asked, params=str(params)), tmp_path / "run").parameters
+    # The same vehicle as its hull has it, and what it then does with either.
+    hull, mission = vehicle.load("remus100"), mission_file.load("paper_composite")
+    beside = PlantState(0.0, 40.0, 3.0, 2.0, 0.0, 0.0)
+    common = {
+        "path": mission.path,
+        "vehicle": hull,
+        "thrust": mission.thrust,
+        "initial": beside,
+        "time_limit": 90.0,
+    }
+    runs = [
+        fly(Scenario(**common, autopilot=parameters[topics.AUTOPILOT].autopilot, controller_vehicle=known))
+        for parameters, known in (
+            (params_file.load(robust, SUITE), hull),
+            (by_rule, vehicle.load(str(file))),
+        )
+    ]
+    errors = [float(np.sqrt(np.mean(run.ye**2))) for run in runs]
+    assert errors[1] < 1.5 * errors[0]  # narrower limits: they assume a sluggish hull
