@@ -83,8 +83,10 @@ class Line(NamedTuple):
 
 
 def lines() -> Iterator[Line]:
-    """Indented lines that begin as a command does."""
+    """Indented lines that begin as a command does; test_tutorial.py runs those of the tutorial."""
     for page in PAGES:
+        if page == "docs/tutorial.md":
+            continue
         for text in (ROOT / page).read_text(encoding="utf-8").splitlines():
             found = re.match(r"    ((?:python3|ros2|pip|cd|mkdir|source|rosdep|sudo)\b.*)", text)
             if found:
