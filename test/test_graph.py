@@ -104,7 +104,7 @@ def test_two_runs_are_bit_identical_in_one_process_or_five(
 FORGER = """
 import rclpy
 from std_msgs.msg import Float64, String
-from auv_msgs_py import qos, topics
+from auv_msgs_py.contract import qos, topics
 rclpy.init()
 node = rclpy.create_node("forger", namespace="/auv")
 state = node.create_publisher(String, "mission_state", qos.offered(topics.MISSION_STATE))
