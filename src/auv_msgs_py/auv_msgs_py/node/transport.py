@@ -9,6 +9,7 @@ from rclpy.publisher import Publisher
 from rclpy.serialization import deserialize_message
 
 from auv_msgs_py.contract import qos, wire
+from auv_msgs_py.contract.codec import LITTLE_ENDIAN
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.values.errors import MessageRefused
 
@@ -47,7 +48,7 @@ def decoder(topic: Topic) -> Callable[[bytes], Any]:
         try:
             light.read(data)
         except wire.ForeignLayout:
-            if data[:2] == wire.LITTLE_ENDIAN:
+            if data[:2] == LITTLE_ENDIAN:
                 raise _refused(topic, data) from None
             return generated(data)
         return light

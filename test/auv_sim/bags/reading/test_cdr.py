@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -7,7 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from auv_sim.bags.reading.cdr import LAYOUTS, decode, decode_at_once, decode_one_by_one
+from auv_msgs_py.contract.codec import LAYOUTS
+from auv_sim.bags.reading.cdr import decode, decode_at_once, decode_one_by_one
 from auv_sim.bags.writing.bag_writer import typestore
 
 FRAME = st.text(alphabet="abcdefgh_/", max_size=12)
@@ -58,6 +60,19 @@ def test_vectorised_decoding_equals_rosbags(
     assert fast.frames == slow.frames
 
 
+@pytest.mark.parametrize("type_name", LAYOUTS)
+def test_the_byte_order_makes_no_difference(type_name: str) -> None:
+    generator = np.random.default_rng(3)
+    messages = [message(type_name, generator, "map", "base_link") for _ in range(3)]
+    little, big = (
+        decode(type_name, [bytes(typestore().serialize_cdr(m, type_name, little_endian=o)) for m in messages])
+        for o in (True, False)
+    )
+    np.testing.assert_array_equal(little.values, big.values)
+    np.testing.assert_array_equal(little.stamp_ns, big.stamp_ns)
+    assert little.frames == big.frames
+
+
 def test_columns_of_an_odometry_are_where_they_are_said_to_be() -> None:
     name = "nav_msgs/msg/Odometry"
     odometry = message(name, np.random.default_rng(1), "map", "base_link")
@@ -67,6 +82,8 @@ def test_columns_of_an_odometry_are_where_they_are_said_to_be() -> None:
     assert (row[0], row[1]) == (odometry.pose.pose.position.x, odometry.pose.pose.position.y)
     assert list(row[3:7]) == [orientation.x, orientation.y, orientation.z, orientation.w]
     assert row[48] == odometry.twist.twist.angular.z
+    for field in columns.layout.numbers:
+        assert columns.column(field)[0] == np.atleast_1d(attrgetter(field)(odometry))[0]
     assert columns.frames == (("map", "base_link"),)
     stamp = odometry.header.stamp
     assert columns.stamp_ns[0] == stamp.sec * 10**9 + stamp.nanosec

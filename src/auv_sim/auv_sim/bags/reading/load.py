@@ -46,8 +46,9 @@ USED = (
 #: Its words are intervals of time, not numbers.
 _STATE = topics.MISSION_STATE  # fmt: skip
 
-# Columns of the decoded Odometry: x y z, quaternion x y z w, 36, linear x y z, angular x y z, 36.
-_POSE, _ANGULAR_Z = slice(0, 7), 48
+_POSITION, _ORIENTATION = "pose.pose.position.", "pose.pose.orientation."
+#: The numbers of an odometry that make a pose.
+_POSE = (f"{_POSITION}x", f"{_POSITION}y", *(f"{_ORIENTATION}{axis}" for axis in "xyzw"))
 
 
 class _Recorded(NamedTuple):
@@ -172,24 +173,25 @@ def _assemble(
     recorded: dict[Topic, _Recorded], states: list[tuple[int, Any]], table: FrameTable, bag: Path
 ) -> Run:
     odometry = recorded[topics.ODOM]
-    values = odometry.columns.values
     world, body = _frames(topics.ODOM, odometry.columns, bag)
     convention = table.of_pose(topics.ODOM.name, world, body)
-    x, y, psi = _pose(list(values[:, _POSE].T), convention)
-    turn = -values[:, _ANGULAR_Z] if convention is Convention.ENU_FLU else values[:, _ANGULAR_Z]
+    x, y, psi = _pose([odometry.columns.column(field) for field in _POSE], convention)
+    turn = odometry.columns.column("twist.twist.angular.z")
+    if convention is Convention.ENU_FLU:
+        turn = -turn
 
-    def aligned(topic: Topic, column: int = 0) -> Any:
-        return _aligned(odometry, recorded.get(topic), column)
+    def aligned(topic: Topic, field: str = "data") -> Any:
+        return _aligned(odometry, recorded.get(topic), field)
 
     water = recorded.get(topics.WATER_VELOCITY)
-    sway = aligned(topics.WATER_VELOCITY, 1)
+    sway = aligned(topics.WATER_VELOCITY, "twist.twist.linear.y")
     if water is not None:
         (frame,) = _frames(topics.WATER_VELOCITY, water.columns, bag)
         if table.of_body(topics.WATER_VELOCITY.name, frame) is Convention.ENU_FLU:
             sway = -sway
-    Vx_est, Vy_est = swap_axes(aligned(topics.CURRENT_ESTIMATE, 0), aligned(topics.CURRENT_ESTIMATE, 1))
-    Vx_true, Vy_true = swap_axes(aligned(topics.TRUE_CURRENT, 0), aligned(topics.TRUE_CURRENT, 1))
-    x_true, y_true, psi_true = _pose([aligned(topics.TRUE_ODOM, k) for k in range(7)], convention)
+    Vx_est, Vy_est = swap_axes(*(aligned(topics.CURRENT_ESTIMATE, f"vector.{axis}") for axis in "xy"))
+    Vx_true, Vy_true = swap_axes(*(aligned(topics.TRUE_CURRENT, f"vector.{axis}") for axis in "xy"))
+    x_true, y_true, psi_true = _pose([aligned(topics.TRUE_ODOM, field) for field in _POSE], convention)
     run = Run.from_columns(
         {
             "t": odometry.columns.stamp_ns * 1e-9,
@@ -197,16 +199,16 @@ def _assemble(
             "y": y,
             "psi": psi,
             "r": turn,
-            "ur": aligned(topics.WATER_VELOCITY, 0),
+            "ur": aligned(topics.WATER_VELOCITY, "twist.twist.linear.x"),
             "vr": sway,
             "rudder": aligned(topics.RUDDER_STATE),
             "rudder_cmd": aligned(topics.RUDDER_CMD),
             "thrust_cmd": aligned(topics.THRUST_CMD),
             "psi_d": wrap(flip_yaw(aligned(topics.DESIRED_YAW))),
             "r_d": -aligned(topics.DESIRED_YAW_RATE),
-            "xe": aligned(topics.PATH_ERROR, 0),
-            "ye": aligned(topics.PATH_ERROR, 1),
-            "psi_e": aligned(topics.PATH_ERROR, 2),
+            "xe": aligned(topics.PATH_ERROR, "vector.x"),
+            "ye": aligned(topics.PATH_ERROR, "vector.y"),
+            "psi_e": aligned(topics.PATH_ERROR, "vector.z"),
             "s": aligned(topics.PATH_PARAMETER),
             "Vx_est": Vx_est,
             "Vy_est": Vy_est,
@@ -222,8 +224,8 @@ def _assemble(
 
 
 def _pose(columns: list[Any], convention: Convention) -> tuple[Any, Any, Any]:
-    """x, y (m) and psi (rad), NED, from the seven numbers of a pose."""
-    x, y, yaw = columns[0], columns[1], yaw_of_quaternion(*columns[3:7])
+    """x, y (m) and psi (rad), NED, from the columns of `_POSE`."""
+    x, y, yaw = columns[0], columns[1], yaw_of_quaternion(*columns[2:])
     if convention is Convention.ENU_FLU:
         (x, y), yaw = swap_axes(x, y), flip_yaw(yaw)
     return x, y, wrap(yaw)
@@ -247,12 +249,12 @@ def _frames(topic: Topic, columns: Columns, bag: Path) -> tuple[str, ...]:
     return columns.frames[0]
 
 
-def _aligned(odometry: _Recorded, other: _Recorded | None, column: int) -> NDArray[np.float64]:
+def _aligned(odometry: _Recorded, other: _Recorded | None, field: str) -> NDArray[np.float64]:
     """One number of a topic for each odometry, shape (n,); NaN before the topic's first message."""
     n = odometry.log_ns.size
     if other is None:
         return np.full(n, np.nan)
-    values = other.columns.values[:, column]
+    values = other.columns.column(field)
     if other.columns.frames:
         kept = _first_flight(other.columns.stamp_ns)
         values, times, wanted = values[kept], other.columns.stamp_ns[kept], odometry.columns.stamp_ns

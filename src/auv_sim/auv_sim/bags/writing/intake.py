@@ -8,7 +8,6 @@ each message was sent and received is told by the middleware, not by a clock tha
 
 from __future__ import annotations
 
-import struct
 from bisect import bisect_right
 from typing import Any, NamedTuple
 
@@ -16,17 +15,18 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.subscription import Subscription
 
+from auv_msgs_py.contract.conversions import stamp_of
 from auv_msgs_py.contract.qos import message_class
 from auv_msgs_py.contract.topics import CLOCK
+from auv_msgs_py.contract.wire import Clock, ForeignLayout
+from auv_msgs_py.values.errors import MessageRefused
 from auv_sim.bags.sequence_watch import SequenceWatch
 from auv_sim.bags.writing.bag_writer import Channel
 
-_CLOCK = struct.Struct("<4xiI")
 #: At least so many times of /clock are remembered, for messages that come late.
 _REMEMBERED = 10_000
 #: A message sent this long before the newest /clock is a latched one, or the machine's clock was set, ns.
-_LONG_AGO = 10 * 1_000_000_000
-_BILLION = 1_000_000_000
+_LONG_AGO = 10_000_000_000
 
 
 class Taken(NamedTuple):
@@ -118,11 +118,12 @@ class Timestamps:
         # When each /clock was sent, in that order, and what it said, ns.
         self._sent: list[int] = []
         self._said: list[int] = []
+        self._message = Clock()
 
     def begin(self, batch: list[Taken]) -> None:
         """What was sent before the clock's first word gets the time of that word."""
         first = next((taken for taken in batch if taken.order == 0), None)
-        self.now = (_clock(first.data) or 0) if first is not None else 0
+        self.now = (self._clock(first.data) or 0) if first is not None else 0
 
     def of(self, taken: Taken) -> tuple[int, int]:
         """(log time, publish time), ns; a /clock message moves the time.
@@ -133,12 +134,20 @@ class Timestamps:
         if not self.simulated:
             return taken.received_ns, taken.sent_ns
         if taken.order == 0:
-            told = _clock(taken.data)
+            told = self._clock(taken.data)
             if told is not None:
                 self.now = told
                 self._remember(taken.sent_ns, told)
         now = self._at(taken.sent_ns)
         return now, now
+
+    def _clock(self, data: bytes) -> int | None:
+        """Return the time of a /clock message, ns; None for bytes that hold none."""
+        try:
+            self._message.read(data)
+            return stamp_of(self._message.clock, CLOCK.name)
+        except (ForeignLayout, MessageRefused):
+            return None
 
     def _remember(self, sent_ns: int, told: int) -> None:
         if self._sent and sent_ns < self._sent[-1]:  # the machine's clock was set back
@@ -153,16 +162,6 @@ class Timestamps:
         if not self._sent or sent_ns >= self._sent[-1] or sent_ns < self._sent[-1] - _LONG_AGO:
             return self.now or 0
         return self._said[max(bisect_right(self._sent, sent_ns) - 1, 0)]
-
-
-def _clock(data: bytes) -> int | None:
-    """Return the time of a /clock message, ns; None for bytes that hold none."""
-    if len(data) < _CLOCK.size:
-        return None
-    seconds, nanoseconds = _CLOCK.unpack_from(data)
-    if seconds < 0 or nanoseconds >= _BILLION:
-        return None
-    return int(seconds) * _BILLION + int(nanoseconds)
 
 
 def drain(topics: list[PolledTopic]) -> list[Taken]:
