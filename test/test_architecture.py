@@ -85,6 +85,37 @@ def needing_ros() -> set[str]:
     return found
 
 
+#: A private attribute of something that goes by the name of one of rclpy's objects.
+OF_RCLPY = r"(node|publisher|subscription|executor|clock)\._[^_]\w*$"
+
+
+def defined(nodes: list[ast.AST]) -> Iterator[str]:
+    """Every name that is assigned or defined as a function."""
+    for node in nodes:
+        match node:
+            case (
+                ast.Attribute(attr=name, ctx=ast.Store())
+                | ast.Name(id=name, ctx=ast.Store())
+                | ast.FunctionDef(name=name)
+            ):
+                yield name
+
+
+def test_one_module_alone_uses_private_parts_of_rclpy() -> None:
+    """Underscore names that the suite does not define, `handle`, and modules behind rclpy's public ones."""
+    trees = {path: list(ast.walk(ast.parse(path.read_text(encoding="utf-8")))) for path in MODULES}
+    harmless = {"_asdict", "_fields", "_replace", "_exit", "_getframe"}.union(*map(defined, trees.values()))
+    users = set()
+    for path, nodes in trees.items():
+        attributes = [node for node in nodes if isinstance(node, ast.Attribute)]
+        names = {node.attr for node in attributes}
+        private = {name for name in names - harmless if re.match("_[^_]", name)} | names & {"handle"}
+        private |= {name for name in map(ast.unparse, attributes) if re.search(OF_RCLPY, name)}
+        if private or any(re.match(r"rclpy\.(_|impl\b)", name) for name in imports(path)):
+            users.add(dotted(path))
+    assert users == {"auv_msgs_py.node.private_rclpy"}
+
+
 def test_there_is_something_to_look_at() -> None:
     assert {dotted(path).split(".")[0] for path in MODULES} == set(PACKAGES)
 

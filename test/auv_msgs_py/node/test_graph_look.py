@@ -12,7 +12,7 @@ import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rosgraph_msgs.msg import Clock
 
-from auv_msgs_py.node.claim import Claim, of_simulator
+from auv_msgs_py.contract.claim import Claim, of_simulator
 from auv_msgs_py.node.graph_look import LOOK, GraphLook, GraphTaken
 
 MISSION = Claim(holder="/auv/mission_launcher", namespace="/auv", names=("ailos_guidance",), clock=True)

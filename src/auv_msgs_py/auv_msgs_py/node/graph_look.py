@@ -13,9 +13,9 @@ from collections import Counter
 from rclpy.node import Node
 from std_msgs.msg import String
 
+from auv_msgs_py.contract import claim as claims
 from auv_msgs_py.contract import qos, topics
-from auv_msgs_py.node import claim as claims
-from auv_msgs_py.node.claim import Claim
+from auv_msgs_py.contract.claim import Claim
 from auv_msgs_py.node.transport import generated_decoder
 from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
 

@@ -10,6 +10,7 @@ from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValu
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
+from auv_msgs_py.node.private_rclpy import parameter_overrides
 from auv_msgs_py.node.ros_arguments import shared_names
 from auv_msgs_py.settings.params_file import BUILT_IN
 from auv_msgs_py.settings.schema import SettingInfo, leaves, nested, validated
@@ -44,13 +45,14 @@ def declare(
     """
     _check_names(node, {leaf.name for leaf in leaves(cls)}, arguments)
     flat: dict[str, Any] = {}
+    overrides = parameter_overrides(node)
     for leaf in leaves(cls):
-        override = node._parameter_overrides.get(leaf.name)
+        override = overrides.get(leaf.name)
         if isinstance(leaf.default, float) and override is not None and type(override.value) is int:
             # `-p radius:=6` is meant as 6.0
-            node._parameter_overrides[leaf.name] = Parameter(leaf.name, value=float(override.value))
+            overrides[leaf.name] = Parameter(leaf.name, value=float(override.value))
         elif leaf.auto and override is not None and override.value == "auto":
-            node._parameter_overrides[leaf.name] = Parameter(leaf.name, value=0.0)
+            overrides[leaf.name] = Parameter(leaf.name, value=0.0)
         try:
             flat[leaf.name] = node.declare_parameter(leaf.name, leaf.default, _descriptor(leaf)).value
         except (InvalidParameterTypeException, InvalidParameterValueException):
@@ -64,7 +66,7 @@ def declare(
 
 
 def _check_names(node: Node, known: set[str], arguments: Sequence[str]) -> None:
-    given = node._parameter_overrides  # rclpy offers no public way to list them
+    given = parameter_overrides(node)
     unknown = [name for name in given if name not in known and not name.startswith(BUILT_IN)]
     ignored = shared_names(arguments, node.get_name()) if unknown else set()
     for name in unknown:

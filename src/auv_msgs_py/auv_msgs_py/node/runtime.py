@@ -13,12 +13,13 @@ from rclpy.publisher import Publisher
 from rclpy.time import Time
 
 from auv_msgs_py.contract import qos, topics
+from auv_msgs_py.contract.claim import Claim
 from auv_msgs_py.contract.conversions import stamp_of
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.node import params
-from auv_msgs_py.node.claim import Claim
 from auv_msgs_py.node.health import Health
 from auv_msgs_py.node.lockstep_gate import LockstepGate
+from auv_msgs_py.node.private_rclpy import stop_reading_clock
 from auv_msgs_py.node.run import StopRequest, run_nodes, spin
 from auv_msgs_py.node.transport import WirePublisher, decoder, generated_decoder
 from auv_msgs_py.node.watch import ClockWatch, RateWatch
@@ -59,7 +60,7 @@ class SuiteNode(Node):  # type: ignore[misc]
         if self.parameters.lockstep:
             # Time stands still between two odometries, whose stamps are what /clock says: `listen` takes it
             # from there. A reader of /clock in every node costs a fifth of a step's processor time.
-            self._time_source.detach_node()
+            stop_reading_clock(self)
 
     def report(self) -> dict[str, Any]:
         """Further values for /diagnostics."""

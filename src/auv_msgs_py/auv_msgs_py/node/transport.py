@@ -11,6 +11,7 @@ from rclpy.serialization import deserialize_message
 from auv_msgs_py.contract import qos, wire
 from auv_msgs_py.contract.codec import LITTLE_ENDIAN
 from auv_msgs_py.contract.topics import Topic
+from auv_msgs_py.node.private_rclpy import raw_sender
 from auv_msgs_py.values.errors import MessageRefused
 
 #: The encapsulation identifiers of DDS end here (DDS-XTypes 1.3, table 60).
@@ -22,8 +23,7 @@ class WirePublisher(Publisher):  # type: ignore[misc]
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__(*arguments, **named)
-        # What `Publisher.publish` ends with for bytes; its checks before cost as much again.
-        self._send = self.handle.publish_raw
+        self._send = raw_sender(self)
 
     def publish(self, message: Any) -> None:
         if isinstance(message, wire.Message):

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from auv_msgs_py.contract import topics
-from auv_msgs_py.node.claim import Claim
+from auv_msgs_py.contract.claim import Claim
 from auv_msgs_py.settings import params_file, result_files, yaml_file
 from auv_msgs_py.settings.schema import Pair
 from auv_msgs_py.values.errors import ConfigurationError

@@ -17,10 +17,10 @@ from std_msgs.msg import Float64, String
 from std_srvs.srv import Trigger
 
 from auv_msgs_py.contract import qos, topics
+from auv_msgs_py.contract.claim import Claim
 from auv_msgs_py.contract.conversions import finite, stamp_of
 from auv_msgs_py.contract.mission_word import PERIOD, MissionWord
 from auv_msgs_py.contract.topics import Topic
-from auv_msgs_py.node.claim import Claim
 from auv_msgs_py.node.graph_look import GraphLook
 from auv_msgs_py.values.errors import MessageRefused
 from auv_path_following.missions.mission_state import State

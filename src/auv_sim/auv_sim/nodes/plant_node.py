@@ -11,6 +11,7 @@ from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.claim import Claim, of_simulator
 from auv_msgs_py.contract.conversions import (
     fill_current,
     fill_odometry,
@@ -20,7 +21,6 @@ from auv_msgs_py.contract.conversions import (
 )
 from auv_msgs_py.contract.mission_word import MissionWord
 from auv_msgs_py.contract.wire import Clock, Float64, Odometry, TwistWithCovarianceStamped, Vector3Stamped
-from auv_msgs_py.node.claim import Claim, of_simulator
 from auv_msgs_py.node.runtime import SuiteNode, run_nodes
 from auv_msgs_py.values.types import STOP, Command
 from auv_path_following import vehicle

@@ -15,10 +15,10 @@ from rosbags.interfaces import QosDurability, QosReliability
 from rosbags.rosbag2.metadata import parse_qos
 from rosgraph_msgs.msg import Clock as ClockMessage
 
+from auv_msgs_py.contract.claim import Claim
 from auv_msgs_py.contract.conversions import set_stamp
 from auv_msgs_py.contract.qos import message_class
 from auv_msgs_py.contract.topics import CLOCK
-from auv_msgs_py.node.claim import Claim
 from auv_msgs_py.node.graph_look import GraphLook, GraphTaken
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.playing.keyboard import Keyboard

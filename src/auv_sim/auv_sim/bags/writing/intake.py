@@ -19,6 +19,7 @@ from auv_msgs_py.contract.conversions import stamp_of
 from auv_msgs_py.contract.qos import message_class
 from auv_msgs_py.contract.topics import CLOCK
 from auv_msgs_py.contract.wire import Clock, ForeignLayout
+from auv_msgs_py.node.private_rclpy import take_polled
 from auv_msgs_py.values.errors import MessageRefused
 from auv_sim.bags.sequence_watch import SequenceWatch
 from auv_sim.bags.writing.bag_writer import Channel
@@ -73,9 +74,7 @@ class PolledTopic:
         self._subscription: Subscription = self._node.create_subscription(
             self._type, self.name, lambda _: None, profile, raw=True
         )
-        # Hidden from executors before one has looked, or it would wake up for every message.
-        self._node._subscriptions.remove(self._subscription)
-        self._take = self._subscription.handle.take_message
+        self._take = take_polled(self._node, self._subscription)
 
     def resubscribe(self, profile: QoSProfile) -> None:
         """Ask for another QoS, unless something has come by now: it would go with the old subscription."""

@@ -16,12 +16,12 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 import rclpy
-from rclpy._rclpy_pybind11 import RCLError
 from rclpy.serialization import serialize_message
 
 from auv_msgs_py.contract import qos, topics
+from auv_msgs_py.contract.claim import Claim
 from auv_msgs_py.contract.topics import Topic
-from auv_msgs_py.node.claim import Claim
+from auv_msgs_py.node.private_rclpy import RCLError
 from auv_msgs_py.node.transport import WirePublisher
 
 #: All that it publishes on.

@@ -19,8 +19,8 @@ from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64
 
 from auv_msgs_py.contract import qos
+from auv_msgs_py.contract.claim import Claim
 from auv_msgs_py.contract.conversions import set_stamp
-from auv_msgs_py.node.claim import Claim
 from auv_msgs_py.node.graph_look import GraphLook
 from auv_msgs_py.values.types import Command
 from auv_path_following.vehicle import Vehicle

@@ -16,9 +16,9 @@ from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64
 
 from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.claim import Claim, of_simulator
 from auv_msgs_py.contract.conversions import fill_odometry, fill_water_velocity, finite, set_stamp
 from auv_msgs_py.contract.topics import Topic
-from auv_msgs_py.node.claim import Claim, of_simulator
 from auv_msgs_py.node.runtime import SuiteNode, run_nodes
 from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
 from auv_msgs_py.values.types import STOP, WaterVelocity

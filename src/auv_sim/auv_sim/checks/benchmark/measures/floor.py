@@ -32,6 +32,7 @@ from std_srvs.srv import Trigger
 from auv_msgs_py.contract import qos, topics
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.node.lockstep_gate import LockstepGate
+from auv_msgs_py.node.private_rclpy import take_polled
 from auv_sim.checks.benchmark.measures.stopwatch import Stopwatch
 
 NAMESPACE = "/auv"
@@ -165,9 +166,8 @@ class FloorRecorder(Node):  # type: ignore[misc]
         kind = qos.message_class(topic.type)
         profile = qos.requested(topic, reliable=True, depth=qos.RECORDER_DEPTH)
         subscription = self.create_subscription(kind, topic.name, lambda _: None, profile, raw=True)
-        self._subscriptions.remove(subscription)  # polled, so no executor is to wake up for it
         self._counts[topic.name] = 0
-        return topic.name, kind, subscription.handle.take_message
+        return topic.name, kind, take_polled(self, subscription)
 
     def _poll(self) -> None:
         for name, kind, take in self._takes:

@@ -7,7 +7,7 @@ import itertools
 
 import pytest
 
-from auv_msgs_py.node.claim import Claim, decode, of_simulator
+from auv_msgs_py.contract.claim import Claim, decode, of_simulator
 
 MISSION = Claim(
     holder="/auv/mission_launcher", namespace="/auv", names=("ailos_guidance", "remus_plant"), clock=True,
