@@ -1,4 +1,8 @@
-"""A file that only ever holds whole writes: what a full disk cuts in half is taken back and kept."""
+"""A file that only ever holds whole writes. What a full disk cuts in half is taken back and kept.
+
+`mcap.Writer` on a file of Python's leaves the half of a chunk on a full disk, and its own reader stops there
+(test_mcap_library.py).
+"""
 
 from __future__ import annotations
 
@@ -7,11 +11,11 @@ from pathlib import Path
 
 
 class Journal:
-    """Collects bytes in memory and hands them to the operating system all at once, or not at all.
+    """Collect bytes in memory and hand them to the operating system all at once, or not at all.
 
     Bytes that the operating system has survive the end of this process, however it ends. When a commit
     fails (disk full, quota, file too large) the file is cut back to the last good commit and the bytes
-    stay in memory, so that the next commit may still bring them in.
+    stay in memory for the next commit.
 
     Args:
         path: the file to make; it must not exist.
@@ -26,7 +30,7 @@ class Journal:
         self._parts: list[bytes] = []
         self._committed = 0
         self.pending = 0
-        #: Why the last commit failed; None when it did not.
+        #: Why the last commit failed; None where it succeeded.
         self.error: OSError | None = None
 
     @property
@@ -40,7 +44,7 @@ class Journal:
         self.pending += len(data)
 
     def commit(self) -> bool:
-        """Hand over everything that is pending; False (see `error`) when it does not fit."""
+        """Hand over everything that is pending; return False (see `error`) where it does not fit."""
         if not self._parts:
             return self.error is None
         data = b"".join(self._parts)
@@ -59,7 +63,7 @@ class Journal:
         return True
 
     def close(self) -> None:
-        """Commit and wait until the disk has it; what cannot be committed now is given up."""
+        """Commit and wait until it is on the disk; what cannot be committed now is given up."""
         self.commit()
         os.fsync(self._fd)
         os.close(self._fd)

@@ -1,7 +1,7 @@
-"""Reads an MCAP file from front to back and gets out of it what can be got, however damaged it is.
+"""Read everything that is readable in an MCAP file, from front to back, however damaged it is.
 
-The readers of `mcap` and `rosbags` want a whole file. This one needs neither the index nor the end, checks
-every chunk, skips what is damaged and says what it skipped.
+The readers of `mcap` end at the first damage (test_mcap_library.py), those of `rosbags` want the index. This
+one needs neither the index nor the end, checks every chunk, skips what is damaged and reports it.
 """
 
 from __future__ import annotations
@@ -107,14 +107,11 @@ class _Scanner:
 
     def run(self) -> ScanResult:
         data, size = self._data, len(self._data)
-        position = 0
-        if data[: len(MAGIC)] == MAGIC:
-            position = len(MAGIC)
-        elif self._next_chunk(0) is None:
-            raise ConfigurationError(str(self._path), "neither its beginning nor any part of it", _MCAP)
-        else:
+        if data[: len(MAGIC)] != MAGIC:
+            if self._next_chunk(0) is None:
+                raise ConfigurationError(str(self._path), "neither its beginning nor any part of it", _MCAP)
             self._notes.append("the first bytes are damaged")
-        closed, reached = False, position
+        closed, position, reached = False, len(MAGIC), len(MAGIC)
         while position + _RECORD.size <= size:
             opcode, length = _RECORD.unpack_from(data, position)
             end = position + _RECORD.size + length
