@@ -150,6 +150,23 @@ def ros_domain(text: str) -> int:
     return int(text)
 
 
+class Renamed(argparse.Action):
+    """An option under a former name: it works as before, and a notice names the present one.
+
+    Args of `add_argument`: ``dest`` of the present option, and ``help=argparse.SUPPRESS``.
+    """
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: object,
+        option: str | None = None,
+    ) -> None:
+        say(f"notice {option} is now --{self.dest.replace('_', '-')}", error=True)
+        setattr(namespace, self.dest, values)
+
+
 def to_type(script: str, *words: object, **options: object) -> str:
     """A command of `scripts/` for people to type, quoted for the shell.
 

@@ -172,3 +172,13 @@ def test_a_vehicle_without_a_hull_needs_limits_and_flies_by_those_that_the_launc
     ]
     errors = [float(np.sqrt(np.mean(run.ye**2))) for run in runs]
     assert errors[1] < 1.5 * errors[0]  # narrower limits: they assume a sluggish hull
+
+
+def test_the_former_name_of_the_controller_model_still_serves(capsys):
+    options = mission_command.parser().parse_args(["--believed", "remus100_table2"])
+    assert options.controller_model == "remus100_table2"
+    assert capsys.readouterr().err == "notice --believed is now --controller-model\n"
+    assert (
+        mission_command.parser().parse_args(["--controller-model", "remus100"]).controller_model == "remus100"
+    )
+    assert capsys.readouterr().err == ""

@@ -62,7 +62,11 @@ def load(path: Path, cls: type[T]) -> T:
     Raises:
         ConfigurationError: one line with file and key, what was found and what was expected.
     """
-    data = parse(path)
+    return checked(parse(path), path, cls)
+
+
+def checked(data: Any, path: Path, cls: type[T]) -> T:
+    """Build a settings class from the content of a YAML file; raises as `load` does."""
     if data is None:
         raise ConfigurationError(str(path), "an empty file", "a mapping of keys to values")
     return validated(cls, data, str(path))

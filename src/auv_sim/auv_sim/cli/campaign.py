@@ -26,7 +26,7 @@ from auv_msgs_py.settings import user_files
 from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.errors import ConfigurationError, SuiteError
 from auv_path_following import config_files
-from auv_sim.command_line import EXIT_DONE, Parser, at_least_one, command, to_type
+from auv_sim.command_line import EXIT_DONE, Parser, at_least_one, command, say, to_type
 from auv_sim.flight.batch import engine
 from auv_sim.flight.batch.compiled import COMPILED
 from auv_sim.flight.flown_share import percent
@@ -101,6 +101,8 @@ def _store(options: argparse.Namespace) -> Store:
     if user_files.is_directory(given):
         return Store(given)
     plan = StudyPlan(config_files.find("studies", options.study).absolute())
+    for notice in plan.notices:
+        say(f"notice {notice}", error=True)
     return Store((options.out or Path("campaigns") / plan.source.stem).absolute(), plan)
 
 

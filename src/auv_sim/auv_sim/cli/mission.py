@@ -11,6 +11,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_sim.command_line import (
     Parser,
+    Renamed,
     add_flown_option,
     command,
     finite,
@@ -44,10 +45,11 @@ def parser() -> argparse.ArgumentParser:
         help=f"file or one of: {shipped['vehicles']}",
     )
     p.add_argument(
-        "--believed",
+        "--controller-model",
         metavar="FILE",
-        help="the hull as the nodes know it, where the simulator has another (default: --vehicle's)",
+        help="the nodes' model of the hull, where the simulator has another hull (default: --vehicle's)",
     )
+    p.add_argument("--believed", dest="controller_model", action=Renamed, help=argparse.SUPPRESS)
     p.add_argument(
         "--params", default=DEFAULT_PARAMS, metavar="FILE", help=f"file or one of: {shipped['params']}"
     )

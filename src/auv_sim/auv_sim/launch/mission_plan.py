@@ -47,7 +47,7 @@ class Plan:
     parameters: dict[str, Any]
     sources: dict[str, Path]
     verdicts: Verdicts
-    believed: Vehicle
+    controller_model: Vehicle
     emulator: tuple[str, ...] | None = None
 
     @property
@@ -94,7 +94,7 @@ class Plan:
             guidance=self.parameters[topics.GUIDANCE].guidance,
             observer=self.parameters[topics.OBSERVER].observer,
             autopilot=self.parameters[topics.AUTOPILOT].autopilot,
-            controller_vehicle=self.believed,
+            controller_vehicle=self.controller_model,
         )
 
     def write(self, directory: Path) -> Path:
@@ -108,15 +108,15 @@ class Plan:
         """
         directory.mkdir(parents=True)
         here = {"mission": self.mission.copy_to(directory)}
-        for kind in ("vehicle", "believed", "sea"):
+        for kind in ("vehicle", "controller_model", "sea"):
             if kind in self.sources:
                 here[kind] = directory / f"{kind}.yaml"
                 result_files.copy(self.sources[kind], here[kind])
         told = {}
         for name, settings in self.parameters.items():
             its = {k: str(here[k]) for k in here if hasattr(settings, k)}
-            if "vehicle" in its and "believed" in here and name != topics.PLANT:
-                its["vehicle"] = str(here["believed"])
+            if "vehicle" in its and "controller_model" in here and name != topics.PLANT:
+                its["vehicle"] = str(here["controller_model"])
             told[name] = dataclasses.replace(settings, **its)
         target = directory / "params.yaml"
         yaml_file.dump(params_file.as_ros(told), target)
@@ -138,12 +138,12 @@ def make(options: Options, directory: Path) -> Plan:
         "vehicle": config_files.find("vehicles", options.vehicle).absolute(),
         "params": config_files.find("params", options.params).absolute(),
     }
-    hull = believed = vehicle.load(str(sources["vehicle"]))
-    if options.believed is not None:
-        sources["believed"] = config_files.find("vehicles", options.believed).absolute()
-        believed = vehicle.load(str(sources["believed"]))
-    known = str(sources.get("believed", sources["vehicle"]))
-    mission = mission_file.load(str(sources["mission"]), believed)
+    hull = model = vehicle.load(str(sources["vehicle"]))
+    if options.controller_model is not None:
+        sources["controller_model"] = config_files.find("vehicles", options.controller_model).absolute()
+        model = vehicle.load(str(sources["controller_model"]))
+    model_file = str(sources.get("controller_model", sources["vehicle"]))
+    mission = mission_file.load(str(sources["mission"]), model)
     if (options.simulator or options.emulator) and hull.hull is None:
         raise ConfigurationError(
             f"{sources['vehicle']}: hull",
@@ -156,12 +156,12 @@ def make(options: Options, directory: Path) -> Plan:
     timing["recorded"] = timing["lockstep"]
     for name in parameters:
         parameters[name] = dataclasses.replace(parameters[name], **timing)
-    _try_gains(believed, parameters[topics.AUTOPILOT], sources["params"])
+    _try_gains(model, parameters[topics.AUTOPILOT], sources["params"])
     wishes = parameters[topics.GUIDANCE].with_wishes_of(mission).guidance
     _tell(parameters, topics.GUIDANCE, guidance=wishes, mission_switching=False)
-    _tell(parameters, topics.GUIDANCE, mission=str(sources["mission"]), vehicle=known)
-    _tell(parameters, topics.OBSERVER, vehicle=known)
-    _tell(parameters, topics.AUTOPILOT, vehicle=known)
+    _tell(parameters, topics.GUIDANCE, mission=str(sources["mission"]), vehicle=model_file)
+    _tell(parameters, topics.OBSERVER, vehicle=model_file)
+    _tell(parameters, topics.AUTOPILOT, vehicle=model_file)
     _tell(
         parameters,
         topics.PLANT,
@@ -196,7 +196,7 @@ def make(options: Options, directory: Path) -> Plan:
         emulator = tell_driver(driver, options.vehicle_address, options.speed, file, parameters)
     for name in {topics.PLANT, *DRIVERS.values()} - {topics.PLANT if options.simulator else driver}:
         del parameters[name]
-    return Plan(options, mission, hull, parameters, sources, verdicts, believed, emulator)
+    return Plan(options, mission, hull, parameters, sources, verdicts, model, emulator)
 
 
 def scenario(options: Options) -> Scenario:

@@ -23,7 +23,7 @@ class Options:
 
     mission: str = DEFAULT_MISSION
     vehicle: str = DEFAULT_VEHICLE
-    believed: str | None = None
+    controller_model: str | None = None
     params: str = DEFAULT_PARAMS
     current: tuple[float, float] | None = None
     initial: tuple[float, float, float] | None = None

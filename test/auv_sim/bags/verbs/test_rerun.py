@@ -127,15 +127,16 @@ def test_the_chain_flies_as_the_closed_loop_did(
     assert found["thrust_cmd"]["identical"] == found["thrust_cmd"]["compared"]
 
 
-def test_what_the_nodes_believed_counts_and_not_the_vehicle_that_flew(
-    run_directory: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize("name", ["controller_model.yaml", "believed.yaml"], ids=["present", "former name"])
+def test_the_nodes_model_of_the_hull_counts_and_not_the_vehicle_that_flew(
+    run_directory: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str
 ) -> None:
-    """A vehicle with half of the rudder and half of the thrust, which nobody told the nodes."""
+    """A vehicle with half of the rudder and half of the thrust that the nodes are configured with."""
     run = tmp_path / "run"
     shutil.copytree(run_directory, run)
     config = run / "config"
-    (config / "vehicle.yaml").rename(config / "believed.yaml")
-    content = yaml_file.parse(config / "believed.yaml")
+    (config / "vehicle.yaml").rename(config / name)
+    content = yaml_file.parse(config / name)
     content["rudder"]["max_angle_deg"] /= 2
     content["thrust_max"] /= 2
     yaml_file.dump(content, config / "vehicle.yaml")

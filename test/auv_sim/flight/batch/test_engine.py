@@ -44,9 +44,9 @@ FLIGHTS = {
     "paper, corners cut late": {"guidance": BARE, "params": "paper", "mode": "off", "initial": ASIDE},
     "table 2, limit cycle": {"params": "paper", "hull": "remus100_table2", "guidance": BARE,
                              "initial": ASIDE},
-    "weak rudder": {"hull": "remus100_mismatch", "believed": "remus100", "current": CURRENT},
+    "weak rudder": {"hull": "remus100_mismatch", "controller_model": "remus100", "current": CURRENT},
     "pid": {"params": "paper", "autopilot": {"controller": "pid"}, "current": CURRENT},
-    "smc": {"params": "paper", "autopilot": {"controller": "smc"}, "believed": "remus100_table2"},
+    "smc": {"params": "paper", "autopilot": {"controller": "smc"}, "controller_model": "remus100_table2"},
     "smc, shaped": {"autopilot": {"controller": "smc"}, "current": CURRENT},
     "filtered dr/dt": {"autopilot": {"derivative": DerivativeConfig(bandwidth=4.0)},
                        "initial": ASIDE, "guidance": BARE},
@@ -65,7 +65,7 @@ FLIGHTS = {
 
 
 def scenario(
-    params="robust", mission="paper_composite", hull="remus100", believed=None, mode=None, **changes
+    params="robust", mission="paper_composite", hull="remus100", controller_model=None, mode=None, **changes
 ) -> Scenario:
     told = params_file.load(config_files.find("params", params), SUITE)
     guidance, autopilot = told[topics.GUIDANCE].guidance, told[topics.AUTOPILOT].autopilot
@@ -79,7 +79,7 @@ def scenario(
         guidance=dataclasses.replace(guidance, **changes.pop("guidance", {})),
         observer=told[topics.OBSERVER].observer,
         autopilot=dataclasses.replace(autopilot, **changes.pop("autopilot", {})),
-        controller_vehicle=vehicle.load(believed) if believed else None,
+        controller_vehicle=vehicle.load(controller_model) if controller_model else None,
         **({"time_limit": 160.0} | changes),
     )
 

@@ -103,6 +103,16 @@ def test_every_name_reaches_the_flight(tmp_path: Path) -> None:
     assert told.autopilot.reference.enabled  # what is not varied is the file's
 
 
+def test_the_former_key_of_the_controller_model_still_serves(tmp_path: Path) -> None:
+    text = "{}: remus100_table2\n"
+    former = study(tmp_path, text.format("believed"))
+    present = study(tmp_path, text.format("controller_model"))
+    assert former.study == present.study
+    assert former.scenario(0).controller_vehicle == present.scenario(0).controller_vehicle
+    assert former.scenario(0).controller_vehicle != former.scenario(0).vehicle
+    assert (former.notices, present.notices) == ((f"{former.where}: believed is now controller_model",), ())
+
+
 def test_the_seed_of_the_sea_is_the_runs(tmp_path: Path) -> None:
     plan = study(tmp_path, "sea: rough\nruns: 4\n")
     seeds = [plan.scenario(k).seed for k in range(4)]

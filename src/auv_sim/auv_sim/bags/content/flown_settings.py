@@ -5,11 +5,18 @@ from __future__ import annotations
 from typing import Any
 
 from auv_msgs_py.settings import yaml_file
-from auv_sim.bags.content.recorded_mission import BELIEVED, MISSION, PARAMS, VEHICLE, configuration
+from auv_sim.bags.content.recorded_mission import (
+    CONTROLLER_MODEL,
+    FORMER_CONTROLLER_MODEL,
+    MISSION,
+    PARAMS,
+    VEHICLE,
+    configuration,
+)
 from auv_sim.bags.reading.bag import Bag
 
 #: Files that the parameters name: their content counts, not where they lay.
-_FILES = (MISSION, VEHICLE, BELIEVED, "sea.yaml")
+_FILES = (MISSION, VEHICLE, FORMER_CONTROLLER_MODEL, CONTROLLER_MODEL, "sea.yaml")
 #: Parameters that say where something lay.
 _PLACES = ("directory", "mission", "vehicle", "sea")
 
@@ -26,7 +33,8 @@ def settings_of(bag: Bag) -> dict[str, str]:
         for file in _FILES:
             if (directory / file).exists():
                 content = _mapping(yaml_file.parse(directory / file))
-                values |= {f"{file} {key}": str(value) for key, value in dotted(content).items()}
+                name = CONTROLLER_MODEL if file == FORMER_CONTROLLER_MODEL else file
+                values |= {f"{name} {key}": str(value) for key, value in dotted(content).items()}
     return values
 
 

@@ -26,7 +26,7 @@ from auv_sim.parameters import SUITE
 #: The files that the launcher writes and the recorder keeps.
 MISSION, VEHICLE, PARAMS = "mission.yaml", "vehicle.yaml", "params.yaml"
 #: The hull as the nodes knew it; only there where it was not the vehicle's.
-BELIEVED = "believed.yaml"
+CONTROLLER_MODEL, FORMER_CONTROLLER_MODEL = "controller_model.yaml", "believed.yaml"
 
 
 @dataclass
@@ -83,26 +83,26 @@ def flight_of(bag: Bag, mission: str | None = None, namespace: str | None = None
         if "several topics" in error.found or error.where == "--odometry":
             raise
         notes.append(f"no mission figures: {_without_place(error, bag)}")
-    flown = hull = believed = None
+    flown = hull = model = None
     with configuration(bag) as directory:
         if (directory / VEHICLE).exists():
             with _noted(notes):
                 hull = vehicle.load(str(directory / VEHICLE))
-                believed = vehicle.load(str(known_hull(directory)))
+                model = vehicle.load(str(controller_model(directory)))
         if mission is not None:
-            flown = mission_file.load(str(config_files.find("missions", mission)), believed)
+            flown = mission_file.load(str(config_files.find("missions", mission)), model)
         elif (directory / MISSION).exists():
             with _noted(notes):
-                flown = mission_file.load(str(directory / MISSION), believed)
+                flown = mission_file.load(str(directory / MISSION), model)
     if flown is None and run is not None:
         notes.append("no mission file in or beside the recording: name one with --mission for the figures")
     return Flight(bag, run, flown, hull, [printable(note) for note in notes])
 
 
-def known_hull(directory: Path) -> Path:
-    """The file of the hull that observer, guidance and autopilot were given; it need not exist."""
-    believed = directory / BELIEVED
-    return believed if believed.exists() else directory / VEHICLE
+def controller_model(directory: Path) -> Path:
+    """Return the file of the hull that the nodes were configured with; it may be absent."""
+    names = (CONTROLLER_MODEL, FORMER_CONTROLLER_MODEL, VEHICLE)
+    return next((directory / name for name in names if (directory / name).exists()), directory / VEHICLE)
 
 
 def texts_of(bag: Bag) -> dict[str, str]:

@@ -24,7 +24,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files, vehicle
 from auv_path_following.missions import mission_file
 from auv_sim.bags.content.flown_settings import dotted
-from auv_sim.bags.content.recorded_mission import MISSION, PARAMS, configuration, known_hull
+from auv_sim.bags.content.recorded_mission import MISSION, PARAMS, configuration, controller_model
 from auv_sim.bags.content.rerun_chain import Answers, answers
 from auv_sim.bags.reading.bag import read_bag
 from auv_sim.bags.reading.load import is_used
@@ -104,7 +104,10 @@ def rerun(
     with configuration(bag) as directory:
         parameters = _parameters(directory / PARAMS, params)
         chosen = {}
-        recorded = {"missions": (directory / MISSION, mission), "vehicles": (known_hull(directory), hull)}
+        recorded = {
+            "missions": (directory / MISSION, mission),
+            "vehicles": (controller_model(directory), hull),
+        }
         for kind, (file, given) in recorded.items():
             if given is not None:
                 chosen[kind] = config_files.find(kind, given)  # type: ignore[arg-type]

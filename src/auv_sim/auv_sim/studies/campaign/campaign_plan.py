@@ -25,7 +25,7 @@ from auv_sim.flight.closed_loop import Scenario
 from auv_sim.parameters import SUITE
 from auv_sim.studies.campaign import targets
 from auv_sim.studies.campaign.distributions import Value
-from auv_sim.studies.campaign.study_file import Study
+from auv_sim.studies.campaign.study_file import load_study
 from auv_sim.vehicle import sea
 from auv_sim.vehicle.sea import Sea
 
@@ -56,7 +56,8 @@ class StudyPlan:
             if bundled.is_file()
             else {}
         )
-        self.study = study = yaml_file.load(source, Study)
+        self.study, self.notices = load_study(source)
+        study = self.study
         self.grids = [name for name, distribution in study.vary.items() if distribution.grid is not None]
         self.points: list[tuple[Value, ...]] = list(
             itertools.product(*[study.vary[name].grid or () for name in self.grids])
@@ -83,7 +84,7 @@ class StudyPlan:
             yield "missions", name, (mission.source, *mission.files)
         for name in self.words("params"):
             yield "params", name, (Path(self.file("params", name)),)
-        for name in dict.fromkeys(filter(None, (*self.words("vehicle"), study.believed))):
+        for name in dict.fromkeys(filter(None, (*self.words("vehicle"), study.controller_model))):
             yield "vehicles", name, (Path(self.file("vehicles", name)),)
         if study.sea:
             yield "seas", study.sea, (Path(self.file("seas", study.sea)),)
@@ -98,7 +99,7 @@ class StudyPlan:
     def mission_of(self, values: dict[str, Value]) -> Mission:
         """The mission that is flown with these values of the varied parameters."""
         name, hull = (str(values.get(word, getattr(self.study, word))) for word in ("mission", "vehicle"))
-        return self.mission(name, self.study.believed or hull)
+        return self.mission(name, self.study.controller_model or hull)
 
     @functools.cache  # noqa: B019 - a plan lives as long as its process
     def mission(self, name: str, hull: str) -> Mission:
@@ -181,7 +182,7 @@ class StudyPlan:
             guidance=configs["guidance"],
             observer=configs["observer"],
             autopilot=configs["autopilot"],
-            controller_vehicle=self.hull(study.believed) if study.believed else hull,
+            controller_vehicle=self.hull(study.controller_model) if study.controller_model else hull,
             time_limit=study.time_limit,
         )
 

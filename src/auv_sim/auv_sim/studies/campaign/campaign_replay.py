@@ -82,7 +82,7 @@ def write_files(plan: StudyPlan, number: int, directory: Path) -> None:
     directory.mkdir(parents=True)
     mission.copy_to(directory)
     yaml_file.dump(_written(scenario.vehicle), directory / "vehicle.yaml")
-    yaml_file.dump(_written(scenario.controller_vehicle), directory / "believed.yaml")
+    yaml_file.dump(_written(scenario.controller_vehicle), directory / "controller_model.yaml")
     plant: dict[str, Any] = {"step": scenario.step, "seed": scenario.seed}
     if scenario.sea is not None:
         yaml_file.dump(_written(scenario.sea), directory / "sea.yaml")
@@ -104,8 +104,8 @@ def write_files(plan: StudyPlan, number: int, directory: Path) -> None:
 
 def command_line(config: Path) -> list[str]:
     """Arguments for `scripts/mission.py`. A campaign flies what the check of a plan would refuse, too."""
-    names = ("mission", "vehicle", "believed", "params")
-    files = [part for name in names for part in (f"--{name}", str(config / f"{name}.yaml"))]
+    names = ("mission", "vehicle", "controller_model", "params")
+    files = [part for name in names for part in (f"--{name.replace('_', '-')}", str(config / f"{name}.yaml"))]
     return [*files, "--force"]
 
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
+from pathlib import Path
 from typing import Annotated, Literal
 
 import pydantic
 
+from auv_msgs_py.settings import yaml_file
 from auv_msgs_py.settings.schema import setting, settings
 from auv_path_following.missions.segment_specs import no_boolean, unfit
 from auv_sim.flight.batch.flight_figures import Flights
@@ -20,6 +22,8 @@ FIGURES = tuple(
     for field in dataclasses.fields(Flights)
     if not field.name.startswith("subpath_") and field.name not in ("completed", "finite")
 )
+#: Keys that have been renamed: former name -> present name.
+_RENAMED = {"believed": "controller_model"}
 _MOST_RUNS = 10_000_000
 _MOST_POINTS = 1_000_000
 
@@ -35,7 +39,7 @@ class Study:
     runs: int = setting(1, "how many flights; with grids, for each point of them", ge=1, le=_MOST_RUNS)
     mission: str = setting("paper_composite", "mission file, or the name of a shipped one")
     vehicle: str = setting("remus100", "the hull that is flown: a file, or the name of a shipped one")
-    believed: str = setting("", "the hull as the autopilot knows it; empty: the vehicle's file as it stands")
+    controller_model: str = setting("", "the autopilot's model of the hull; empty: that of `vehicle`")
     params: str = setting("robust", "gains: parameter file, or the name of a shipped one")
     sea: str = setting("", "sea file, or the name of a shipped one; empty: ideal")
     step: float = setting(0.05, "time between two odometries", unit="s", ge=0.001, le=1.0)
@@ -68,3 +72,21 @@ class Study:
         if cells * self.runs > _MOST_RUNS:
             raise unfit(f"{cells * self.runs} flights", f"at most {_MOST_RUNS}")
         return self
+
+
+def load_study(source: Path) -> tuple[Study, tuple[str, ...]]:
+    """Read a study file; keys under a former name are accepted.
+
+    Returns:
+        The study, and a notice for each key that has been renamed.
+
+    Raises:
+        ConfigurationError: one line with file and key, what was found and what was expected.
+    """
+    data = yaml_file.parse(source)
+    notices = []
+    for former, present in _RENAMED.items():
+        if isinstance(data, dict) and former in data and present not in data:
+            data[present] = data.pop(former)
+            notices.append(f"{source}: {former} is now {present}")
+    return yaml_file.checked(data, source, Study), tuple(notices)

@@ -31,13 +31,15 @@ class Plant:
 
     label: str
     hull: str
-    believed: str
+    controller_model: str
 
 
 PLANTS: Mapping[str, Plant] = {
-    "prestero": Plant(label="Prestero", hull="remus100", believed="remus100"),
-    "mismatch": Plant(label="Nuud -4.15 in the plant only", hull="remus100_mismatch", believed="remus100"),
-    "table2": Plant(label="Table 2 as printed", hull="remus100_table2", believed="remus100_table2"),
+    "prestero": Plant(label="Prestero", hull="remus100", controller_model="remus100"),
+    "mismatch": Plant(
+        label="Nuud -4.15 in the plant only", hull="remus100_mismatch", controller_model="remus100"
+    ),
+    "table2": Plant(label="Table 2 as printed", hull="remus100_table2", controller_model="remus100_table2"),
 }
 #: Where figures compare plants.
 PLANT_NAMES = tuple(PLANTS)
@@ -105,7 +107,7 @@ class Flight:
             guidance=guidance,
             observer=parameters[topics.OBSERVER].observer,
             autopilot=autopilot,
-            controller_vehicle=_vehicle(plant.believed),
+            controller_vehicle=_vehicle(plant.controller_model),
             time_limit=self.time_limit,
         )
 
