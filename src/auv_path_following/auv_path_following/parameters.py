@@ -80,7 +80,7 @@ class GuidanceParameters(NavigationParameters):
         live=True,
     )
 
-    def with_wishes_of(self, mission: Mission) -> GuidanceParameters:
+    def with_mission_overrides(self, mission: Mission) -> GuidanceParameters:
         """These parameters with the mission's own switching, unless `mission_switching` is off."""
         if not self.mission_switching:
             return self

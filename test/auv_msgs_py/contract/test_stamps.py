@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from auv_msgs_py.contract.stamps import Punctuality, StampGuard, Timing, Verdict
+from auv_msgs_py.contract.stamps import Punctuality, StampGuard, StampTiming, StampVerdict
 
-ACCEPT, REFUSE, RESTART = Verdict.ACCEPT, Verdict.REFUSE, Verdict.RESTART
+ACCEPT, REFUSE, RESTART = StampVerdict.ACCEPT, StampVerdict.REFUSE, StampVerdict.RESTART
 
 
 def verdicts(stamps, ordered=False):
@@ -88,7 +88,7 @@ def timings(pairs, bound=1.0):
 @pytest.mark.parametrize("offset", [0.0, -1e9, 37.5])
 def test_a_clock_that_is_wrong_is_none_of_our_business(offset):
     pairs = [(1000.0 + 0.1 * k, 1000.0 + 0.1 * k + offset) for k in range(100)]
-    assert set(timings(pairs)) == {Timing.PUNCTUAL}
+    assert set(timings(pairs)) == {StampTiming.PUNCTUAL}
 
 
 def test_messages_that_begin_to_come_late_are_late_until_they_come_in_time():
@@ -96,25 +96,26 @@ def test_messages_that_begin_to_come_late_are_late_until_they_come_in_time():
     late = [(14.0 + 0.1 * k, 12.0 + 0.1 * k) for k in range(300)]
     again = [(45.0 + 0.1 * k, 45.0 + 0.1 * k) for k in range(3)]
     verdicts = timings(good + late + again)
-    assert set(verdicts[20:320]) == {Timing.LATE}
-    assert set(verdicts[320:]) == {Timing.PUNCTUAL}
+    assert set(verdicts[20:320]) == {StampTiming.LATE}
+    assert set(verdicts[320:]) == {StampTiming.PUNCTUAL}
 
 
 def test_two_clocks_may_drift_apart():
     pairs = [(k * 0.1, k * 0.1 * (1.0 - 5e-4)) for k in range(1, 100_000, 10)]
-    assert set(timings(pairs)) == {Timing.PUNCTUAL}
+    assert set(timings(pairs)) == {StampTiming.PUNCTUAL}
 
 
 def test_a_lone_stamp_from_the_future_is_refused_and_a_clock_set_forward_is_believed():
     assert timings([(10.0, 10.0), (10.1, 110.0), (10.2, 10.2)]) == [
-        Timing.PUNCTUAL, Timing.EARLY, Timing.PUNCTUAL,
+        StampTiming.PUNCTUAL, StampTiming.EARLY, StampTiming.PUNCTUAL,
     ]  # fmt: skip
     assert timings([(10.0, 10.0), (10.1, 110.0), (10.2, 110.1), (10.3, 110.2)]) == [
-        Timing.PUNCTUAL, Timing.EARLY, Timing.STEPPED, Timing.PUNCTUAL,
+        StampTiming.PUNCTUAL, StampTiming.EARLY, StampTiming.STEPPED, StampTiming.PUNCTUAL,
     ]  # fmt: skip
 
 
 def test_an_unset_clock_judges_nothing_and_one_that_goes_back_begins_anew():
     assert (
-        timings([(0.0, 500.0), (0.0, 1.0), (500.0, 500.0), (1.0, 1.0), (1.1, 1.1)]) == [Timing.PUNCTUAL] * 5
+        timings([(0.0, 500.0), (0.0, 1.0), (500.0, 500.0), (1.0, 1.0), (1.1, 1.1)])
+        == [StampTiming.PUNCTUAL] * 5
     )

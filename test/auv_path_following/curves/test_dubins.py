@@ -12,27 +12,27 @@ from hypothesis import strategies as st
 from auv_msgs_py.values.angles import TWO_PI, wrap
 from auv_path_following.curves import dubins
 from auv_path_following.curves.composite import CompositePath
-from auv_path_following.curves.dubins import Pose
+from auv_path_following.curves.dubins import PlanarPose
 
 _far = st.floats(-60.0, 60.0)
 _near = st.floats(-15.0, 15.0)
 _course = st.floats(-4.0, 4.0)
-poses = st.builds(Pose, _far, _far, _course) | st.builds(Pose, _near, _near, _course)
+poses = st.builds(PlanarPose, _far, _far, _course) | st.builds(PlanarPose, _near, _near, _course)
 radii = st.sampled_from([4.0, 10.0])
 
 
-def _after(pose: Pose, side: float, angle: float, radius: float) -> Pose:
+def _after(pose: PlanarPose, side: float, angle: float, radius: float) -> PlanarPose:
     """Turn by `angle` to one side."""
     cx, cy = pose.x - side * radius * math.sin(pose.chi), pose.y + side * radius * math.cos(pose.chi)
     chi = pose.chi + side * angle
-    return Pose(cx + side * radius * math.sin(chi), cy - side * radius * math.cos(chi), chi)
+    return PlanarPose(cx + side * radius * math.sin(chi), cy - side * radius * math.cos(chi), chi)
 
 
-def _centre(pose: Pose, side: float, radius: float) -> tuple[float, float]:
+def _centre(pose: PlanarPose, side: float, radius: float) -> tuple[float, float]:
     return pose.x - side * radius * math.sin(pose.chi), pose.y + side * radius * math.cos(pose.chi)
 
 
-def _searched(start: Pose, end: Pose, radius: float) -> float:
+def _searched(start: PlanarPose, end: PlanarPose, radius: float) -> float:
     """The least length over first turns and kinds: for each first turn the rest follows, or it does not fit.
 
     The size of the first turn is found by scanning for changes of sign and bisecting them.
@@ -118,11 +118,11 @@ def test_it_is_never_longer_than_any_word(start, end, radius):
 @settings(deadline=None)
 @given(poses, poses, radii)
 def test_mirror_image_and_way_back_are_as_long(start, end, radius):
-    def mirrored(pose: Pose) -> Pose:
-        return Pose(pose.x, -pose.y, -pose.chi)
+    def mirrored(pose: PlanarPose) -> PlanarPose:
+        return PlanarPose(pose.x, -pose.y, -pose.chi)
 
-    def turned(pose: Pose) -> Pose:
-        return Pose(pose.x, pose.y, pose.chi + math.pi)
+    def turned(pose: PlanarPose) -> PlanarPose:
+        return PlanarPose(pose.x, pose.y, pose.chi + math.pi)
 
     length = dubins.shortest(start, end, radius).size
     assert dubins.shortest(mirrored(start), mirrored(end), radius).size == pytest.approx(length, abs=1e-6)
@@ -132,24 +132,26 @@ def test_mirror_image_and_way_back_are_as_long(start, end, radius):
 @pytest.mark.parametrize(
     ("end", "letters"),
     [
-        (Pose(60.0, 0.0, 0.0), "LSL"),  # straight ahead: turns of no size
-        (Pose(0.0, 40.0, math.pi), "RSR"),
-        (Pose(0.0, -40.0, math.pi), "LSL"),
-        (Pose(60.0, 60.0, 0.0), "RSL"),
-        (Pose(60.0, -60.0, 0.0), "LSR"),
-        (Pose(0.0, 5.0, math.pi), "LRL"),
-        (Pose(0.0, -5.0, math.pi), "RLR"),
+        (PlanarPose(60.0, 0.0, 0.0), "LSL"),  # straight ahead: turns of no size
+        (PlanarPose(0.0, 40.0, math.pi), "RSR"),
+        (PlanarPose(0.0, -40.0, math.pi), "LSL"),
+        (PlanarPose(60.0, 60.0, 0.0), "RSL"),
+        (PlanarPose(60.0, -60.0, 0.0), "LSR"),
+        (PlanarPose(0.0, 5.0, math.pi), "LRL"),
+        (PlanarPose(0.0, -5.0, math.pi), "RLR"),
     ],
 )
 def test_all_six_words_are_used(end, letters):
-    assert dubins.shortest(Pose(0.0, 0.0, 0.0), end, 10.0).letters == letters
+    assert dubins.shortest(PlanarPose(0.0, 0.0, 0.0), end, 10.0).letters == letters
 
 
 def test_one_pose_needs_no_way():
-    pose = Pose(3.0, 4.0, 0.5)
+    pose = PlanarPose(3.0, 4.0, 0.5)
     assert dubins.connect(pose, pose, 10.0) == []
 
 
 def test_along_one_circle_it_stays_on_it():
-    segments = dubins.connect(Pose(0.0, 0.0, 0.0), _after(Pose(0.0, 0.0, 0.0), 1.0, 2.0, 12.0), 12.0)
+    segments = dubins.connect(
+        PlanarPose(0.0, 0.0, 0.0), _after(PlanarPose(0.0, 0.0, 0.0), 1.0, 2.0, 12.0), 12.0
+    )
     assert _length(segments) == pytest.approx(24.0, abs=1e-6)

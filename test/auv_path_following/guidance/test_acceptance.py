@@ -16,8 +16,8 @@ from auv_path_following.control.autopilot import HeadingAutopilot
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.kinds.line import Line
 from auv_path_following.guidance.acceptance import (
-    Corner,
     Cornering,
+    JointCorner,
     acceptance_radius,
     corner_of,
     cornering_of,
@@ -41,7 +41,7 @@ angles = st.floats(-math.pi, math.pi)
 
 
 def corner(degrees, widest=1000.0, chi=0.3):
-    return Corner(chi, chi + math.radians(degrees), widest)
+    return JointCorner(chi, chi + math.radians(degrees), widest)
 
 
 def radius(degrees, current=NO_CURRENT, cornering=SIMPLE, widest=1000.0):
@@ -81,7 +81,7 @@ def test_the_crab_angle_keeps_the_course(chi, strength, direction):
 
 def test_ground_speed_and_change_of_heading_count():
     """Leg in to the north, leg out to the east, a current of 0.5 m/s."""
-    square = Corner(0.0, math.pi / 2, 1000.0)
+    square = JointCorner(0.0, math.pi / 2, 1000.0)
     north, east = (
         acceptance_radius(SIMPLE, square, DELTA, U, Current(*current)) for current in ((0.5, 0.0), (0.0, 0.5))
     )

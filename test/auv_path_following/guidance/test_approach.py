@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from auv_msgs_py.values.types import NO_CURRENT, Current, Navigation, WaterVelocity
 from auv_path_following import vehicle
 from auv_path_following.curves.composite import CompositePath
-from auv_path_following.curves.dubins import Pose, connect
+from auv_path_following.curves.dubins import PlanarPose, connect
 from auv_path_following.curves.kinds.line import Line
 from auv_path_following.curves.rows import AFTER, KIND, LENGTH, LINE, F, PathRows, evaluate
 from auv_path_following.guidance.acceptance import Cornering
@@ -74,7 +74,7 @@ def test_near_means_three_metres_and_sixty_degrees(x: float, y: float, off: floa
     psi = math.pi - 0.1 + math.radians(off)  # across the seam of the angles
     assert is_at(50.0 + x, 20.0 + y, psi, 50.0, 20.0, math.pi - 0.1) is near
     start = Navigation(50.0 + x, 20.0 + y, psi, 0.0)
-    legs = plan(empty_approach(), Pose(50.0, 20.0, math.pi - 0.1), start, 10.0)
+    legs = plan(empty_approach(), PlanarPose(50.0, 20.0, math.pi - 0.1), start, 10.0)
     assert (legs == 0) is near
 
 
@@ -83,7 +83,7 @@ def test_the_last_leg_is_straight_unless_the_vehicle_is_too_close_for_it(
     behind: float, length: float | None
 ) -> None:
     approach = empty_approach()
-    legs = plan(approach, Pose(0.0, 0.0, 0.0), Navigation(-behind, 0.0, 0.0, 0.0), 12.0)
+    legs = plan(approach, PlanarPose(0.0, 0.0, 0.0), Navigation(-behind, 0.0, 0.0, 0.0), 12.0)
     end = approach[legs - 1]
     x, y, dx, dy, _, _ = evaluate(PathRows(legs, approach, ()), end, 1.0)
     assert (x, y) == pytest.approx((0.0, 0.0), abs=1e-9)
@@ -96,11 +96,11 @@ def test_the_last_leg_is_straight_unless_the_vehicle_is_too_close_for_it(
 
 @given(st.floats(-90.0, 90.0), st.floats(-90.0, 90.0), st.floats(-4.0, 4.0), st.floats(4.0, 20.0))
 def test_its_rows_are_those_of_a_dubins_path_and_a_leg(x: float, y: float, psi: float, radius: float):
-    goal = Pose(10.0, -20.0, 0.5)
-    before = Pose(goal.x - radius * math.cos(goal.chi), goal.y - radius * math.sin(goal.chi), goal.chi)
-    direct = CompositePath(connect(Pose(x, y, psi), goal, radius))
+    goal = PlanarPose(10.0, -20.0, 0.5)
+    before = PlanarPose(goal.x - radius * math.cos(goal.chi), goal.y - radius * math.sin(goal.chi), goal.chi)
+    direct = CompositePath(connect(PlanarPose(x, y, psi), goal, radius))
     leg = Line(before.x, before.y, radius, goal.chi)
-    settled = CompositePath([*connect(Pose(x, y, psi), before, radius), leg])
+    settled = CompositePath([*connect(PlanarPose(x, y, psi), before, radius), leg])
     approach = empty_approach()
     legs = plan(approach, goal, Navigation(x, y, psi, 0.0), radius)
     if legs == 0:

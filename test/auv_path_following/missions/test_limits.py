@@ -23,7 +23,7 @@ SQUARE = ((0.0, 0.0), (100.0, 0.0), (100.0, 50.0), (0.0, 50.0))
 DT = 0.1
 
 
-class Limits:
+class MissionRun:
     """Limits of one mission, with the reason as text."""
 
     def __init__(self, config=None, geofence=()):
@@ -57,7 +57,7 @@ def first_broken(limits, track, off_path=lambda _: 0.0, to_go=lambda _: 0.0):
 
 
 def test_a_limit_that_is_set_in_flight_counts_from_the_start():
-    limits = Limits()
+    limits = MissionRun()
     for _ in range(100):
         assert limits.broken(at(0.0, 0.0), 0.0, 0.0, 0.0, 1.0) == ""
     limits.config = prepare(LimitsConfig(duration=101.5))
@@ -71,17 +71,17 @@ def test_a_flight_that_never_has_limits_is_never_ended():
 
 
 def test_without_limits_nothing_ends():
-    assert first_broken(Limits(), lambda t: (1e6 * t, 0.0), lambda t: 1e6) is None
+    assert first_broken(MissionRun(), lambda t: (1e6 * t, 0.0), lambda t: 1e6) is None
 
 
 def test_duration():
-    t, reason = first_broken(Limits(LimitsConfig(duration=20.0)), lambda t: (t, 0.0))
+    t, reason = first_broken(MissionRun(LimitsConfig(duration=20.0)), lambda t: (t, 0.0))
     assert t == pytest.approx(20.0, abs=2 * DT)
     assert "duration" in reason
 
 
 def test_distance_counts_once_the_vehicle_has_been_near():
-    limits = Limits(LimitsConfig(path_distance=10.0))
+    limits = MissionRun(LimitsConfig(path_distance=10.0))
     assert limits.broken(at(0.0, 0.0), 0.0, 40.0, 0.0, DT) == ""  # the way to the path
     assert limits.broken(at(0.0, 0.0), 0.0, 9.0, 0.0, DT) == ""
     assert limits.broken(at(0.0, 0.0), 8.0, 6.1, 0.0, DT).startswith("limit path_distance: 10.1 m")
@@ -90,7 +90,7 @@ def test_distance_counts_once_the_vehicle_has_been_near():
 
 
 def test_geofence():
-    limits = Limits(geofence=SQUARE)
+    limits = MissionRun(geofence=SQUARE)
     assert limits.broken(at(50.0, 25.0), 0.0, 0.0, 0.0, DT) == ""
     assert "geofence" in limits.broken(at(50.0, 51.0), 0.0, 0.0, 0.0, DT)
 
@@ -112,7 +112,7 @@ SLOW = LimitsConfig(ground_speed=0.2, ground_speed_window=30.0)
 
 
 def test_a_current_that_is_too_strong_is_found_within_its_window():
-    t, reason = first_broken(Limits(SLOW), lambda t: (0.05 * t, 0.0))
+    t, reason = first_broken(MissionRun(SLOW), lambda t: (0.05 * t, 0.0))
     assert t == pytest.approx(30.0, abs=1.0)
     assert reason.startswith("limit ground_speed: 0.05 m/s over 30.")
 
@@ -126,11 +126,11 @@ def test_a_current_that_is_too_strong_is_found_within_its_window():
     ],
 )
 def test_a_vehicle_that_makes_way_may_also_turn(track):
-    assert first_broken(Limits(SLOW), track) is None
+    assert first_broken(MissionRun(SLOW), track) is None
 
 
 def test_a_hold_does_not_count_as_slow():
-    limits = Limits(SLOW)
+    limits = MissionRun(SLOW)
     for k in range(250):
         assert limits.broken(at(0.19 * k, 0.0), 0.0, 0.0, 0.0, DT) == ""
     assert limits.broken(at(50.0, 0.0), 0.0, 0.0, 0.0, 60.0) == ""  # no measurement for a minute
@@ -154,7 +154,7 @@ def test_a_vehicle_that_moves_but_does_not_follow_is_found_within_its_window():
     def track(t):
         return 5.0 * math.cos(0.4 * t), 5.0 * math.sin(0.4 * t)
 
-    t, reason = first_broken(Limits(BEHIND), track, to_go=to_go)
+    t, reason = first_broken(MissionRun(BEHIND), track, to_go=to_go)
     assert 120.0 < t < 140.0
     assert reason.startswith("limit path_speed: ")
     assert reason.endswith(" s, at least 0.3 m/s")
@@ -162,7 +162,7 @@ def test_a_vehicle_that_moves_but_does_not_follow_is_found_within_its_window():
 
 def test_the_way_to_the_path_is_not_too_slow_along_it():
     """P waits at the beginning for 200 s, then goes: nothing is wrong with that."""
-    assert first_broken(Limits(BEHIND), still, to_go=lambda t: 2000.0 - 1.9 * max(0.0, t - 200.0)) is None
+    assert first_broken(MissionRun(BEHIND), still, to_go=lambda t: 2000.0 - 1.9 * max(0.0, t - 200.0)) is None
 
 
 @settings(deadline=None)
@@ -174,7 +174,7 @@ def test_a_vehicle_that_keeps_its_speed_along_the_path_goes_on(speed, wait):
         waited = min(max(t - 60.0, 0.0), wait * (1.0 - 0.3 / speed))
         return 6000.0 - speed * (t - waited)
 
-    assert first_broken(Limits(BEHIND), still, to_go=to_go) is None
+    assert first_broken(MissionRun(BEHIND), still, to_go=to_go) is None
 
 
 @pytest.mark.parametrize(("rate", "window"), [(1.0, 2.0), (1.0, 7.0), (10.0, 2.0), (3.0, 30.0)])
@@ -183,7 +183,7 @@ def test_speeds_are_right_also_where_a_window_has_few_measurements(rate, window)
     for limit in ("ground_speed", "path_speed"):
         config = LimitsConfig(**{limit: 0.3, f"{limit}_window": window})
         for speed, found in ((0.29, True), (0.31, False)):
-            limits = Limits(config)
+            limits = MissionRun(config)
             limits.state = limits.state._replace(has_followed=True)
             steps = range(int(rate * 20.0 * window))
             reasons = [
@@ -194,21 +194,21 @@ def test_speeds_are_right_also_where_a_window_has_few_measurements(rate, window)
 
 
 def test_time_that_is_held_counts_for_the_duration():
-    limits = Limits(LimitsConfig(duration=20.0))
+    limits = MissionRun(LimitsConfig(duration=20.0))
     assert limits.broken(at(0.0, 0.0), 0.0, 0.0, 0.0, 15.0) == ""
     assert limits.wait(4.0) == ""
     assert limits.wait(2.0).startswith("limit duration: 21.0 s")
 
 
 def test_a_new_start_is_a_new_way_to_the_path():
-    limits = Limits(BEHIND)
+    limits = MissionRun(BEHIND)
     assert first_broken(limits, still, to_go=lambda t: 100.0 - min(t, 50.0)) is not None
     limits.reset()
     assert first_broken(limits, still, to_go=lambda t: 100.0) is None
 
 
 def test_a_hold_does_not_count_as_slow_along_the_path():
-    limits = Limits(BEHIND)
+    limits = MissionRun(BEHIND)
     for k in range(300):
         assert limits.broken(at(0.0, 0.0), 0.0, 0.0, 500.0 - 0.19 * k, DT) == ""
     limits.broken(at(0.0, 0.0), 0.0, 0.0, 443.0, 0.0, rests=True)

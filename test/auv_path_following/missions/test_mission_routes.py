@@ -116,10 +116,10 @@ def test_the_missions_switching_goes_before_the_parameters(loaded, wish, expecte
     mission = loaded(HEAD + "frame: ned\n" + wish + "loiter: {centre: [0, 0], radius: 20}\n")
     guidance = PathFollowerConfig(switching=SwitchingConfig(mode="all", radius=4.0))
     parameters = GuidanceParameters(guidance=guidance)
-    switching = parameters.with_wishes_of(mission).guidance.switching
+    switching = parameters.with_mission_overrides(mission).guidance.switching
     assert (switching.mode, switching.radius) == expected
     resolved = GuidanceParameters(guidance=guidance, mission_switching=False)
-    assert resolved.with_wishes_of(mission) == resolved
+    assert resolved.with_mission_overrides(mission) == resolved
 
 
 def test_ten_thousand_waypoints_are_read_and_built_in_seconds(tmp_path):

@@ -8,14 +8,14 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
 from auv_path_following.missions import mission_state as m
-from auv_path_following.missions.mission_state import Mission, Reason, State, words
+from auv_path_following.missions.mission_state import MissionStatus, Reason, State, words
 
 
 class Life:
     """A mission, with its state as a word and its reason as text."""
 
     def __init__(self, abort_after=30.0):
-        self.now, self.abort_after = Mission(), abort_after
+        self.now, self.abort_after = MissionStatus(), abort_after
 
     @property
     def state(self):

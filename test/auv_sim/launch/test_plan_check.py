@@ -81,7 +81,7 @@ def test_the_written_configuration_flies_the_same_again(tmp_path):
     copy = mission_file.load(again.mission)
     assert Path(again.mission).parent == tmp_path / "config"
     assert copy.waypoints == made.mission.waypoints
-    assert again.with_wishes_of(copy).guidance.switching.mode == "off"
+    assert again.with_mission_overrides(copy).guidance.switching.mode == "off"
     third = mission_plan.make(Options(mission=again.mission, params=str(written)), tmp_path)
     assert third.parameters[topics.GUIDANCE].guidance.switching.mode == "off"
 

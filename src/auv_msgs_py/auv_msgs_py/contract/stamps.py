@@ -6,7 +6,7 @@ import enum
 from typing import NamedTuple
 
 
-class Verdict(enum.Enum):
+class StampVerdict(enum.Enum):
     """What to do with a stamped message."""
 
     ACCEPT = "accept"
@@ -17,7 +17,7 @@ class Verdict(enum.Enum):
 class Tick(NamedTuple):
     """The verdict and, for an accepted stamp, the seconds since the last one (0 on the first)."""
 
-    verdict: Verdict
+    verdict: StampVerdict
     dt: float
 
 
@@ -49,21 +49,21 @@ class StampGuard:
         """Take in a stamp, nanoseconds."""
         if self._last is None:
             self._last = stamp
-            return Tick(Verdict.ACCEPT, 0.0)
+            return Tick(StampVerdict.ACCEPT, 0.0)
         if stamp > self._last:
             dt = (stamp - self._last) * 1e-9
             self._last, self._refused = stamp, None
-            return Tick(Verdict.ACCEPT, dt)
+            return Tick(StampVerdict.ACCEPT, dt)
         continues = self._refused is not None and stamp > self._refused
         if (self.ordered and stamp < self._last) or continues:
             self._last, self._refused = stamp, None
-            return Tick(Verdict.RESTART, 0.0)
+            return Tick(StampVerdict.RESTART, 0.0)
         self._refused = stamp
         self.refused += 1
-        return Tick(Verdict.REFUSE, 0.0)
+        return Tick(StampVerdict.REFUSE, 0.0)
 
 
-class Timing(enum.Enum):
+class StampTiming(enum.Enum):
     """How a stamp stands to the clock."""
 
     PUNCTUAL = "punctual"
@@ -95,23 +95,23 @@ class Punctuality:
         self._at = 0.0
         self._early: int | None = None
 
-    def judge(self, now: float, stamp: int) -> Timing:
+    def judge(self, now: float, stamp: int) -> StampTiming:
         """Take in a stamp (ns) received at `now` (s); a clock that shows 0 is not set yet."""
         if now <= 0.0:
-            return Timing.PUNCTUAL
+            return StampTiming.PUNCTUAL
         age = now - stamp * 1e-9
         if self._measure is None or now < self._at:  # the first one, or the receiver's clock went back
             self._measure, self._at, self._early = age, now, None
-            return Timing.PUNCTUAL
+            return StampTiming.PUNCTUAL
         lateness = age - self._measure
         if lateness > self.bound:
-            return Timing.LATE
+            return StampTiming.LATE
         if lateness < -self.bound:
             if self._early is None or stamp <= self._early:
                 self._early = stamp
-                return Timing.EARLY
+                return StampTiming.EARLY
             self._measure, self._at, self._early = age, now, None
-            return Timing.STEPPED
+            return StampTiming.STEPPED
         self._measure = min(age, self._measure + self.forget * (now - self._at))
         self._at, self._early = now, None
-        return Timing.PUNCTUAL
+        return StampTiming.PUNCTUAL

@@ -24,7 +24,7 @@ def declare(
     node: Node,
     cls: type[T],
     on_change: Callable[[T], None] | None = None,
-    try_out: Callable[[T], object] | None = None,
+    validate: Callable[[T], object] | None = None,
     arguments: Sequence[str] = (),
 ) -> T:
     """Declare every leaf of a settings class as a parameter of the node.
@@ -33,7 +33,7 @@ def declare(
         node: the node.
         cls: its settings class; every leaf has a default.
         on_change: called with the new settings after parameters marked `live` were changed.
-        try_out: called with new settings before they are accepted; a `ConfigurationError` refuses them.
+        validate: called with new settings before they are accepted; a `ConfigurationError` refuses them.
         arguments: the node's ROS arguments. Names that only a block for several nodes (``/**``) brings and
             that this node does not have are ignored.
 
@@ -61,7 +61,7 @@ def declare(
                 f"{node.get_name()}: parameter {leaf.name}", repr(found), _expectation(leaf)
             ) from None
     current = validated(cls, nested(flat), f"{node.get_name()}: parameter")
-    _accept_changes(node, cls, current, on_change, try_out)
+    _accept_changes(node, cls, current, on_change, validate)
     return current
 
 
@@ -84,7 +84,7 @@ def _accept_changes(
     cls: type[T],
     current: T,
     on_change: Callable[[T], None] | None,
-    try_out: Callable[[T], object] | None,
+    validate: Callable[[T], object] | None,
 ) -> None:
     names = {leaf.name for leaf in leaves(cls)}
     pending: list[T] = [current]
@@ -101,8 +101,8 @@ def _accept_changes(
         flat |= {parameter.name: parameter.value for parameter in parameters if parameter.name in names}
         try:
             wanted = validated(cls, nested(flat), f"{node.get_name()}: parameter")
-            if try_out is not None:
-                try_out(wanted)
+            if validate is not None:
+                validate(wanted)
         except ConfigurationError as error:
             return SetParametersResult(successful=False, reason=str(error))
         pending[0] = wanted

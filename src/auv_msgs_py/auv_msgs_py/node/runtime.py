@@ -45,7 +45,7 @@ class SuiteNode(Node):  # type: ignore[misc]
         super().__init__(name, **arguments)
         self._steady_to_ros = float(self.get_clock().now().nanoseconds) * 1e-9 - time.monotonic()
         self.parameters: Any = params.declare(
-            self, parameters, self._changed, self.try_out, arguments.get("cli_args") or sys.argv
+            self, parameters, self._changed, self.validate, arguments.get("cli_args") or sys.argv
         )
         self.publishers_by_topic: dict[Topic, Publisher] = {}
         self.fault = ""
@@ -77,7 +77,7 @@ class SuiteNode(Node):  # type: ignore[misc]
     def configure(self) -> None:
         """Called after `self.parameters` was changed in flight."""
 
-    def try_out(self, wanted: Any) -> None:
+    def validate(self, wanted: Any) -> None:
         """Called before parameters are changed in flight; a `ConfigurationError` refuses them."""
 
     def _changed(self, parameters: Any) -> None:

@@ -21,7 +21,7 @@ from auv_path_following.vehicle import Vehicle
 
 @settings
 class ReferenceConfig:
-    """Limits of the reference; 0 has the limit derived from hull and rudder, see `limits_of`."""
+    """ReferenceLimits of the reference; 0 has the limit derived from hull and rudder, see `limits_of`."""
 
     enabled: bool = setting(False, "whether the heading reference is shaped before the controller sees it")
     bandwidth: float = setting(
@@ -46,7 +46,7 @@ class ReferenceConfig:
     )
 
 
-class Limits(NamedTuple):
+class ReferenceLimits(NamedTuple):
     """Yaw rate (rad/s), acceleration (rad/s^2) and jerk (rad/s^3)."""
 
     rate: float
@@ -65,7 +65,7 @@ BUILD_UP = 0.8
 RUDDER_SHARE = 1.0 / 3.0
 
 
-def limits_of(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> Limits:
+def limits_of(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> ReferenceLimits:
     """Return the limits to use: those given, and where 0 is given those that hull and rudder allow.
 
     At cruising speed under full thrust a radian of rudder turns the hull with b = |dr/dt per rad|. So
@@ -84,7 +84,7 @@ def limits_of(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> 
         ConfigurationError: a limit has to be derived, and the vehicle file has no hull.
     """
     if config.max_rate and config.max_acceleration and config.max_jerk:
-        return Limits(config.max_rate, config.max_acceleration, config.max_jerk)
+        return ReferenceLimits(config.max_rate, config.max_acceleration, config.max_jerk)
     # By the least b, limits without a hull are narrow rather than wide.
     limits = _derived(config, vehicle, rudder_effect(vehicle, LEAST_EFFECT), rudder_rate)
     if vehicle.hull is not None:
@@ -100,14 +100,14 @@ def limits_of(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> 
     )
 
 
-def _derived(config: ReferenceConfig, vehicle: Vehicle, b: float, rudder_rate: float) -> Limits:
+def _derived(config: ReferenceConfig, vehicle: Vehicle, b: float, rudder_rate: float) -> ReferenceLimits:
     """The limits given, and the others by the rule of `limits_of` for b = |dr/dt per rad|, 1/s^2."""
     jerk = config.max_jerk or JERK_SHARE * b * rudder_rate
     largest = RUDDER_SHARE * b * vehicle.rudder.max_angle
     acceleration = config.max_acceleration or min(BUILD_UP * jerk, largest)
     fastest = vehicle.top_speed / tightest_turn(vehicle).radius
     rate = config.max_rate or min(acceleration / config.bandwidth, fastest)
-    return Limits(rate, acceleration, jerk)
+    return ReferenceLimits(rate, acceleration, jerk)
 
 
 class Shaping(NamedTuple):
@@ -125,7 +125,7 @@ class Shaping(NamedTuple):
     bandwidth: float
     stiffness: float
     linear: float
-    limits: Limits
+    limits: ReferenceLimits
 
 
 def prepare(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> Shaping:
@@ -139,7 +139,7 @@ def prepare(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> Sh
     Raises:
         ConfigurationError: as `limits_of`.
     """
-    limits = limits_of(config, vehicle, rudder_rate) if config.enabled else Limits(0.0, 0.0, 0.0)
+    limits = limits_of(config, vehicle, rudder_rate) if config.enabled else ReferenceLimits(0.0, 0.0, 0.0)
     w = float(config.bandwidth)
     stiffness = 4.0 * float(config.damping) ** 2 * w
     return Shaping(config.enabled, w, stiffness, float(limits.acceleration) / (w * w), limits)

@@ -31,7 +31,7 @@ _WORDS = (
 Part = tuple[float, float, float, float, float]
 
 
-class Pose(NamedTuple):
+class PlanarPose(NamedTuple):
     """x, y (north, east, m) and course chi (rad)."""
 
     x: float
@@ -69,14 +69,14 @@ def _size(word: Word) -> float:
     return word.before + word.between + word.after
 
 
-def words(start: Pose, end: Pose, radius: float) -> list[Word]:
+def words(start: PlanarPose, end: PlanarPose, radius: float) -> list[Word]:
     """Return all of the six words that join the two poses."""
     found = [_word(start, end, radius, sides) for sides in _WORDS]
     return [word for word in found if math.isfinite(word.between)]
 
 
 @pure
-def shortest(start: Pose, end: Pose, radius: float) -> Word:
+def shortest(start: PlanarPose, end: PlanarPose, radius: float) -> Word:
     """Return the shortest word; of several equally short ones the first in the order of `_WORDS`.
 
     Two poses always have one: of LSL and RSR both exist.
@@ -90,7 +90,7 @@ def shortest(start: Pose, end: Pose, radius: float) -> Word:
 
 
 @pure
-def _word(start: Pose, end: Pose, radius: float, sides: tuple[float, float, float]) -> Word:
+def _word(start: PlanarPose, end: PlanarPose, radius: float, sides: tuple[float, float, float]) -> Word:
     first, middle, last = sides
     dx, dy = (end.x - start.x) / radius, (end.y - start.y) / radius
     # From the centre of the first circle to that of the last one, with the radius as unit.
@@ -107,7 +107,7 @@ def _word(start: Pose, end: Pose, radius: float, sides: tuple[float, float, floa
 
 
 @pure
-def parts(start: Pose, end: Pose, word: Word, radius: float) -> tuple[Part, Part, Part]:
+def parts(start: PlanarPose, end: PlanarPose, word: Word, radius: float) -> tuple[Part, Part, Part]:
     """Return the three parts of a word: its arcs, and between them its line or arc.
 
     The first turn is laid from the start, the last one back from the end, so that both poses are met
@@ -123,11 +123,11 @@ def parts(start: Pose, end: Pose, word: Word, radius: float) -> tuple[Part, Part
         cx, cy, _, a, _ = closing
         north, east = cx + radius * math.cos(a) - x, cy + radius * math.sin(a) - y
         return opening, (x, y, math.hypot(north, east), math.atan2(east, north), 0.0), closing
-    return opening, _arc(Pose(x, y, chi), -word.first, word.between, radius), closing
+    return opening, _arc(PlanarPose(x, y, chi), -word.first, word.between, radius), closing
 
 
 @pure
-def _arc(pose: Pose, side: float, size: float, radius: float) -> Part:
+def _arc(pose: PlanarPose, side: float, size: float, radius: float) -> Part:
     """A turn of `size` rad that starts at the pose; a negative size: one that ends there."""
     x, y, chi = pose
     cx, cy = x - side * radius * math.sin(chi), y + side * radius * math.cos(chi)
@@ -136,7 +136,7 @@ def _arc(pose: Pose, side: float, size: float, radius: float) -> Part:
     return (cx, cy, radius, a0, there) if size >= 0.0 else (cx, cy, radius, there, a0)
 
 
-def follow(start: Pose, end: Pose, word: Word, radius: float) -> list[Segment]:
+def follow(start: PlanarPose, end: PlanarPose, word: Word, radius: float) -> list[Segment]:
     """Return the word as segments: arcs and lines; parts of no length are left out."""
     opening, middle, closing = parts(start, end, word, radius)
     between: Segment = Line(*middle[:4]) if word.middle == STRAIGHT else Arc(*middle)
@@ -144,7 +144,7 @@ def follow(start: Pose, end: Pose, word: Word, radius: float) -> list[Segment]:
     return [segment for segment, size in sizes if size > NOTHING]
 
 
-def connect(start: Pose, end: Pose, radius: float) -> list[Segment]:
+def connect(start: PlanarPose, end: PlanarPose, radius: float) -> list[Segment]:
     """Return the shortest Dubins path as segments; empty when the poses are one.
 
     Args:

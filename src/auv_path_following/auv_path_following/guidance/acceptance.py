@@ -59,7 +59,7 @@ def cornering_of(vehicle: Vehicle) -> Cornering:
     return Cornering(rate, 0.5 * rate / acceleration + 0.5 * acceleration / jerk + _LAG)
 
 
-class Corner(NamedTuple):
+class JointCorner(NamedTuple):
     """A joint as its circle needs it: courses of both legs there (rad), and the widest circle (m)."""
 
     chi_in: float
@@ -67,15 +67,15 @@ class Corner(NamedTuple):
     widest: float
 
 
-def corner_of(path: CompositePath, i: int) -> Corner:
+def corner_of(path: CompositePath, i: int) -> JointCorner:
     """Return the corner at the end of subpath `i` (from 0); its circle takes half the shorter leg at most."""
     row = path.rows.subpath[i]
-    return Corner(row[CHI_IN], row[CHI_OUT], row[WIDEST])
+    return JointCorner(row[CHI_IN], row[CHI_OUT], row[WIDEST])
 
 
 @pure
 def acceptance_radius(
-    cornering: Cornering, corner: Corner, lookahead: float, Ur: float, current: Current = NO_CURRENT
+    cornering: Cornering, corner: JointCorner, lookahead: float, Ur: float, current: Current = NO_CURRENT
 ) -> float:
     """Return Rk at which a turn on to the next leg has to begin, m.
 

@@ -10,7 +10,7 @@ from auv_msgs_py.values.angles import wrap
 from auv_msgs_py.values.pure import pure
 from auv_msgs_py.values.types import Navigation
 from auv_path_following.control.hull_model import tightest_turn
-from auv_path_following.curves.dubins import NOTHING, STRAIGHT, Part, Pose, parts, shortest
+from auv_path_following.curves.dubins import NOTHING, STRAIGHT, Part, PlanarPose, parts, shortest
 from auv_path_following.curves.rows import AFTER, ARC, COLUMNS, KIND, LENGTH, LINE, SPEED, A, B, C, D, E
 from auv_path_following.guidance.acceptance import Cornering, cornering_of
 from auv_path_following.vehicle import Vehicle
@@ -88,7 +88,7 @@ def empty_approach() -> list[list[float]]:
 
 
 @pure
-def plan(approach: Any, goal: Pose, navigation: Navigation, radius: float) -> int:
+def plan(approach: Any, goal: PlanarPose, navigation: Navigation, radius: float) -> int:
     """Write a short path from the vehicle's pose to another one.
 
     It is the shortest with turns of one radius (Dubins) to a point one radius before the goal, and a straight
@@ -108,10 +108,10 @@ def plan(approach: Any, goal: Pose, navigation: Navigation, radius: float) -> in
     if is_at(x, y, psi, goal.x, goal.y, goal.chi):
         return 0
     chi = goal.chi
-    before = Pose(goal.x - radius * math.cos(chi), goal.y - radius * math.sin(chi), chi)
+    before = PlanarPose(goal.x - radius * math.cos(chi), goal.y - radius * math.sin(chi), chi)
     legs, direct = 0, 0.0
     for there in (goal, before, goal):
-        legs, length = _lay(approach, Pose(x, y, psi), there, radius)
+        legs, length = _lay(approach, PlanarPose(x, y, psi), there, radius)
         if there != before:
             direct = length
         elif length + radius <= direct + 2.0 * radius:
@@ -126,7 +126,7 @@ def plan(approach: Any, goal: Pose, navigation: Navigation, radius: float) -> in
 
 
 @pure
-def _lay(approach: Any, here: Pose, there: Pose, radius: float) -> tuple[int, float]:
+def _lay(approach: Any, here: PlanarPose, there: PlanarPose, radius: float) -> tuple[int, float]:
     """Write the shortest Dubins path; return the number of its rows and its length, m."""
     word = shortest(here, there, radius)
     opening, middle, closing = parts(here, there, word, radius)

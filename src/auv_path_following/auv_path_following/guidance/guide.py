@@ -22,8 +22,8 @@ from auv_path_following.guidance.follow import (
 from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.missions.limits import (
     BEGINNING,
-    Limits,
     LimitsState,
+    MissionLimits,
     NoLimits,
     limits_step,
 )
@@ -32,7 +32,7 @@ from auv_path_following.missions.mission_state import (
     IDLE,
     NO_REASON,
     RUNNING,
-    Mission,
+    MissionStatus,
     aborted,
     completed,
     is_under_way,
@@ -63,7 +63,7 @@ def prepare(
     agility: Agility,
     thrust: float,
     hold_after: float = math.inf,
-    bounds: Limits | NoLimits | None = None,
+    bounds: MissionLimits | NoLimits | None = None,
 ) -> Guide:
     """Return the configuration of guidance.
 
@@ -108,7 +108,7 @@ class GuideState(NamedTuple):
         follower, limits: their states.
     """
 
-    mission: Mission
+    mission: MissionStatus
     begins: bool
     rejoins: bool
     blind: float
@@ -119,11 +119,11 @@ class GuideState(NamedTuple):
 @pure
 def first_state(config: Guide, approach: Any) -> GuideState:
     """Return the state of a mission that was not started yet; `approach` as of `approach.empty_approach`."""
-    return at_the_beginning(config, Mission(IDLE, NO_REASON, math.nan), approach)
+    return at_the_beginning(config, MissionStatus(IDLE, NO_REASON, math.nan), approach)
 
 
 @pure
-def at_the_beginning(config: Guide, mission: Mission, approach: Any) -> GuideState:
+def at_the_beginning(config: Guide, mission: MissionStatus, approach: Any) -> GuideState:
     """Return the state at the beginning of the path."""
     follower = following.first_state(config.follower, approach)
     return GuideState(mission, True, False, 0.0, follower, BEGINNING)

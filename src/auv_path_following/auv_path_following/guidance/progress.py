@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from auv_msgs_py.values.pure import pure
 from auv_msgs_py.values.types import Current, Navigation
-from auv_path_following.curves.dubins import Pose
+from auv_path_following.curves.dubins import PlanarPose
 from auv_path_following.curves.rows import AFTER, LENGTH, PathRows, evaluate
 from auv_path_following.guidance.approach import NEAR, plan
 from auv_path_following.guidance.rejoin import closest_ahead
@@ -129,7 +129,7 @@ def _plan(config: ProgressConfig, path: PathRows, approach: Any, navigation: Nav
     if not config.approaches:
         return 0
     x, y, dx, dy, _, _ = evaluate(path, path.subpath[0], 0.0)
-    return plan(approach, Pose(x, y, math.atan2(dy, dx)), navigation, config.approach_radius)
+    return plan(approach, PlanarPose(x, y, math.atan2(dy, dx)), navigation, config.approach_radius)
 
 
 @pure

@@ -19,7 +19,7 @@ from auv_path_following.curves.rows import (
     STRETCH,
     WIDEST,
 )
-from auv_path_following.guidance.acceptance import Corner, Cornering, acceptance_radius, reach
+from auv_path_following.guidance.acceptance import Cornering, JointCorner, acceptance_radius, reach
 
 SwitchingMode = Literal["off", "g0", "all"]
 OFF, ONLY_CORNERS, ALL_JOINTS = range(3)
@@ -96,7 +96,7 @@ def radius_at(circles: Circles, row: Any, Ur: float, current: Current) -> float:
     """
     if not circles.computed or row[JOINT] != CORNER:
         return circles.radius
-    corner = Corner(row[CHI_IN], row[CHI_OUT], row[WIDEST])
+    corner = JointCorner(row[CHI_IN], row[CHI_OUT], row[WIDEST])
     return acceptance_radius(circles.cornering, corner, circles.lookahead, Ur, current)
 
 

@@ -108,7 +108,7 @@ def marked(marks: Marks, x: float, y: float, dt: float, window: float) -> tuple[
     return corners, count > _CHORDS
 
 
-class Limits(NamedTuple):
+class MissionLimits(NamedTuple):
     """Configuration: the limits, and the corners (north, east), m, of the area that must not be left."""
 
     values: LimitsConfig
@@ -147,14 +147,14 @@ BEGINNING = LimitsState()
 LimitsInputs = tuple[Navigation, float, float, float, bool, bool]
 
 
-def prepare(config: LimitsConfig, geofence: Sequence[Point] = ()) -> Limits:
+def prepare(config: LimitsConfig, geofence: Sequence[Point] = ()) -> MissionLimits:
     """Return the configuration of the limits.
 
     Args:
         config: the limits.
         geofence: corners (north, east), m; empty for no geofence.
     """
-    return Limits(numbers_of(config), tuple((float(x), float(y)) for x, y in geofence))
+    return MissionLimits(numbers_of(config), tuple((float(x), float(y)) for x, y in geofence))
 
 
 @pure
@@ -166,7 +166,9 @@ def no_limits(
 
 
 @pure
-def limits(config: Limits, state: LimitsState, inputs: LimitsInputs, dt: float) -> tuple[LimitsState, Reason]:
+def limits(
+    config: MissionLimits, state: LimitsState, inputs: LimitsInputs, dt: float
+) -> tuple[LimitsState, Reason]:
     """Return the reason why a mission must end, or `NO_REASON`. Constant in time."""
     c = config.values
     elapsed, has_been_near, most_to_go, has_followed, places, along = state
@@ -224,7 +226,7 @@ def _along(c: LimitsConfig, marks: Marks, to_go: float, dt: float) -> tuple[Mark
     return marks, NO_REASON
 
 
-limits_step = dispatched({NoLimits: no_limits, Limits: limits})
+limits_step = dispatched({NoLimits: no_limits, MissionLimits: limits})
 
 
 @pure

@@ -88,7 +88,7 @@ class HoldingConfig:
     )
 
 
-class Mission(NamedTuple):
+class MissionStatus(NamedTuple):
     """State and reason; while holding, `since` when (ROS time, s), else NaN."""
 
     state: int = IDLE
@@ -97,58 +97,58 @@ class Mission(NamedTuple):
 
 
 @pure
-def is_under_way(mission: Mission) -> bool:
+def is_under_way(mission: MissionStatus) -> bool:
     """Return whether a mission was started and has not ended."""
     return mission.state == RUNNING or mission.state == HOLDING
 
 
 @pure
-def started(mission: Mission) -> Mission:
+def started(mission: MissionStatus) -> MissionStatus:
     """Begin (anew) from idle, complete or aborted; a mission that is under way is unchanged."""
     if is_under_way(mission):
         return mission
-    return Mission(RUNNING, Reason(STARTED, 0.0, 0.0, 0.0), math.nan)
+    return MissionStatus(RUNNING, Reason(STARTED, 0.0, 0.0, 0.0), math.nan)
 
 
 @pure
-def aborted(mission: Mission, reason: Reason) -> Mission:
+def aborted(mission: MissionStatus, reason: Reason) -> MissionStatus:
     """End a mission, begun or not; the first reason stays, and a completed one stays complete."""
     if mission.state == COMPLETE or mission.state == ABORTED:
         return mission
-    return Mission(ABORTED, reason, math.nan)
+    return MissionStatus(ABORTED, reason, math.nan)
 
 
 @pure
-def completed(mission: Mission) -> Mission:
+def completed(mission: MissionStatus) -> MissionStatus:
     """Complete a running mission: the end of the path was reached."""
     if mission.state != RUNNING:
         return mission
-    return Mission(COMPLETE, Reason(END_OF_PATH, 0.0, 0.0, 0.0), math.nan)
+    return MissionStatus(COMPLETE, Reason(END_OF_PATH, 0.0, 0.0, 0.0), math.nan)
 
 
 @pure
-def navigation_lost(mission: Mission, hold_after: float, now: float) -> Mission:
+def navigation_lost(mission: MissionStatus, hold_after: float, now: float) -> MissionStatus:
     """Hold a running mission: no usable navigation for `hold_after` s; `now` is ROS time, s."""
     if mission.state != RUNNING:
         return mission
-    return Mission(HOLDING, Reason(NAVIGATION_LOST, 0.0, 0.0, hold_after), now)
+    return MissionStatus(HOLDING, Reason(NAVIGATION_LOST, 0.0, 0.0, hold_after), now)
 
 
 @pure
-def navigation_back(mission: Mission) -> Mission:
+def navigation_back(mission: MissionStatus) -> MissionStatus:
     """Resume a mission that holds."""
     if mission.state != HOLDING:
         return mission
-    return Mission(RUNNING, Reason(NAVIGATION_BACK, 0.0, 0.0, 0.0), math.nan)
+    return MissionStatus(RUNNING, Reason(NAVIGATION_BACK, 0.0, 0.0, 0.0), math.nan)
 
 
 @pure
-def waited(mission: Mission, abort_after: float, now: float) -> Mission:
+def waited(mission: MissionStatus, abort_after: float, now: float) -> MissionStatus:
     """Let time pass; holding for longer than `abort_after` s aborts. `now` is ROS time, s."""
     if mission.state != HOLDING:
         return mission
     if now < mission.since:  # the clock went back
-        return Mission(HOLDING, mission.reason, now)
+        return MissionStatus(HOLDING, mission.reason, now)
     if now - mission.since > abort_after:
-        return Mission(ABORTED, Reason(HELD_TOO_LONG, mission.reason.bound, 0.0, abort_after), math.nan)
+        return MissionStatus(ABORTED, Reason(HELD_TOO_LONG, mission.reason.bound, 0.0, abort_after), math.nan)
     return mission

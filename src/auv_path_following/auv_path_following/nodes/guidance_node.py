@@ -58,7 +58,7 @@ class GuidanceNode(SuiteNode):
     def _begins(self, by_request: bool) -> None:
         self._approach = ApproachWatch()
         if by_request:
-            self._input.odometry.believe_anew()
+            self._input.odometry.reset_gate()
 
     def _step(self, inputs: Inputs) -> None:
         p, has_water = self.parameters, inputs.water is not None

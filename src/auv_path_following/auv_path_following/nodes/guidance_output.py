@@ -19,7 +19,7 @@ from auv_path_following.missions.mission_state import (
     HOLDING,
     NAVIGATION_LOST,
     STATES,
-    Mission,
+    MissionStatus,
     Reason,
     State,
     words,
@@ -66,7 +66,7 @@ class MissionReport:
         """State and reason, for the diagnostics."""
         return {"mission_state": str(self.word or ""), "reason": self.reason}
 
-    def publish(self, mission: Mission) -> None:
+    def publish(self, mission: MissionStatus) -> None:
         """Publish the state where it has changed."""
         word = STATES[mission.state]
         if word is self.word:
@@ -85,7 +85,7 @@ class MissionReport:
     def resumed(self, hold_after: float) -> None:
         """Publish that the mission held, if only a gap between two measurements shows it."""
         if self.word is State.RUNNING:
-            self.publish(Mission(HOLDING, Reason(NAVIGATION_LOST, 0.0, 0.0, hold_after)))
+            self.publish(MissionStatus(HOLDING, Reason(NAVIGATION_LOST, 0.0, 0.0, hold_after)))
 
     def answered(self, running: bool) -> None:
         """Publish the state as part of the answer to an odometry, where it is due.

@@ -42,7 +42,7 @@ class HeadingAutopilotNode(SuiteNode):
         if not self.parameters.lockstep:
             self.every(0.1, self._watch)
 
-    def try_out(self, wanted: AutopilotParameters) -> None:
+    def validate(self, wanted: AutopilotParameters) -> None:
         HeadingAutopilot(self.autopilot.vehicle, wanted.autopilot)  # raises where that cannot be
 
     def configure(self) -> None:
@@ -68,7 +68,7 @@ class HeadingAutopilotNode(SuiteNode):
         self._put(topic, (navigation, dt), stamp)
 
     def _starts(self) -> None:
-        self._intake.believe_anew()
+        self._intake.reset_gate()
         self.autopilot.reset()
 
     def _put(self, topic: str, value: Any, stamp: int | None = None) -> None:

@@ -25,8 +25,8 @@ from auv_path_following.guidance.guide import (
 )
 from auv_path_following.missions import limits
 from auv_path_following.missions import mission_state as states
-from auv_path_following.missions.mission_file import Mission as MissionFile
-from auv_path_following.missions.mission_state import Mission, Reason, State
+from auv_path_following.missions.mission_file import Mission
+from auv_path_following.missions.mission_state import MissionStatus, Reason, State
 from auv_path_following.nodes.guidance_output import MissionReport
 
 
@@ -41,7 +41,7 @@ class MissionKeeper:
     """
 
     def __init__(
-        self, node: SuiteNode, mission: MissionFile, agility: Agility, begins: Callable[[bool], None]
+        self, node: SuiteNode, mission: Mission, agility: Agility, begins: Callable[[bool], None]
     ) -> None:
         self._node, self._mission, self._agility, self._begins = node, mission, agility, begins
         self._rows = mission.path.rows
@@ -66,7 +66,7 @@ class MissionKeeper:
     def take_switching(self) -> None:
         """Make the mission's switching the parameters', where it can be seen and changed."""
         parameters = self._node.parameters
-        switching = parameters.with_wishes_of(self._mission).guidance.switching
+        switching = parameters.with_mission_overrides(self._mission).guidance.switching
         if switching != parameters.guidance.switching:
             mode = Parameter("guidance.switching.mode", value=switching.mode)
             radius = Parameter("guidance.switching.radius", value=switching.radius)
@@ -126,6 +126,6 @@ class MissionKeeper:
             mission = states.navigation_lost(mission, self.config.hold_after, now)
         self._become(states.waited(mission, self._node.parameters.holding.abort_after, now))
 
-    def _become(self, mission: Mission) -> None:
+    def _become(self, mission: MissionStatus) -> None:
         self.state = self.state._replace(mission=mission)
         self.report.publish(mission)

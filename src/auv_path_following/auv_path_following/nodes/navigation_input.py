@@ -13,7 +13,7 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import current_from, stamp_of, water_velocity_from
 from auv_msgs_py.contract.frames import FrameTable
 from auv_msgs_py.contract.pairing import Pairing
-from auv_msgs_py.contract.stamps import StampGuard, Verdict
+from auv_msgs_py.contract.stamps import StampGuard, StampVerdict
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.contract.wire import Odometry, TwistWithCovarianceStamped, Vector3Stamped
 from auv_msgs_py.node.runtime import SuiteNode
@@ -114,7 +114,7 @@ class NavigationInput:
 
     def _in_order(self, topic: Topic, stamp: int) -> None:
         """Free running, where an odometry takes the newest: a message that was overtaken is not that."""
-        if not self._lockstep and self._order[topic].judge(stamp).verdict is Verdict.REFUSE:
+        if not self._lockstep and self._order[topic].judge(stamp).verdict is StampVerdict.REFUSE:
             raise MessageRefused(topic.name, "a stamp that is not newer than the last", "rising stamps")
 
     def _on_water(self, message: TwistWithCovarianceStamped) -> None:

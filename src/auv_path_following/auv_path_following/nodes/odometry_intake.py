@@ -7,7 +7,7 @@ from typing import NamedTuple
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import navigation_from, stamp_of
 from auv_msgs_py.contract.frames import FrameTable
-from auv_msgs_py.contract.stamps import Punctuality, StampGuard, Timing, Verdict
+from auv_msgs_py.contract.stamps import Punctuality, StampGuard, StampTiming, StampVerdict
 from auv_msgs_py.contract.wire import Odometry
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.errors import MessageRefused
@@ -16,7 +16,7 @@ from auv_path_following import vehicle
 from auv_path_following.navigation.navigation_gate import NavigationGate, Passed
 
 
-class Measured(NamedTuple):
+class AcceptedOdometry(NamedTuple):
     """One accepted odometry.
 
     Attributes:
@@ -68,7 +68,7 @@ class OdometryIntake:
         """The node's parameters were changed in flight."""
         self._gate.config = self._node.parameters.gate
 
-    def believe_anew(self) -> None:
+    def reset_gate(self) -> None:
         """Somebody has started a mission, and so vouches for where the vehicle lies, even still."""
         self._gate.reset()
         self._refused_for = 0.0
@@ -89,7 +89,7 @@ class OdometryIntake:
             text = f"no usable {topics.ODOM.name} for {bound:g} s{self._consequence}"
             self._node.health.error("odometry", text)
 
-    def take(self, message: Odometry) -> Measured:
+    def take(self, message: Odometry) -> AcceptedOdometry:
         """Judge one message.
 
         Raises:
@@ -100,14 +100,14 @@ class OdometryIntake:
         # Whether a stamp that goes back is an old message or a clock that was set, its order tells.
         stepped = self._free and not self._guard.is_old(stamp) and self._stepped(stamp)
         verdict, dt = self._guard.judge(stamp)
-        if verdict is Verdict.REFUSE:
+        if verdict is StampVerdict.REFUSE:
             raise MessageRefused(topics.ODOM.name, "a stamp that is not newer than the last", "rising stamps")
-        restarted = verdict is Verdict.RESTART
+        restarted = verdict is StampVerdict.RESTART
         if not self._heard:
             self._heard = True
             self._node.health.error("odometry", "")
         if not self._free:
-            return Measured(navigation, dt, stamp, restarted, restarted)
+            return AcceptedOdometry(navigation, dt, stamp, restarted, restarted)
         if restarted or stepped:
             self._gate.reset()
             self._punctuality.reset()
@@ -124,12 +124,14 @@ class OdometryIntake:
         if self._silent:
             self._silent = False
             self._node.health.error("odometry", "")
-        return Measured(navigation, 0.0 if moved else dt, stamp, restarted, restarted or stepped or moved)
+        return AcceptedOdometry(
+            navigation, 0.0 if moved else dt, stamp, restarted, restarted or stepped or moved
+        )
 
     def _stepped(self, stamp: int) -> bool:
         timing = self._punctuality.judge(self._node.now(), stamp)
-        if timing is Timing.LATE or timing is Timing.EARLY:
-            kind = "older" if timing is Timing.LATE else "newer"
+        if timing is StampTiming.LATE or timing is StampTiming.EARLY:
+            kind = "older" if timing is StampTiming.LATE else "newer"
             found = f"a stamp more than {self._punctuality.bound:g} s {kind} than it used to be"
             raise MessageRefused(topics.ODOM.name, found, "stamps that keep up with the clock")
-        return timing is Timing.STEPPED
+        return timing is StampTiming.STEPPED

@@ -157,7 +157,7 @@ def make(options: Options, directory: Path) -> Plan:
     for name in parameters:
         parameters[name] = dataclasses.replace(parameters[name], **timing)
     _try_gains(model, parameters[topics.AUTOPILOT], sources["params"])
-    wishes = parameters[topics.GUIDANCE].with_wishes_of(mission).guidance
+    wishes = parameters[topics.GUIDANCE].with_mission_overrides(mission).guidance
     _tell(parameters, topics.GUIDANCE, guidance=wishes, mission_switching=False)
     _tell(parameters, topics.GUIDANCE, mission=str(sources["mission"]), vehicle=model_file)
     _tell(parameters, topics.OBSERVER, vehicle=model_file)

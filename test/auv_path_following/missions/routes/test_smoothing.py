@@ -14,7 +14,7 @@ from auv_msgs_py.values.angles import wrap
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.outline import tightest
-from auv_path_following.missions.routes.corners import SHAPES, fermat_curvature, fermat_theta_end
+from auv_path_following.missions.routes.corner_shapes import SHAPES, fermat_curvature, fermat_theta_end
 from auv_path_following.missions.routes.smoothing import TOLERANCE, Smoothing, smooth
 
 CONTINUITY = {"linear": "G0", "circular": "G1", "dubins": "G1", "clothoid": "G2", "fermat": "G2"}

@@ -79,7 +79,7 @@ def run_directory(tmp_path_factory: pytest.TempPathFactory) -> Path:
     yaml_file.dump(plain, config / "params.yaml")
     hull = vehicle.load(str(config / "vehicle.yaml"))
     mission = mission_file.load(str(config / "mission.yaml"), hull)
-    guidance = parameters[topics.GUIDANCE].with_wishes_of(mission)
+    guidance = parameters[topics.GUIDANCE].with_mission_overrides(mission)
     flown = fly(
         Scenario(
             path=mission.path, vehicle=hull, thrust=mission.thrust, guidance=guidance.guidance,

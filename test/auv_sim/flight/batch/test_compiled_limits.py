@@ -11,8 +11,8 @@ from auv_msgs_py.values.pure import numbers_of
 from auv_msgs_py.values.types import Navigation
 from auv_path_following.missions.limits import (
     BEGINNING,
-    Limits,
     LimitsConfig,
+    MissionLimits,
     NoLimits,
     limits_step,
     prepare,
@@ -59,7 +59,7 @@ def mission(generator: np.random.Generator) -> tuple[Any, np.ndarray, float]:
     flags = generator.random((rows, 2)) < 0.02
     track = np.column_stack([x, y, off, to_go, flags]).astype(np.float64)
     fence = np.array([[-100.0, -100.0], [150.0, -100.0], [150.0, 150.0], [-100.0, 150.0]])
-    return Limits(numbers_of(config), fence), track, dt
+    return MissionLimits(numbers_of(config), fence), track, dt
 
 
 def test_random_missions_end_as_they_do_in_plain_python() -> None:
@@ -67,8 +67,8 @@ def test_random_missions_end_as_they_do_in_plain_python() -> None:
     for seed in range(400):
         config, track, dt = mission(np.random.default_rng(seed))
         plain = prepare(LimitsConfig(path_distance=1.0), [(float(x), float(y)) for x, y in config.geofence])
-        assert isinstance(plain, Limits)
-        expected = ended(Limits(config.values, plain.geofence), track, dt)
+        assert isinstance(plain, MissionLimits)
+        expected = ended(MissionLimits(config.values, plain.geofence), track, dt)
         end, reason = compiled_ended(config, track, dt)
         assert (end, reason.cause) == (expected[0], expected[1].cause)
         assert reason[1:] == pytest.approx(expected[1][1:], rel=1e-12)  # hypot differs in its last bit

@@ -10,11 +10,11 @@ from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.values.angles import wrap
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.curves import dubins
-from auv_path_following.curves.dubins import Pose
+from auv_path_following.curves.dubins import PlanarPose
 from auv_path_following.curves.kinds.line import Line
 from auv_path_following.curves.kinds.spline import Spline
 from auv_path_following.curves.segment import Segment
-from auv_path_following.missions.routes.corners import SHAPES, Corner
+from auv_path_following.missions.routes.corner_shapes import SHAPES, WaypointCorner
 
 Point = tuple[float, float]
 
@@ -123,7 +123,7 @@ def _leg(way: list[Point], i: int) -> tuple[float, float]:
     return length, math.atan2(east, north)
 
 
-def _corner(way: list[Point], legs: list[tuple[float, float]], i: int) -> Corner | None:
+def _corner(way: list[Point], legs: list[tuple[float, float]], i: int) -> WaypointCorner | None:
     """Waypoint i with the legs before and after it; None when they are in line."""
     chi_in, chi_out = legs[i - 1][1], legs[i][1]
     turn = wrap(chi_out - chi_in)
@@ -131,7 +131,7 @@ def _corner(way: list[Point], legs: list[tuple[float, float]], i: int) -> Corner
         return None
     if abs(turn) > _BACK:
         raise ConfigurationError(f"points[{i}]", "a way straight back", "less than a half turn, or dubins")
-    return Corner(*way[i], chi_in, chi_out, turn)
+    return WaypointCorner(*way[i], chi_in, chi_out, turn)
 
 
 def _rounded(
@@ -198,7 +198,7 @@ def _dubins(
     for i, course in zip((0, -1), _end_courses(smoothing), strict=True):
         if course is not None:
             courses[i] = course
-    poses = [Pose(x, y, chi) for (x, y), chi in zip(way, courses, strict=True)]
+    poses = [PlanarPose(x, y, chi) for (x, y), chi in zip(way, courses, strict=True)]
     segments: list[Segment] = []
     for i in range(len(legs)):
         segments += dubins.connect(poses[i], poses[(i + 1) % len(poses)], radius)

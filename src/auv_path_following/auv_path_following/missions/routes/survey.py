@@ -9,7 +9,7 @@ import numpy as np
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.curves import dubins
-from auv_path_following.curves.dubins import Pose
+from auv_path_following.curves.dubins import PlanarPose
 from auv_path_following.curves.kinds.line import Line
 from auv_path_following.curves.segment import Segment
 from auv_path_following.missions.routes.smoothing import Smoothing, smooth
@@ -110,11 +110,11 @@ def path(way: Sequence[Leg], turns: Smoothing) -> list[Segment]:
         raise ConfigurationError("smoothing", found, "neither: with dubins the legs' courses count")
     radius = turns.radius or math.nan
     segments: list[Segment] = []
-    before: Pose | None = None
+    before: PlanarPose | None = None
     for (x0, y0), (x1, y1) in way:
         length, chi = math.hypot(x1 - x0, y1 - y0), math.atan2(y1 - y0, x1 - x0)
         if before is not None:
-            segments += dubins.connect(before, Pose(x0, y0, chi), radius)
+            segments += dubins.connect(before, PlanarPose(x0, y0, chi), radius)
         segments.append(Line(x0, y0, length, chi))
-        before = Pose(x1, y1, chi)
+        before = PlanarPose(x1, y1, chi)
     return segments

@@ -9,9 +9,9 @@ from typing import Literal, NamedTuple
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.missions.waypoint_files.content import (
     Content,
+    FileShape,
     Kind,
     Point,
-    Shape,
     labels,
     listed,
     shown,
@@ -33,11 +33,11 @@ _NOTHING: dict[Use, tuple[str, str]] = {
 _SPLIT = "a polygon without holes: split it into parts around the hole, one mission each, or delete the hole"
 
 
-class Taken(NamedTuple):
+class Chosen(NamedTuple):
     """What is taken of a file.
 
     Attributes:
-        points: as in `Shape`.
+        points: as in `FileShape`.
         outline: whether they are the outline of a polygon, which has no end.
         notices: what is not taken, one line each.
     """
@@ -47,7 +47,7 @@ class Taken(NamedTuple):
     notices: list[str]
 
 
-def choose(content: Content, use: Use, feature: str | None = None) -> Taken:
+def choose(content: Content, use: Use, feature: str | None = None) -> Chosen:
     """Take the one line or polygon for this use, else all points in their order.
 
     Waypoints prefer a line to a polygon, surveys and geofences a polygon to a line.
@@ -82,10 +82,10 @@ def choose(content: Content, use: Use, feature: str | None = None) -> Taken:
     notices = [*_about([pool[k] for k in chosen], use), *content.notices]
     if rest := [k for k in range(len(pool)) if k not in set(chosen)]:
         notices.append(_left_out([pool[k] for k in rest], [named[k] for k in rest]))
-    return Taken(points, kind == "polygon", notices)
+    return Chosen(points, kind == "polygon", notices)
 
 
-def _pool(content: Content, use: Use) -> list[Shape]:
+def _pool(content: Content, use: Use) -> list[FileShape]:
     if use == "survey":
         return [*content.areas, *content.shapes]
     if use == "geofence" and content.fences:
@@ -106,7 +106,7 @@ def _nothing(content: Content, use: Use) -> ConfigurationError:
     return ConfigurationError("", found, expected)
 
 
-def _refuse(shape: Shape, use: Use) -> None:
+def _refuse(shape: FileShape, use: Use) -> None:
     if shape.refusal is not None:
         raise shape.refusal
     if shape.holes and use != "waypoints":
@@ -116,7 +116,7 @@ def _refuse(shape: Shape, use: Use) -> None:
         )
 
 
-def _about(chosen: list[Shape], use: Use) -> list[str]:
+def _about(chosen: list[FileShape], use: Use) -> list[str]:
     found = [notice for shape in chosen for notice in shape.notices]
     heights = [height for shape in chosen if shape.heights for height in shape.heights]
     if heights:
@@ -130,7 +130,7 @@ def _about(chosen: list[Shape], use: Use) -> list[str]:
     return found
 
 
-def _left_out(rest: list[Shape], names: list[str]) -> str:
+def _left_out(rest: list[FileShape], names: list[str]) -> str:
     counts = Counter(shape.kind for shape in rest)
     kinds = " and ".join(f"{count} {kind}{'s' * (count > 1)}" for kind, count in counts.items())
     return f"{kinds} not taken: {_names(names)}"

@@ -24,7 +24,7 @@ _LISTED = 12
 
 
 @dataclass(frozen=True)
-class Shape:
+class FileShape:
     """One geometry.
 
     Attributes:
@@ -59,15 +59,15 @@ class Content:
         notices: what is never taken, one line each.
     """
 
-    shapes: list[Shape] = field(default_factory=list)
+    shapes: list[FileShape] = field(default_factory=list)
     in_degrees: bool = True
-    areas: list[Shape] = field(default_factory=list)
-    fences: list[Shape] = field(default_factory=list)
+    areas: list[FileShape] = field(default_factory=list)
+    fences: list[FileShape] = field(default_factory=list)
     speed: float | None = None
     notices: list[str] = field(default_factory=list)
     _points: int = 0
 
-    def add(self, shapes: Iterable[Shape]) -> None:
+    def add(self, shapes: Iterable[FileShape]) -> None:
         """Add shapes.
 
         Raises:
@@ -94,12 +94,12 @@ def bounded(parts: S) -> S:
     return parts
 
 
-def shape(kind: Kind, name: str, places: Sequence[Sequence[float]], holes: int = 0) -> Shape:
+def shape(kind: Kind, name: str, places: Sequence[Sequence[float]], holes: int = 0) -> FileShape:
     """Make a shape from (latitude, longitude[, height]); leave out a ring's repeated end."""
     points = [(place[0], place[1]) for place in places]
     if kind == "polygon" and len(points) > 1 and points[0] == points[-1]:
         points.pop()
-    return Shape(kind, name, tuple(points), holes, extent(place[2] for place in places if len(place) > 2))
+    return FileShape(kind, name, tuple(points), holes, extent(place[2] for place in places if len(place) > 2))
 
 
 def extent(heights: Iterable[float]) -> tuple[float, float] | None:
@@ -151,7 +151,7 @@ def decimal(text: str) -> float:
     raise ValueError(f"{text!r:.40} is not a number")
 
 
-def labels(shapes: Sequence[Shape]) -> list[str]:
+def labels(shapes: Sequence[FileShape]) -> list[str]:
     """Label each shape with its name, or else its kind; number labels that several shapes share."""
     plain = [shape.name or shape.kind for shape in shapes]
     alike, seen = Counter(plain), Counter[str]()

@@ -7,7 +7,14 @@ import re
 from collections.abc import Sequence
 
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_path_following.missions.waypoint_files.content import Content, Point, Shape, bounded, decimal, listed
+from auv_path_following.missions.waypoint_files.content import (
+    Content,
+    FileShape,
+    Point,
+    bounded,
+    decimal,
+    listed,
+)
 
 _HEADER = "a header with latitude, longitude (deg) or north, east (m)"
 #: Words of a column's name -> what the column is.
@@ -46,7 +53,7 @@ def read(data: bytes) -> Content:
         raise ConfigurationError("", f"text that is not CSV ({error})", _HEADER) from None
     in_degrees, first, second = _columns(head, lines[0])
     points = [_point(row, (first, second), len(head), number) for number, row in enumerate(rows, start=1)]
-    content = Content([Shape("point", "", (point,)) for point in points], in_degrees)
+    content = Content([FileShape("point", "", (point,)) for point in points], in_degrees)
     rest = [name.strip() for k, name in enumerate(head) if k not in (first, second) and name.strip()]
     if rest:
         content.notices.append(f"columns not taken: {listed(map(repr, rest))}")

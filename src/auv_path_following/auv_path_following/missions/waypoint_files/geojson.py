@@ -10,8 +10,8 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.missions.waypoint_files import qgc_plan
 from auv_path_following.missions.waypoint_files.content import (
     Content,
+    FileShape,
     Kind,
-    Shape,
     bounded,
     json_object,
     number,
@@ -81,7 +81,7 @@ def _where(name: str) -> str:
     return f"feature {shown(name)}" if name else ""
 
 
-def _shapes(name: str, geometry: dict[str, Any]) -> Iterator[Shape]:
+def _shapes(name: str, geometry: dict[str, Any]) -> Iterator[FileShape]:
     kind, depth = _KINDS.get(str(geometry.get("type")), (None, 0))
     if kind is None:
         found = f"a geometry of type {geometry.get('type')!r:.40}" if geometry else "an empty geometry"

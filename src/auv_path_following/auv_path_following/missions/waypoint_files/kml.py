@@ -13,7 +13,7 @@ from auv_msgs_py.settings.user_files import MOST_BYTES
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.missions.waypoint_files.content import (
     Content,
-    Shape,
+    FileShape,
     bounded,
     decimal,
     listed,
@@ -79,7 +79,7 @@ def read_zipped(data: bytes) -> Content:
     return read(document)
 
 
-def _shapes(kind: str, name: str, element: Element) -> Iterator[Shape]:
+def _shapes(kind: str, name: str, element: Element) -> Iterator[FileShape]:
     try:
         if kind in ("LineString", "LinearRing"):
             yield shape("line", name, _places(element))

@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.missions.waypoint_files.content import (
     Content,
+    FileShape,
     Point,
-    Shape,
     extent,
     listed,
     number,
@@ -145,7 +145,7 @@ def follow(items: Iterable[Item], content: Content) -> None:
         content.notices += notices
         return
     heights = extent(walk.heights)
-    content.add([Shape("line", "mission", tuple(walk.points), 0, heights, tuple(notices), refusal)])
+    content.add([FileShape("line", "mission", tuple(walk.points), 0, heights, tuple(notices), refusal)])
 
 
 @dataclass

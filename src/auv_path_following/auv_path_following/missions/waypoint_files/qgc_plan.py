@@ -8,7 +8,7 @@ from typing import Any
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.missions.waypoint_files.content import (
     Content,
-    Shape,
+    FileShape,
     bounded,
     json_object,
     number,
@@ -107,7 +107,7 @@ def _simple(label: str, item: dict[str, Any]) -> Item:
     return Item(label, item.get("command"), item.get("frame", 0), params, goes_on)
 
 
-def _areas(items: list[Any]) -> Iterator[Shape]:
+def _areas(items: list[Any]) -> Iterator[FileShape]:
     for position, item in enumerate(items, start=1):
         if isinstance(item, dict) and item.get("complexItemType") != "StructureScan" and "polygon" in item:
             yield _ring(f"item {position}", f"survey of item {position}", item["polygon"])
@@ -132,7 +132,7 @@ def _fence(document: dict[str, Any], found: Content) -> None:
             found.notices.append(f"{count} {what}(s) not taken: the geofence of a mission is one polygon")
 
 
-def _ring(where: str, name: str, corners: Any) -> Shape:
+def _ring(where: str, name: str, corners: Any) -> FileShape:
     try:
         return shape("polygon", name, [(number(corner[0]), number(corner[1])) for corner in corners])
     except (IndexError, KeyError, TypeError, ValueError):

@@ -10,7 +10,7 @@ from pathlib import Path
 from auv_msgs_py.settings import user_files
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.missions.waypoint_files import csv_table, geojson, gpx, kml, qgc_plan, wpl
-from auv_path_following.missions.waypoint_files.content import Content, Point, Shape, extent, shown
+from auv_path_following.missions.waypoint_files.content import Content, FileShape, Point, extent, shown
 
 _READERS: dict[str, Callable[[bytes], Content]] = {
     ".geojson": geojson.read,
@@ -52,9 +52,9 @@ def read(path: Path, called: str | None = None) -> Content:
     return content
 
 
-def _joined(shapes: Iterable[Shape]) -> list[Shape]:
+def _joined(shapes: Iterable[FileShape]) -> list[FileShape]:
     """Join lines of one name that were cut at the antimeridian."""
-    joined: list[Shape] = []
+    joined: list[FileShape] = []
     for shape in shapes:
         last = joined[-1] if joined else shape
         lines = joined and last.kind == shape.kind == "line" and last.name == shape.name

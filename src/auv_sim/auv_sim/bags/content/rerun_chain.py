@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import nanoseconds, navigation_from, water_velocity_from
 from auv_msgs_py.contract.frames import FrameTable, flip_yaw
-from auv_msgs_py.contract.stamps import StampGuard, Verdict
+from auv_msgs_py.contract.stamps import StampGuard, StampVerdict
 from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
 from auv_msgs_py.values.types import NO_WATER, WaterVelocity
 from auv_path_following.control import autopilot
@@ -118,7 +118,7 @@ class _Chain:
     """The pilot, with the mission's phases as they were recorded."""
 
     def __init__(self, parameters: dict[str, Any], mission: Mission, vehicle: Vehicle) -> None:
-        guidance = parameters[topics.GUIDANCE].with_wishes_of(mission)
+        guidance = parameters[topics.GUIDANCE].with_mission_overrides(mission)
         steering = parameters[topics.AUTOPILOT]
         # In lockstep a node's watchdogs rest, and so do these bounds.
         hold_after = math.inf if guidance.lockstep else guidance.holding.hold_after
@@ -138,7 +138,7 @@ class _Chain:
     def step(self, step: _Step, phase: _Phase) -> Answer | None:
         """Return the answer; None to an odometry that the nodes refuse too."""
         if phase.begins:
-            running = states.Mission(states.RUNNING)
+            running = states.MissionStatus(states.RUNNING)
             self._guide(at_the_beginning(self._config.guide, running, empty_approach()))
         try:
             navigation = navigation_from(step.odometry, self._frames, topics.ODOM.name)
@@ -146,10 +146,10 @@ class _Chain:
         except MessageRefused:
             return None
         verdict, dt = self._guard.judge(step.stamp)
-        if verdict is Verdict.REFUSE:
+        if verdict is StampVerdict.REFUSE:
             return None
         mission = self._state.guide.mission
-        if verdict is Verdict.RESTART:
+        if verdict is StampVerdict.RESTART:
             self._state = first_state(self._config, empty_approach())
         self._guide(self._state.guide._replace(mission=_in_phase(mission, phase)))
         measured = Measured(navigation, water or NO_WATER, water is not None, False, 0.0, step.stamp * 1e-9)
@@ -167,14 +167,14 @@ class _Chain:
         return water_velocity_from(message, self._frames, topics.WATER_VELOCITY.name)
 
 
-def _in_phase(mission: states.Mission, phase: _Phase) -> states.Mission:
+def _in_phase(mission: states.MissionStatus, phase: _Phase) -> states.MissionStatus:
     """Return the state as recorded; a mission that holds or is complete changes of its own accord only."""
     if phase.resumes:
-        return states.Mission(states.HOLDING)
+        return states.MissionStatus(states.HOLDING)
     if phase.runs:
         changes = mission.state in (states.HOLDING, states.COMPLETE)
-        return mission if changes else states.Mission(states.RUNNING)
-    return mission if mission.state == states.COMPLETE else states.Mission()
+        return mission if changes else states.MissionStatus(states.RUNNING)
+    return mission if mission.state == states.COMPLETE else states.MissionStatus()
 
 
 def _steps(bag: Bag, namespace: str | None, lockstep: bool, timeout: float) -> Iterator[_Step]:

@@ -82,7 +82,7 @@ def _guidance(options: argparse.Namespace, mission: Mission) -> PathFollowerConf
         parameters = SUITE[topics.GUIDANCE]()
     else:
         parameters = params_file.load(source, SUITE)[topics.GUIDANCE]
-    guidance: PathFollowerConfig = parameters.with_wishes_of(mission).guidance
+    guidance: PathFollowerConfig = parameters.with_mission_overrides(mission).guidance
     return guidance
 
 

@@ -150,7 +150,7 @@ class StudyPlan:
         configs: dict[str, Any] = {
             "vehicle": hull,
             "sea": self.sea,
-            "guidance": told[topics.GUIDANCE].with_wishes_of(mission).guidance,
+            "guidance": told[topics.GUIDANCE].with_mission_overrides(mission).guidance,
             "observer": told[topics.OBSERVER].observer,
             "autopilot": told[topics.AUTOPILOT].autopilot,
         }

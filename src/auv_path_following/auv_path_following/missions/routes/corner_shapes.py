@@ -20,7 +20,7 @@ from auv_path_following.curves.segment import Segment
 FERMAT_PEAK = math.sqrt(0.5 * math.sqrt(7.0) - 1.25)
 
 
-class Corner(NamedTuple):
+class WaypointCorner(NamedTuple):
     """A waypoint as the smoother sees it.
 
     Attributes:
@@ -49,7 +49,7 @@ class Corner(NamedTuple):
         return self.x + distance * math.cos(self.chi_out), self.y + distance * math.sin(self.chi_out)
 
 
-class Shape(NamedTuple):
+class CornerShape(NamedTuple):
     """A way to round a corner.
 
     Attributes:
@@ -59,7 +59,7 @@ class Shape(NamedTuple):
     """
 
     reach: Callable[[float], float]
-    build: Callable[[Corner, float], list[Segment]]
+    build: Callable[[WaypointCorner, float], list[Segment]]
 
 
 # --- circular: one arc, G1
@@ -69,7 +69,7 @@ def _circular_reach(turn: float) -> float:
     return math.tan(0.5 * turn)
 
 
-def _circular(corner: Corner, distance: float) -> list[Segment]:
+def _circular(corner: WaypointCorner, distance: float) -> list[Segment]:
     radius = distance / _circular_reach(abs(corner.turn))
     x, y = corner.start(distance)
     cx = x - corner.rho * radius * math.sin(corner.chi_in)
@@ -88,7 +88,7 @@ def _clothoid_reach(turn: float) -> float:
     return end.x + end.y * math.tan(0.5 * turn)
 
 
-def _clothoid(corner: Corner, distance: float) -> list[Segment]:
+def _clothoid(corner: WaypointCorner, distance: float) -> list[Segment]:
     radius = distance / _clothoid_reach(abs(corner.turn))
     length, kappa = abs(corner.turn) * radius, corner.rho / radius
     first = Clothoid(*corner.start(distance), length, corner.chi_in, 0.0, kappa)
@@ -134,7 +134,7 @@ def _fermat_reach(turn: float) -> float:
     return _fermat_unit_distance(turn) * peak
 
 
-def _fermat(corner: Corner, distance: float) -> list[Segment]:
+def _fermat(corner: WaypointCorner, distance: float) -> list[Segment]:
     turn = abs(corner.turn)
     theta_end, k = fermat_theta_end(turn), distance / _fermat_unit_distance(turn)
     return [
@@ -144,7 +144,7 @@ def _fermat(corner: Corner, distance: float) -> list[Segment]:
 
 
 SHAPES = {
-    "circular": Shape(_circular_reach, _circular),
-    "clothoid": Shape(_clothoid_reach, _clothoid),
-    "fermat": Shape(_fermat_reach, _fermat),
+    "circular": CornerShape(_circular_reach, _circular),
+    "clothoid": CornerShape(_clothoid_reach, _clothoid),
+    "fermat": CornerShape(_fermat_reach, _fermat),
 }
