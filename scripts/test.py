@@ -13,7 +13,7 @@ import time
 
 from _bootstrap import REPOSITORY, ensure_environment
 
-CODE = ("src", "scripts", "test")
+CODE = ("src", "scripts", "test", "examples")
 CHECKS = {
     "lint": ("ruff", "check", *CODE),
     "format": ("ruff", "format", "--check", *CODE),

@@ -102,7 +102,8 @@ def words_of(line: Line, run: object = "runs/example") -> list[str]:
     """The arguments of a script, with something in place of MISSION, RUN and the like."""
     stands_for = {
         "MISSION": "survey_wgs84", "RUN": str(run), "runs/...": str(run), "NEW.yaml": "rough",
-        "signed.yaml": "robust", "path.kml": "/dev/null", "my_study": "currents", "...": str(run),
+        "signed.yaml": "robust", "my_law.yaml": "robust", "path.kml": "/dev/null",
+        "my_study": "currents", "...": str(run),
     }  # fmt: skip
     return [stands_for.get(word, word) for word in shlex.split(line.text)[2:]]
 
@@ -122,9 +123,12 @@ def test_there_is_nothing_that_no_test_looks_at() -> None:
         line for line in rest if script_of(line) not in PARSERS and not line.text.startswith("ros2 run")
     ]
     assert {line.text for line in others} == {
+        "python3 examples/fly_closed_loop.py",  # test_examples.py
         "python3 scripts/api_docs.py",  # test_api_docs.py
         "python3 scripts/test.py",
+        "python3 examples/own_law.py",  # test_examples.py
         "python3 scripts/test.py -k fermat -x",
+        "python3 scripts/test.py -q test/auv_path_following/guidance",
         "python3 my_driver.py --ros-args -r __ns:=/auv",  # test_driver_doc.py
     }
 

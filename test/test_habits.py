@@ -9,6 +9,7 @@ import pytest
 import yaml
 
 from doc_pages import ROOT
+from test_architecture import MOST_MODULES, ROS_ROOMS
 
 TEMPLATES = sorted((ROOT / ".github" / "ISSUE_TEMPLATE").glob("*.yml"))
 
@@ -46,3 +47,34 @@ def test_the_quality_declaration_is_linked_and_names_the_version() -> None:
     (version,) = re.findall(r"<version>(.*)</version>", manifest)
     assert f"version is {version}" in declaration
     assert "(QUALITY_DECLARATION.md)" in (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def contributing() -> str:
+    return (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+
+
+def test_contributing_lists_the_rooms_that_may_need_ros() -> None:
+    """The architecture's test holds the list; this holds the page to it."""
+    (listed,) = re.findall(
+        r"<!-- ros rooms: begin -->\n(.*)<!-- ros rooms: end -->", contributing(), re.DOTALL
+    )
+    wanted = "".join(f"   - `{room}`\n" for room in ROS_ROOMS)
+    assert listed == wanted, f"put this between the marks:\n{wanted}"
+
+
+def test_contributing_gives_the_limits_that_are_held() -> None:
+    source = (ROOT / "test" / "test_architecture.py").read_text(encoding="utf-8")
+    ((node, other),) = re.findall(r"limit = (\d+) if is_node else .* else (\d+)\n", source)
+    assert f"Files have at most {other} lines and nodes at most {node}." in contributing()
+    assert f"A folder has at most {MOST_MODULES} modules." in contributing()
+
+
+def test_the_files_that_contributing_names_exist() -> None:
+    """By the end of their path, as the page writes them."""
+    files = [
+        path.as_posix()
+        for folder in ("src", "test", "docs", "scripts")
+        for path in (ROOT / folder).rglob("*")
+    ]
+    for name in re.findall(r"`([\w/]+(?:\.py|\.md))`", contributing()):
+        assert (ROOT / name).exists() or any(path.endswith(f"/{name}") for path in files), name
