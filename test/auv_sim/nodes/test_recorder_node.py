@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import time
 from pathlib import Path
 from typing import Any
 
@@ -104,6 +105,30 @@ def test_each_file_begins_with_what_is_latched(bench: Bench, tmp_path: Path) -> 
     bag = read_bag(tmp_path / "bag")
     assert bag.topics[f"/auv/{topics.MISSION_STATE.name}"].count == 1
     assert bag.notes == []
+
+
+def test_the_timer_rests_while_the_simulator_asks(bench: Bench, tmp_path: Path) -> None:
+    node: Any = bench.start(RecorderNode, directory=str(tmp_path / "bag"))
+    fetched: list[float] = []
+    node.selection.topics[0].take = lambda _: fetched.append(time.monotonic())
+    node._poll()
+    node._poll_unless_asked()
+    assert len(fetched) == 1
+    time.sleep(recorder_node._POLL)
+    node._poll_unless_asked()
+    assert len(fetched) == 2
+
+
+def test_flushes_in_quick_succession_look_at_the_disk_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    disk = Disk(monkeypatch, 201)
+    watch = disk_room.RoomWatch(tmp_path)
+    assert watch.lacking(200) is None
+    disk.free = 100
+    assert watch.lacking(200) is None
+    time.sleep(disk_room.PERIOD)
+    assert watch.lacking(200) == (f"100 MB free for {tmp_path}", "at least 200 MB")
 
 
 def test_in_lockstep_it_fetches_on_request(

@@ -18,7 +18,7 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.node.runtime import SuiteNode, run_nodes
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.writing.bag_writer import BagWriter, texts_below
-from auv_sim.bags.writing.disk_room import room_lacking
+from auv_sim.bags.writing.disk_room import RoomWatch, room_lacking
 from auv_sim.bags.writing.intake import Taken, Timestamps, drain
 from auv_sim.bags.writing.selection import Selection
 from auv_sim.parameters import RecorderParameters
@@ -60,20 +60,22 @@ class RecorderNode(SuiteNode):
         self.writer = BagWriter(
             directory, p.compression, max_size=size, max_duration_ns=duration, texts=_configuration(directory)
         )
+        self._room = RoomWatch(directory)
         self._times = Timestamps(bool(self.get_parameter("use_sim_time").value))
         self._early: list[Taken] = []
-        self._last = self._flushed = time.monotonic()
+        self._last = self._flushed = self._polled = time.monotonic()
         self._flushed_ns = 0
         self._progress = self.advertise(topics.RECORDED_STEPS) if p.lockstep else None
         self._told = 0
-        self._per_step = [self.resolve_topic_name(topic.name) for topic in topics.PER_STEP]
         self.close_gate()
         self.selection = Selection(self, p, self.writer)
+        per_step = {self.resolve_topic_name(topic.name) for topic in topics.PER_STEP}
+        self._per_step = [topic.channel for topic in self.selection.topics if topic.name in per_step]
         if p.lockstep:
             self.listen(topics.RECORD_REQUEST, lambda _: self._poll())
         # In lockstep too: for what comes after the last request, and for a simulator that sends none.
         steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self.create_timer(_POLL, self._poll, clock=steady)
+        self.create_timer(_POLL, self._poll_unless_asked, clock=steady)
         self.create_timer(_LOOK_AROUND, self._look_around, clock=steady)
 
     @property
@@ -97,13 +99,19 @@ class RecorderNode(SuiteNode):
         told = ", ".join(f"{number} of {name}" for name, number in lost.items())
         self.health.warn("lost", f"messages lost: {told}" if lost else "")
 
+    def _poll_unless_asked(self) -> None:
+        """Fetch, unless the simulator has just asked for it."""
+        if time.monotonic() - self._polled >= 0.5 * _POLL:
+            self._poll()
+
     def _poll(self) -> None:
+        self._polled = now = time.monotonic()
         batch = drain(self.selection.topics)
         if batch:
-            self._last = time.monotonic()
+            self._last = now
             self._take_in(batch)
         self._report_progress()
-        now, end = time.monotonic(), self._times.now or 0
+        end = self._times.now or 0
         period = self.parameters.flush_period
         if now - self._flushed >= period or abs(end - self._flushed_ns) >= period * 1e9:
             self._flushed, self._flushed_ns = now, end
@@ -113,19 +121,20 @@ class RecorderNode(SuiteNode):
         times, write = self._times, self.writer.write
         if times.simulated and times.now is None:
             batch = self._early + batch
-            clock_known = any(taken.order == 0 for taken in batch)
+            clock_known = any(order == 0 for _, order, *_ in batch)
             if not (clock_known or last or len(batch) > _EARLY_LIMIT):
                 self._early = batch
                 return
             self._early = []
             times.begin(batch)
-        for taken in batch:
-            topic = taken.topic
+        for sent_ns, _, sequence, received_ns, topic, data in batch:
             if not topic.known:
                 self.selection.meet(topic)
-            topic.watch.note(taken.sequence, topic.publishers)
-            log_ns, publish_ns = times.of(taken)
-            write(topic.channel, log_ns, publish_ns, taken.data, taken.sequence)
+            topic.watch.note(sequence, topic.publishers)
+            if topic.is_clock:
+                times.tick(sent_ns, data)
+            log_ns, publish_ns = times.of(sent_ns, received_ns)
+            write(topic.channel, log_ns, publish_ns, data, sequence)
         if self._progress is not None:
             self.time_is(times.now or 0)
 
@@ -133,8 +142,7 @@ class RecorderNode(SuiteNode):
         """Tell the newest count, once somebody can hear it: those before it do not matter."""
         if self._progress is None:
             return
-        counts = self.writer.counts
-        steps = min(counts[name] for name in self._per_step)
+        steps = min((channel.count for channel in self._per_step), default=0)
         if steps - self._told >= topics.RECORDING_REPORT and not self.gate_waits_for():
             self._told = steps
             self._progress.publish(UInt64(data=steps))
@@ -142,7 +150,7 @@ class RecorderNode(SuiteNode):
     def _flush(self) -> None:
         if self.writer.closed:
             return
-        if short := room_lacking(self.writer.directory, self.parameters.min_free_space):
+        if short := self._room.lacking(self.parameters.min_free_space):
             self.writer.close()
             text = f"the recording was closed: {short[0]}, expected {short[1]}"
             self.get_logger().error(text)

@@ -13,26 +13,36 @@ from auv_sim.bags.writing.intake import Taken, Timestamps
 TOPIC: Any = SimpleNamespace(name="/clock")
 
 
-def clock(seconds: int, nanoseconds: int) -> Taken:
-    return Taken(1, 0, 1, 1, TOPIC, b"\x00\x01\x00\x00" + struct.pack("<iI", seconds, nanoseconds))
-
-
-@pytest.mark.parametrize(
-    "wrong", [clock(-1, 0), clock(2**31 - 1, 2**32 - 1), Taken(1, 0, 1, 1, TOPIC, b"\x00\x01\x00\x00\x05")]
-)
-def test_a_clock_that_is_no_time_moves_nothing(wrong: Taken) -> None:
-    times = Timestamps(simulated=True)
-    times.begin([wrong])
-    assert times.of(clock(5, 0)) == (5_000_000_000, 5_000_000_000)
-    assert times.of(wrong) == (5_000_000_000, 5_000_000_000)
+def clock(seconds: int, nanoseconds: int) -> bytes:
+    return b"\x00\x01\x00\x00" + struct.pack("<iI", seconds, nanoseconds)
 
 
 def sent(at: int) -> Taken:
-    return Taken(at, 1, 1, at, TOPIC, b"")
+    return at, 1, 1, at, TOPIC, b""
 
 
 def tick(at: int, told: int) -> Taken:
-    return clock(told, 0)._replace(sent_ns=at)
+    return at, 0, 1, at, TOPIC, clock(told, 0)
+
+
+def times_of(times: Timestamps, batch: list[Taken]) -> list[int]:
+    """Return the log time of each message, s, as a recorder gives it."""
+    found = []
+    for sent_ns, order, _, received_ns, _, data in batch:
+        if order == 0:
+            times.tick(sent_ns, data)
+        log_ns, publish_ns = times.of(sent_ns, received_ns)
+        assert log_ns == publish_ns
+        found.append(log_ns // 10**9)
+    return found
+
+
+@pytest.mark.parametrize("wrong", [clock(-1, 0), clock(2**31 - 1, 2**32 - 1), b"\x00\x01\x00\x00\x05"])
+def test_a_clock_that_is_no_time_moves_nothing(wrong: bytes) -> None:
+    times = Timestamps(simulated=True)
+    spoiled: Taken = (1, 0, 1, 1, TOPIC, wrong)
+    times.begin([spoiled])
+    assert times_of(times, [tick(1, 5), spoiled]) == [5, 5]
 
 
 def test_a_message_gets_the_time_at_which_it_was_sent_not_the_newest() -> None:
@@ -40,9 +50,9 @@ def test_a_message_gets_the_time_at_which_it_was_sent_not_the_newest() -> None:
     times = Timestamps(simulated=True)
     batch = [tick(100, 1), sent(150), tick(200, 2), tick(300, 3), tick(400, 4)]
     times.begin(batch)
-    assert [times.of(taken)[0] // 10**9 for taken in batch] == [1, 1, 2, 3, 4]
+    assert times_of(times, batch) == [1, 1, 2, 3, 4]
     late = [sent(199), sent(200), sent(350), tick(500, 5), sent(450), sent(500), sent(501)]
-    assert [times.of(taken)[0] // 10**9 for taken in late] == [1, 2, 3, 5, 4, 5, 5]
+    assert times_of(times, late) == [1, 2, 3, 5, 4, 5, 5]
 
 
 def test_a_machine_clock_that_is_set_back_makes_nothing_old() -> None:
@@ -50,8 +60,8 @@ def test_a_machine_clock_that_is_set_back_makes_nothing_old() -> None:
     hour = 3600 * 10**9
     batch = [tick(hour + 100, 1), tick(hour + 200, 2), tick(100, 3), sent(150), tick(200, 4), sent(250)]
     times.begin(batch)
-    assert [times.of(taken)[0] // 10**9 for taken in batch] == [1, 2, 3, 3, 4, 4]
-    assert times.of(sent(hour + 300))[0] == 4 * 10**9
+    assert times_of(times, batch) == [1, 2, 3, 3, 4, 4]
+    assert times_of(times, [sent(hour + 300)]) == [4]
 
 
 def test_a_latched_message_of_long_ago_gets_the_newest_time() -> None:
@@ -59,15 +69,28 @@ def test_a_latched_message_of_long_ago_gets_the_newest_time() -> None:
     hour = 3600 * 10**9
     batch = [tick(hour, 1), tick(hour + 100, 2)]
     times.begin(batch)
-    for taken in batch:
-        times.of(taken)
-    assert times.of(sent(5))[0] == 2 * 10**9
+    times_of(times, batch)
+    assert times_of(times, [sent(5)]) == [2]
+
+
+def test_what_comes_before_the_first_clock_gets_its_time() -> None:
+    times = Timestamps(simulated=True)
+    batch = [sent(50), tick(100, 7)]
+    times.begin(batch)
+    assert times_of(times, batch) == [7, 7]
+
+
+def test_without_simulated_time_the_machines_clock_counts() -> None:
+    times = Timestamps(simulated=False)
+    times.tick(10, clock(5, 0))
+    assert times.now is None
+    assert times.of(20, 30) == (30, 20)
 
 
 def test_hours_of_clock_need_no_more_memory() -> None:
     times = Timestamps(simulated=True)
     times.begin([])
     for k in range(50_000):
-        times.of(tick(k, k))
+        times.tick(k, clock(k, 0))
     assert len(times._sent) == len(times._said) <= 20_000
-    assert times.of(sent(45_000))[0] == 45_000 * 10**9
+    assert times_of(times, [sent(45_000)]) == [45_000]

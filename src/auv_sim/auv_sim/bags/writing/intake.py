@@ -3,13 +3,13 @@
 A recorder in lockstep gets some twenty messages a step. Handed over one by one each of them costs a wake-up,
 a lock and a callback, which is several times what taking it from the reader's queue costs. So the queues are
 deep, no executor looks at them, and every few milliseconds everything that has come is fetched at once. When
-each message was sent and received is told by the middleware, not by a clock that is asked afterwards.
+each message was sent and received is what the middleware says, not a clock that is read afterwards.
 """
 
 from __future__ import annotations
 
 from bisect import bisect_right
-from typing import Any, NamedTuple
+from operator import itemgetter
 
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
@@ -28,17 +28,12 @@ from auv_sim.bags.writing.bag_writer import Channel
 _REMEMBERED = 10_000
 #: A message sent this long before the newest /clock is a latched one, or the machine's clock was set, ns.
 _LONG_AGO = 10_000_000_000
+#: What messages are sorted by.
+_WHEN = itemgetter(0, 1, 2)
 
-
-class Taken(NamedTuple):
-    """One message: when it was sent and received (ns, the machine's clock), its publisher's number of it."""
-
-    sent_ns: int
-    order: int
-    sequence: int
-    received_ns: int
-    topic: PolledTopic
-    data: bytes
+#: One message: when it was sent (ns, the machine's clock), 0 for /clock and 1 for all else, its publisher's
+#: number of it, when it was received (ns), its topic, its bytes.
+Taken = tuple[int, int, int, int, "PolledTopic", bytes]
 
 
 class PolledTopic:
@@ -100,7 +95,7 @@ class PolledTopic:
             data, info = taken
             received = info["received_timestamp"]
             sequence = info.get("publication_sequence_number") or 0
-            batch.append(Taken(info["source_timestamp"] or received, order, sequence, received, self, data))
+            batch.append((info["source_timestamp"] or received, order, sequence, received, self, data))
 
 
 class Timestamps:
@@ -114,30 +109,41 @@ class Timestamps:
         self.simulated = simulated
         #: Simulated time, ns; None before the first /clock.
         self.now: int | None = None
-        # When each /clock was sent, in that order, and what it said, ns.
+        # When each /clock was sent, in that order, what it said, and when the newest was sent, ns.
         self._sent: list[int] = []
         self._said: list[int] = []
+        self._newest = 0
         self._message = Clock()
 
     def begin(self, batch: list[Taken]) -> None:
-        """What was sent before the clock's first word gets the time of that word."""
-        first = next((taken for taken in batch if taken.order == 0), None)
-        self.now = (self._clock(first.data) or 0) if first is not None else 0
+        """Give what was sent before the first /clock the time of that message."""
+        first = next((data for _, order, _, _, _, data in batch if order == 0), None)
+        self.now = (self._clock(first) or 0) if first is not None else 0
 
-    def of(self, taken: Taken) -> tuple[int, int]:
-        """(log time, publish time), ns; a /clock message moves the time.
+    def tick(self, sent_ns: int, data: bytes) -> None:
+        """Move the time: a /clock message was sent at `sent_ns`."""
+        said = self._clock(data) if self.simulated else None
+        if said is None:
+            return
+        if self._sent and sent_ns < self._newest:  # the machine's clock was set back
+            self._sent, self._said = [], []
+        self.now, self._newest = said, sent_ns
+        self._sent.append(sent_ns)
+        self._said.append(said)
+        if len(self._sent) > 2 * _REMEMBERED:
+            del self._sent[:-_REMEMBERED], self._said[:-_REMEMBERED]
+
+    def of(self, sent_ns: int, received_ns: int) -> tuple[int, int]:
+        """Return log time and publish time of a message, ns.
 
         A topic is emptied a moment before /clock is. What is sent in between comes with the next batch, when
         newer times have been read: it gets the time of the /clock before it, not the newest.
         """
         if not self.simulated:
-            return taken.received_ns, taken.sent_ns
-        if taken.order == 0:
-            told = self._clock(taken.data)
-            if told is not None:
-                self.now = told
-                self._remember(taken.sent_ns, told)
-        now = self._at(taken.sent_ns)
+            return received_ns, sent_ns
+        now = self.now or 0
+        if self._newest - _LONG_AGO <= sent_ns < self._newest:
+            now = self._said[max(bisect_right(self._sent, sent_ns) - 1, 0)]
         return now, now
 
     def _clock(self, data: bytes) -> int | None:
@@ -147,20 +153,6 @@ class Timestamps:
             return stamp_of(self._message.clock, CLOCK.name)
         except (ForeignLayout, MessageRefused):
             return None
-
-    def _remember(self, sent_ns: int, told: int) -> None:
-        if self._sent and sent_ns < self._sent[-1]:  # the machine's clock was set back
-            self._sent, self._said = [], []
-        self._sent.append(sent_ns)
-        self._said.append(told)
-        if len(self._sent) > 2 * _REMEMBERED:
-            del self._sent[:-_REMEMBERED], self._said[:-_REMEMBERED]
-
-    def _at(self, sent_ns: int) -> int:
-        """Simulated time when a message was sent; for one of long ago, the newest time."""
-        if not self._sent or sent_ns >= self._sent[-1] or sent_ns < self._sent[-1] - _LONG_AGO:
-            return self.now or 0
-        return self._said[max(bisect_right(self._sent, sent_ns) - 1, 0)]
 
 
 def drain(topics: list[PolledTopic]) -> list[Taken]:
@@ -175,9 +167,5 @@ def drain(topics: list[PolledTopic]) -> list[Taken]:
     # Last, so that no message is there without the time at which it was sent.
     for topic in clocks:
         topic.take(batch)
-    batch.sort(key=_when)
+    batch.sort(key=_WHEN)
     return batch
-
-
-def _when(taken: Taken) -> Any:
-    return taken[:3]
