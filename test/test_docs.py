@@ -169,7 +169,7 @@ def test_a_node_that_ros2_runs_has_these_parameters(line: Line) -> None:
 
 
 def test_the_nodes_that_are_started_by_hand_follow_the_simulator() -> None:
-    """The simulator's clock starts at 1 s: a node on wall time would refuse all of its stamps."""
+    """Their timeouts and their check for late messages run on the simulator's clock."""
     page = "docs/ros2_workspace.md"
     started = [line.text for line in LINES if line.page == page and line.text.startswith("ros2 run")]
     assert len(started) == 5
