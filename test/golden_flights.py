@@ -18,7 +18,7 @@ from auv_path_following.curves.composite import CompositePath
 from auv_path_following.missions import mission_file
 from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.closed_loop import Scenario
-from auv_sim.parameters import CRUISE, SUITE
+from auv_sim.sim_parameters import CRUISE, SUITE
 from auv_sim.studies.paper.paper_flights import changed
 from auv_sim.vehicle import sea
 from auv_sim.vehicle.remus import PlantState

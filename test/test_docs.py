@@ -28,7 +28,7 @@ from auv_sim.cli import mission as mission_cli
 from auv_sim.cli import plan as plan_cli
 from auv_sim.driver_parameters import MavlinkDriverParameters
 from auv_sim.flight.batch import engine
-from auv_sim.parameters import SUITE, FaultRelayParameters
+from auv_sim.sim_parameters import SUITE, FaultRelayParameters
 from auv_sim.studies.campaign.campaign_plan import StudyPlan
 from auv_sim.vehicle import sea
 from conftest import SHORT_MISSION

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from auv_path_following.missions import mission_file
-from auv_sim.bags.reading.bag_watch import recorded
+from auv_sim.bags.reading.growing_bag import has_message
 from auv_sim.cli.mission import main
 from auv_sim.launch import mission_plan
 from auv_sim.launch.launcher import domain_of
@@ -43,7 +43,7 @@ def alive(pid: int) -> bool:
 
 def under_way(run: Path) -> bool:
     """The recorder has written the answer to a step."""
-    return recorded(run / "bag", "/auv/thrust_cmd")
+    return has_message(run / "bag", "/auv/thrust_cmd")
 
 
 def test_a_mission_is_flown_recorded_and_drawn(

@@ -9,7 +9,7 @@ import pytest
 
 from auv_msgs_py.settings.schema import leaves, setting, settings
 from auv_sim import reference
-from auv_sim.parameters import SUITE
+from auv_sim.sim_parameters import SUITE
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "parameters.md"
 

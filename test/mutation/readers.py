@@ -17,7 +17,7 @@ from auv_path_following import config_files, vehicle
 from auv_path_following.missions import mission_file
 from auv_sim.cli import bag as bag_command
 from auv_sim.cli import plan as plan_command
-from auv_sim.parameters import SUITE
+from auv_sim.sim_parameters import SUITE
 from auv_sim.studies.campaign.campaign_plan import StudyPlan
 from auv_sim.vehicle import sea
 from mutation import seeds, waypoint_seeds

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from auv_path_following.missions.mission_file import MissionSpec
 from auv_path_following.parameters import NavigationParameters, NodeParameters
 from auv_path_following.vehicle import Vehicle
-from auv_sim.parameters import SUITE, FaultRelayParameters
+from auv_sim.sim_parameters import SUITE, FaultRelayParameters
 from auv_sim.studies.campaign.study_file import Study
 from auv_sim.vehicle.sea import Sea
 
@@ -38,7 +38,7 @@ _GROUP = "mapping"
 _KINDS = {float: "number", int: "whole number", bool: "true or false", str: "text"}
 
 
-class Row(NamedTuple):
+class KeyRow(NamedTuple):
     """One key."""
 
     name: str
@@ -67,7 +67,7 @@ def page() -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def _section(title: str, rows: Iterable[Row]) -> list[str]:
+def _section(title: str, rows: Iterable[KeyRow]) -> list[str]:
     table = ["| name | value | range | default | meaning |", "|---|---|---|---|---|"]
     table += ["| " + " | ".join((f"`{row.name}`", *map(_cell, row[1:]))) + " |" for row in rows]
     return [f"### {title}", "\n".join(table)]
@@ -77,7 +77,7 @@ def _cell(text: str) -> str:
     return text.replace("|", "\\|")
 
 
-def _parameters(cls: type[Any], above: set[str]) -> list[Row]:
+def _parameters(cls: type[Any], above: set[str]) -> list[KeyRow]:
     """The rows of a node without those that stand in the section of its base class."""
     return [row for row in keys(cls) if row.name not in above and row.kind != _GROUP]
 
@@ -86,7 +86,7 @@ def _names(cls: type[Any]) -> set[str]:
     return {row.name for row in keys(cls)}
 
 
-def keys(cls: type[Any], prefix: str = "") -> Iterator[Row]:
+def keys(cls: type[Any], prefix: str = "") -> Iterator[KeyRow]:
     """Every key of a settings class, those of nested classes below it.
 
     Args:
@@ -101,9 +101,9 @@ def keys(cls: type[Any], prefix: str = "") -> Iterator[Row]:
         below, listed = _nested(hints[name])
         if below is None:
             kind = ", ".join(filter(None, (_kind(hints[name]), str(extra.get("unit", "")))))
-            yield Row(prefix + name, kind, _range(info.metadata), default, doc)
+            yield KeyRow(prefix + name, kind, _range(info.metadata), default, doc)
         else:
-            yield Row(prefix + name, f"list of {_GROUP}s" if listed else _GROUP, "", default, doc)
+            yield KeyRow(prefix + name, f"list of {_GROUP}s" if listed else _GROUP, "", default, doc)
             yield from keys(below, f"{prefix}{name}{'[]' * listed}.")
 
 

@@ -18,7 +18,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.nodes.guidance_node import GuidanceNode
 from auv_path_following.nodes.heading_autopilot_node import HeadingAutopilotNode
 from auv_sim.nodes.plant_node import RemusPlantNode
-from auv_sim.parameters import SUITE
+from auv_sim.sim_parameters import SUITE
 from node_bench import Bench
 
 

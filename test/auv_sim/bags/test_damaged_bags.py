@@ -12,7 +12,7 @@ from mcap.reader import make_reader
 from rosbags.highlevel import AnyReader
 
 from auv_sim.bags.definitions import typestore
-from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.writing.bag_writer import BagWriter
 from auv_sim.cli import bag as bag_command
 

@@ -16,7 +16,7 @@ from rosbags.interfaces import Nodetype
 
 from auv_msgs_py.contract import topics
 from auv_sim.bags.definitions import typestore
-from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.deserialize import deserializer
 from auv_sim.bags.writing.bag_writer import BagWriter
 

@@ -15,8 +15,8 @@ from rich.console import Console
 
 from auv_path_following.missions import mission_file
 from auv_sim.bags.content.flown_settings import differences
-from auv_sim.bags.content.recorded_mission import Flight
-from auv_sim.bags.reading.bag import Bag
+from auv_sim.bags.content.recorded_mission import RecordedMission
+from auv_sim.bags.reading.recording import Bag
 from auv_sim.bags.showing import compare_picture, inspect_tables
 from auv_sim.bags.showing.report_data import page_data
 from auv_sim.bags.verbs import compare
@@ -29,7 +29,7 @@ TRUE, ASSUMED = 1.5, 0.25
 STEPS = 50
 
 
-def flight(truth: bool = True) -> Flight:
+def flight(truth: bool = True) -> RecordedMission:
     """Along the first subpath, a line, beside it."""
     mission = mission_file.load("paper_composite")
     points = [mission.path.evaluate(0, share) for share in np.linspace(0.05, 0.95, STEPS)]
@@ -50,7 +50,7 @@ def flight(truth: bool = True) -> Flight:
         "rudder": np.zeros(STEPS),
         "thrust_cmd": np.full(STEPS, 6.0),
     }
-    return Flight(Bag(Path("sea")), Run.from_columns(columns), mission, None, [])
+    return RecordedMission(Bag(Path("sea")), Run.from_columns(columns), mission, None, [])
 
 
 def decoded(text: str) -> NDArray[np.float32]:

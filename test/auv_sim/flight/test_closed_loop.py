@@ -19,7 +19,7 @@ from auv_path_following.guidance.switching import SwitchingConfig
 from auv_path_following.missions import mission_file
 from auv_sim.flight.closed_loop import Scenario, fly, start_of
 from auv_sim.flight.metrics import summarise
-from auv_sim.parameters import CRUISE, SUITE
+from auv_sim.sim_parameters import CRUISE, SUITE
 from auv_sim.vehicle.remus import PlantState
 
 MISSION = mission_file.load("paper_composite")

@@ -17,7 +17,7 @@ from auv_sim.cli import mission as mission_command
 from auv_sim.flight.closed_loop import Scenario, fly
 from auv_sim.launch import mission_plan
 from auv_sim.launch.options import Options
-from auv_sim.parameters import SUITE
+from auv_sim.sim_parameters import SUITE
 from auv_sim.vehicle.remus import PlantState
 
 TIGHT = Path(__file__).parents[1] / "cli" / "wrong_missions" / "20_turn_too_tight.yaml"

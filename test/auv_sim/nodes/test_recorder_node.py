@@ -13,7 +13,7 @@ from std_msgs.msg import String
 
 from auv_msgs_py.contract import qos, topics
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.writing import disk_room
 from auv_sim.nodes import recorder_node
 from auv_sim.nodes.recorder_node import RecorderNode

@@ -26,9 +26,9 @@ from rosbags.highlevel import AnyReader
 from std_msgs.msg import Float64, String
 
 from auv_msgs_py.contract import qos, topics
-from auv_sim.bags.mending import repair
-from auv_sim.bags.reading.bag import read_bag
-from auv_sim.bags.reading.bag_watch import recorded
+from auv_sim.bags.bag_repair import repair
+from auv_sim.bags.reading.bag_reader import read_bag
+from auv_sim.bags.reading.growing_bag import has_message
 
 #: What a crash may lose at most, s.
 BOUND = 1.0
@@ -158,7 +158,7 @@ def test_killed_at_any_moment(tmp_path: Path, node: Node, seed: int) -> None:
     process = start(tmp_path / "bag")
     wait_for(truth)
     # Its reader is matched before the recorder has come to its first flush; from then on the bound holds.
-    talk(truth, until=lambda: recorded(tmp_path / "bag", truth_topic(tmp_path)))
+    talk(truth, until=lambda: has_message(tmp_path / "bag", truth_topic(tmp_path)))
     end = time.monotonic() + random.Random(seed).uniform(0.0, 1.5)
     longest = talk(truth, until=lambda: time.monotonic() > end)
     process.kill()

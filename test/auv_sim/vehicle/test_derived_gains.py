@@ -16,7 +16,7 @@ from auv_path_following.curves.kinds.line import Line
 from auv_path_following.guidance.approach import ApproachConfig
 from auv_sim.flight.batch import engine
 from auv_sim.flight.closed_loop import Scenario
-from auv_sim.parameters import SUITE
+from auv_sim.sim_parameters import SUITE
 from auv_sim.vehicle.remus import PlantState
 from hulls import STABLE, drawn
 

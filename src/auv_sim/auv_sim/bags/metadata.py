@@ -15,7 +15,7 @@ METADATA_VERSION = 9
 ROS_DISTRO = "jazzy"
 
 
-class TopicFacts(NamedTuple):
+class TopicMetadata(NamedTuple):
     """One topic: its QoS profiles are spelled as `rosbags` dumps them, its messages are `encoding`."""
 
     name: str
@@ -26,7 +26,7 @@ class TopicFacts(NamedTuple):
     encoding: str = "cdr"
 
 
-class FileFacts(NamedTuple):
+class FileMetadata(NamedTuple):
     """One storage file: first and last log time (ns), messages, bytes."""
 
     name: str
@@ -37,7 +37,7 @@ class FileFacts(NamedTuple):
 
 
 def information(
-    topics: Sequence[TopicFacts], files: Sequence[FileFacts], storage: str = "mcap"
+    topics: Sequence[TopicMetadata], files: Sequence[FileMetadata], storage: str = "mcap"
 ) -> dict[str, Any]:
     """Everything below the file's one key, in rosbag2's order; `storage` is rosbag2's name of the format."""
     held = [file for file in files if file.messages]
@@ -88,7 +88,7 @@ def write(directory: Path, content: dict[str, Any]) -> None:
     write_text(directory / METADATA_FILE, dump({"rosbag2_bagfile_information": content}))
 
 
-class _Dumper(yaml.SafeDumper):
+class _PlainDumper(yaml.SafeDumper):
     """Spells every value out: yaml-cpp's older readers stumble over anchors and aliases."""
 
     def ignore_aliases(self, data: Any) -> bool:
@@ -97,4 +97,4 @@ class _Dumper(yaml.SafeDumper):
 
 def dump(data: Any) -> str:
     """YAML as rosbag2 writes it."""
-    return yaml.dump(data, Dumper=_Dumper, sort_keys=False, default_flow_style=False, allow_unicode=True)
+    return yaml.dump(data, Dumper=_PlainDumper, sort_keys=False, default_flow_style=False, allow_unicode=True)

@@ -30,7 +30,7 @@ from auv_path_following.navigation.current_observer import CurrentObserverConfig
 from auv_path_following.pilot import Pilot, begun, pilot
 from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.run_record import Run
-from auv_sim.parameters import CRUISE
+from auv_sim.sim_parameters import CRUISE
 from auv_sim.vehicle.remus import PlantState
 from auv_sim.vehicle.sea import Sea
 from auv_sim.vehicle.simulated import SimulatedVehicle

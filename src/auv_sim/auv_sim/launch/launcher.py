@@ -20,7 +20,7 @@ from auv_sim.launch.processes.adopted import Loader
 from auv_sim.launch.processes.domains import free_domain
 from auv_sim.launch.processes.placement import Processor
 from auv_sim.launch.processes.process_group import Child, Children
-from auv_sim.launch.progress import Progress
+from auv_sim.launch.progress_display import ProgressDisplay
 from auv_sim.launch.vehicle_driver import EMULATOR, EMULATOR_MODULE
 
 #: Wall time for all nodes to find each other, s.
@@ -51,7 +51,7 @@ def domain_of(plan: Plan) -> int:
     return free_domain()
 
 
-def fly(plan: Plan, directory: Path, domain: int, progress: Progress, loader: Loader) -> Outcome:
+def fly(plan: Plan, directory: Path, domain: int, progress: ProgressDisplay, loader: Loader) -> Outcome:
     """Run a mission.
 
     Args:
@@ -123,7 +123,7 @@ class _Flight:
         self._children: Children = children
         self._loader: Loader = loader
         self._monitor = monitor
-        self._progress: Progress = progress
+        self._progress: ProgressDisplay = progress
         self._interrupt: StopRequest = interrupt
         self._processor = processor
 

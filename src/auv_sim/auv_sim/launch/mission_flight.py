@@ -14,7 +14,7 @@ from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, EXIT_INTERRUPTED, make_
 from auv_sim.launch import launcher, mission_plan
 from auv_sim.launch.options import Options
 from auv_sim.launch.processes.adopted import Loader
-from auv_sim.launch.progress import Progress
+from auv_sim.launch.progress_display import ProgressDisplay
 from auv_sim.terminal import console as terminal
 
 _EXIT = {
@@ -54,18 +54,18 @@ def fly(options: Options, loader: Loader) -> int:
     for notice in resolved.verdicts.notices:
         console.print(f"[cyan]notice[/cyan] {escape(notice)}", highlight=False, soft_wrap=True)
     try:
-        with Progress(path, console, options.quiet) as progress:
+        with ProgressDisplay(path, console, options.quiet) as progress:
             outcome = launcher.fly(resolved, directory, domain, progress, loader)
     except GraphTaken:
         shutil.rmtree(directory)  # nothing was flown, and the same command is to work again
         raise
     if outcome.state != "complete":
         say(f"mission {outcome.state}: {outcome.reason}", error=True)
-    from auv_sim.launch import results  # its libraries draw: nothing to load before the flight
+    from auv_sim.launch import mission_results  # its libraries draw: nothing to load before the flight
 
-    outcome, summary = results.conclude(resolved, directory, outcome)
+    outcome, summary = mission_results.conclude(resolved, directory, outcome)
     if summary is not None:
-        results.show(resolved, directory, outcome, summary, console)
+        mission_results.show(resolved, directory, outcome, summary, console)
     if outcome.state == "incomplete":
         say(f"mission incomplete: {outcome.reason}", error=True)
     return _EXIT[outcome.state]

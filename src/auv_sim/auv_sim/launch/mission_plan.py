@@ -23,8 +23,8 @@ from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.mission_check.flyable import Verdicts, check, refusal
 from auv_sim.flight.closed_loop import Scenario
 from auv_sim.launch.options import DRIVERS, Options
-from auv_sim.launch.vehicle_driver import tell_driver
-from auv_sim.parameters import SUITE
+from auv_sim.launch.vehicle_driver import configure_driver
+from auv_sim.sim_parameters import SUITE
 from auv_sim.vehicle import sea
 
 
@@ -193,7 +193,7 @@ def make(options: Options, directory: Path) -> Plan:
     emulator, driver = None, DRIVERS.get(options.vehicle_driver or "")
     if driver is not None:
         file = str(sources["vehicle"])
-        emulator = tell_driver(driver, options.vehicle_address, options.speed, file, parameters)
+        emulator = configure_driver(driver, options.vehicle_address, options.speed, file, parameters)
     for name in {topics.PLANT, *DRIVERS.values()} - {topics.PLANT if options.simulator else driver}:
         del parameters[name]
     return Plan(options, mission, hull, parameters, sources, verdicts, model, emulator)

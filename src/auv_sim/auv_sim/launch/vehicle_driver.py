@@ -11,7 +11,7 @@ from typing import Any
 from auv_msgs_py.contract import topics
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.driver_parameters import MavlinkDriverParameters
-from auv_sim.parameters import PlantParameters
+from auv_sim.sim_parameters import PlantParameters
 
 #: Below what DDS uses (from 7400) and what Linux hands out.
 _PORTS = range(6000, 7400)
@@ -19,7 +19,7 @@ _PORTS = range(6000, 7400)
 EMULATOR, EMULATOR_MODULE = "vehicle_emulator", "auv_sim.nodes.mavlink.emulator"
 
 
-def tell_driver(
+def configure_driver(
     driver: str, address: str | None, speed: float | None, vehicle: str, parameters: dict[str, Any]
 ) -> tuple[str, ...] | None:
     """Give the driver's node the vehicle's address and the way time passes.

@@ -8,7 +8,7 @@ from typing import Any, get_args
 
 from rclpy.serialization import deserialize_message, serialize_message
 
-from auv_sim.parameters import Fault
+from auv_sim.sim_parameters import Fault
 
 FAULTS: tuple[Fault, ...] = tuple(fault for fault in get_args(Fault) if fault != "none")
 

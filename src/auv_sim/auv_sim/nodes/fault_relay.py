@@ -21,7 +21,7 @@ from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.node.runtime import SuiteNode, run_nodes
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.nodes.fault_injection import Injector
-from auv_sim.parameters import Fault, FaultRelayParameters
+from auv_sim.sim_parameters import Fault, FaultRelayParameters
 
 NAME = "fault_relay"
 #: The control chain: what can be relayed.

@@ -28,7 +28,7 @@ from auv_path_following.missions.mission_state import State
 from auv_sim.nodes.held_commands import HeldCommands
 from auv_sim.nodes.lockstep import Lockstep
 from auv_sim.nodes.pacing import Pacer
-from auv_sim.parameters import PlantParameters
+from auv_sim.sim_parameters import PlantParameters
 from auv_sim.vehicle import sea
 from auv_sim.vehicle.simulated import SimulatedVehicle
 

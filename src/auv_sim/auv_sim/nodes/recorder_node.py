@@ -21,7 +21,7 @@ from auv_sim.bags.writing.bag_writer import BagWriter, texts_below
 from auv_sim.bags.writing.disk_room import RoomWatch, room_lacking
 from auv_sim.bags.writing.intake import Taken, Timestamps, drain
 from auv_sim.bags.writing.selection import Selection
-from auv_sim.parameters import RecorderParameters
+from auv_sim.sim_parameters import RecorderParameters
 
 #: Asked for before anything else; only granted to those who may.
 _PRIORITY = -10

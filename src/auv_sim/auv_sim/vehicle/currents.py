@@ -8,7 +8,7 @@ from typing import NamedTuple
 from auv_msgs_py.settings.schema import Pair, setting, settings
 from auv_msgs_py.values.pure import pure, squared
 from auv_msgs_py.values.types import Current
-from auv_sim.vehicle.draws import Draws, Memory, Seed
+from auv_sim.vehicle.draws import Draws, RunMemory, Seed
 from auv_sim.vehicle.noise import GaussMarkov, gauss_markov, gauss_markov_of
 
 
@@ -144,7 +144,7 @@ def _heading(course_deg: float) -> Heading:
 
 
 @pure
-def vary(config: Water, north: float, east: float, memory: Memory, dt: float) -> tuple[float, float]:
+def vary(config: Water, north: float, east: float, memory: RunMemory, dt: float) -> tuple[float, float]:
     """Return north and east of the deviation from the mean `dt` seconds later, m/s."""
     return gauss_markov(config.north, north, memory, dt), gauss_markov(config.east, east, memory, dt)
 

@@ -21,7 +21,7 @@ Seed = Sequence[int]
 _Kind = Literal["standard_normal", "standard_exponential", "random"]
 
 
-class Memory(NamedTuple):
+class RunMemory(NamedTuple):
     """What steps write to: lists for CPython, arrays for compiled code.
 
     Attributes:
@@ -38,20 +38,20 @@ class Memory(NamedTuple):
 class Now(NamedTuple):
     """The run's memory, and the time (s) and the number of this measurement; both begin with 0."""
 
-    memory: Memory
+    memory: RunMemory
     time: float
     k: int
 
 
-class Row(NamedTuple):
-    """A row of random numbers: its place in `Memory.used`, and where it ends in `Memory.drawn`."""
+class DrawnRow(NamedTuple):
+    """A row of random numbers: its place in `RunMemory.used`, and where it ends in `RunMemory.drawn`."""
 
     number: int
     end: int
 
 
 class Ring(NamedTuple):
-    """A ring in `Memory.kept`: where it begins, how many entries it has, and the numbers of each."""
+    """A ring in `RunMemory.kept`: where it begins, how many entries it has, and the numbers of each."""
 
     begin: int
     size: int
@@ -59,7 +59,7 @@ class Ring(NamedTuple):
 
 
 @pure
-def draw(memory: Memory, row: Row) -> float:
+def draw(memory: RunMemory, row: DrawnRow) -> float:
     """Return the next random number of a row.
 
     Raises:
@@ -75,7 +75,7 @@ def draw(memory: Memory, row: Row) -> float:
 
 @pure
 def slot(ring: Ring, k: int) -> int:
-    """Return where entry `k` of a ring begins in `Memory.kept`."""
+    """Return where entry `k` of a ring begins in `RunMemory.kept`."""
     return ring.begin + k % ring.size * ring.width
 
 
@@ -98,24 +98,24 @@ class Draws:
         """Return the generator of a law."""
         return np.random.default_rng(tuple(seed))
 
-    def normals(self, generator: np.random.Generator, rate: float = 0.0) -> Row:
+    def normals(self, generator: np.random.Generator, rate: float = 0.0) -> DrawnRow:
         """Lay out standard normal numbers, one for each step or for each sample of `rate` (1/s)."""
         return self._row(generator, "standard_normal", self._samples(rate))
 
-    def uniforms(self, generator: np.random.Generator, count: int, rate: float) -> Row:
+    def uniforms(self, generator: np.random.Generator, count: int, rate: float) -> DrawnRow:
         """Lay out numbers from [0, 1), `count` for each sample of `rate` (1/s; 0: for each step)."""
         return self._row(generator, "random", count * self._samples(rate))
 
-    def exponentials(self, generator: np.random.Generator, mean: float) -> Row:
+    def exponentials(self, generator: np.random.Generator, mean: float) -> DrawnRow:
         """Lay out exponential numbers, one for every `mean` seconds and ample ones more."""
         expected = self.steps * self.step / mean
         return self._row(
             generator, "standard_exponential", math.ceil(expected + 12.0 * math.sqrt(expected)) + 20
         )
 
-    def none(self) -> Row:
+    def none(self) -> DrawnRow:
         """Lay out a row that is never read."""
-        return Row(0, 0)
+        return DrawnRow(0, 0)
 
     def ring(self, entries: int, width: int = 1) -> Ring:
         """Lay out a ring of `entries` times `width` numbers."""
@@ -125,25 +125,25 @@ class Draws:
     def _samples(self, rate: float) -> int:
         return min(self.steps, math.ceil(self.steps * self.step * rate) + 2) if rate > 0.0 else self.steps
 
-    def _row(self, generator: np.random.Generator, kind: _Kind, size: int) -> Row:
+    def _row(self, generator: np.random.Generator, kind: _Kind, size: int) -> DrawnRow:
         begin, self._drawn = self._drawn, self._drawn + size
         self._rows.append((generator, kind, begin, size))
-        return Row(len(self._rows) - 1, self._drawn)
+        return DrawnRow(len(self._rows) - 1, self._drawn)
 
     def table(self, size: int) -> Any:
         """Return a table of zeros of its own."""
         return np.zeros(size) if self._arrays else [0.0] * size
 
-    def memory(self) -> Memory:
+    def memory(self) -> RunMemory:
         """Draw; return the memory of the run. To be called once, when everything is laid out."""
         drawn = np.empty(self._drawn)
         for generator, kind, begin, size in self._rows:
             drawn[begin : begin + size] = getattr(generator, kind)(size)
         used = np.array([begin for _, _, begin, _ in self._rows], np.int64)
-        memory = Memory(drawn, used, np.zeros(self._kept))
-        return memory if self._arrays else Memory(*(values.tolist() for values in memory))
+        memory = RunMemory(drawn, used, np.zeros(self._kept))
+        return memory if self._arrays else RunMemory(*(values.tolist() for values in memory))
 
-    def refill(self, memory: Memory) -> None:
+    def refill(self, memory: RunMemory) -> None:
         """Draw on between two steps: replace what was used of every row, so that it lasts as long again.
 
         Args:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.values.pure import pure
-from auv_sim.vehicle.draws import Draws, Memory, Ring, Row, Seed, draw, slot
+from auv_sim.vehicle.draws import DrawnRow, Draws, Ring, RunMemory, Seed, draw, slot
 
 #: Times are compared with this tolerance, s: they are sums of steps.
 SAME = 1e-9
@@ -49,7 +49,7 @@ class GaussMarkov(NamedTuple):
     step: float
     keep: float
     fresh: float
-    row: Row
+    row: DrawnRow
 
 
 def gauss_markov_of(
@@ -78,7 +78,7 @@ def discrete(deviation: float, time: float, dt: float) -> tuple[float, float]:
 
 
 @pure
-def gauss_markov(config: GaussMarkov, value: float, memory: Memory, dt: float) -> float:
+def gauss_markov(config: GaussMarkov, value: float, memory: RunMemory, dt: float) -> float:
     """Return the value `dt` seconds later: V' = -V/T + w, discretised exactly."""
     deviation, time, limit, step, keep, fresh, row = config
     if not (deviation > 0.0 and dt > 0.0):
@@ -93,7 +93,7 @@ class Noise(NamedTuple):
 
     bias: float
     white: float
-    row: Row
+    row: DrawnRow
     drift: GaussMarkov
 
 
@@ -114,7 +114,7 @@ def noise_of(config: NoiseConfig, seed: Seed, draws: Draws, rate: float = 0.0) -
 
 
 @pure
-def noise(config: Noise, drift: float, memory: Memory, dt: float) -> tuple[float, float]:
+def noise(config: Noise, drift: float, memory: RunMemory, dt: float) -> tuple[float, float]:
     """Return the drift and the error of the measurement `dt` seconds after the last one."""
     bias, white, row, process = config
     drift = gauss_markov(process, drift, memory, dt)
@@ -129,7 +129,7 @@ class Dropouts(NamedTuple):
 
     every: float
     length: float
-    row: Row
+    row: DrawnRow
 
 
 def dropouts_of(config: DropoutConfig, seed: Seed, draws: Draws) -> tuple[Dropouts, float]:
@@ -143,7 +143,7 @@ def dropouts_of(config: DropoutConfig, seed: Seed, draws: Draws) -> tuple[Dropou
 
 
 @pure
-def dropouts(config: Dropouts, silent: bool, left: float, memory: Memory, dt: float) -> tuple[bool, float]:
+def dropouts(config: Dropouts, silent: bool, left: float, memory: RunMemory, dt: float) -> tuple[bool, float]:
     """Return whether a sensor is silent `dt` seconds later, and for how long this remains so, s."""
     left -= dt
     while left <= 0.0:
@@ -189,5 +189,5 @@ def delay_of(latency: float, draws: Draws, width: int = 1) -> Delay:
 
 @pure
 def delayed(delay: Delay, k: int) -> int:
-    """Return where in `Memory.kept` the entry lies that arrives at step `k`; at first, the oldest one."""
+    """Return where in `RunMemory.kept` the entry lies that arrives at step `k`; at first, the oldest one."""
     return slot(delay.ring, max(k - delay.steps, 0))

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.values.pure import pure
-from auv_sim.vehicle.draws import Draws, Now, Ring, Row, Seed, draw, slot
+from auv_sim.vehicle.draws import DrawnRow, Draws, Now, Ring, Seed, draw, slot
 from auv_sim.vehicle.noise import (
     SAME,
     DropoutConfig,
@@ -55,7 +55,7 @@ class Fixes(NamedTuple):
     outliers: float
     nearest: float
     farthest: float
-    echoes: Row
+    echoes: DrawnRow
     ring: Ring
 
 

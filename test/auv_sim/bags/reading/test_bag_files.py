@@ -9,8 +9,9 @@ import pytest
 from auv_sim.bags.content.recorded_mission import configuration
 from auv_sim.bags.definitions import typestore
 from auv_sim.bags.metadata import METADATA_FILE
-from auv_sim.bags.reading.bag import Bag, read_bag
 from auv_sim.bags.reading.bag_files import files_of
+from auv_sim.bags.reading.bag_reader import read_bag
+from auv_sim.bags.reading.recording import Bag
 from auv_sim.bags.writing.bag_writer import BagWriter
 from auv_sim.cli import bag as bag_command
 

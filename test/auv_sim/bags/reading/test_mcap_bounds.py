@@ -9,7 +9,7 @@ import pytest
 import zstandard
 
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.writing.mcap_file import MAGIC
 
 

@@ -14,8 +14,9 @@ from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, W
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.definitions import typestore
-from auv_sim.bags.reading.bag import Bag, read_bag
 from auv_sim.bags.reading.bag_files import NO_METADATA
+from auv_sim.bags.reading.bag_reader import read_bag
+from auv_sim.bags.reading.recording import Bag
 from auv_sim.bags.reading.storage import packed
 from auv_sim.bags.reading.storage.sqlite_pages import rows_of
 from auv_sim.cli import bag as bag_command

@@ -19,12 +19,12 @@ from auv_path_following import config_files, vehicle
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.kinds.line import Line
 from auv_path_following.missions import mission_file
-from auv_sim.bags.content.rerun_chain import _Chain, _Phase, _Step
+from auv_sim.bags.content.rerun_pilot import _Chain, _Phase, _Step
 from auv_sim.bags.definitions import typestore
 from auv_sim.bags.writing.bag_writer import BagWriter
 from auv_sim.cli import bag as bag_command
 from auv_sim.flight.closed_loop import Scenario, fly
-from auv_sim.parameters import SUITE
+from auv_sim.sim_parameters import SUITE
 
 TYPES = {topic.name: topic.type for topic in topics.CONTRACT}
 COLUMNS = {

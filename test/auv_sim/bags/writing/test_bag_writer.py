@@ -14,7 +14,7 @@ from rosbags.highlevel import AnyReader
 from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
 
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.writing.bag_writer import BagWriter, typestore
 
 INFINITE = QosTime(9223372036, 854775807)

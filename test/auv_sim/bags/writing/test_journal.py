@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.writing.bag_writer import PENDING_LIMIT, BagWriter
 from auv_sim.bags.writing.journal import Journal
 

@@ -12,7 +12,7 @@ from auv_msgs_py.settings.schema import leaves
 from auv_sim.checks.faults.expectations import REPRESENTATIVE, TABLE, as_markdown, chosen
 from auv_sim.nodes.fault_injection import FAULTS
 from auv_sim.nodes.fault_relay import RELAYED
-from auv_sim.parameters import SUITE
+from auv_sim.sim_parameters import SUITE
 
 PAGE = Path(__file__).resolve().parents[4] / "docs" / "safety.md"
 #: A text has no number that can jump, no frame, and its past cannot be told from its present.

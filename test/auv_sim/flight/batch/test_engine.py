@@ -27,7 +27,7 @@ from auv_sim.flight.batch import engine
 from auv_sim.flight.batch.judge import judged
 from auv_sim.flight.closed_loop import Scenario
 from auv_sim.flight.run_record import Run
-from auv_sim.parameters import SUITE
+from auv_sim.sim_parameters import SUITE
 from auv_sim.vehicle import sea
 from auv_sim.vehicle.remus import PlantState
 

@@ -10,7 +10,7 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.values.errors import MessageRefused
 from auv_msgs_py.values.types import STOP, Command
 from auv_sim.nodes.mavlink.commands import Commands
-from auv_sim.nodes.mavlink.mapping import Limits
+from auv_sim.nodes.mavlink.mapping import CommandLimits
 
 RUDDER, THRUST = topics.RUDDER_CMD.name, topics.THRUST_CMD.name
 SECOND = 1_000_000_000
@@ -18,7 +18,7 @@ SECOND = 1_000_000_000
 
 @pytest.fixture
 def commands() -> Commands:
-    return Commands(Limits(rudder=0.6, thrust=100.0), timeout=1.0)
+    return Commands(CommandLimits(rudder=0.6, thrust=100.0), timeout=1.0)
 
 
 def test_a_pair_is_complete_with_its_thrust(commands: Commands) -> None:

@@ -12,8 +12,8 @@ from pymavlink.dialects.v20 import common as mavlink
 
 from auv_msgs_py.values.types import STOP, Command, Current
 from auv_path_following import vehicle
-from auv_sim.nodes.mavlink.emulator import ANSWERS, BOOT_MS, CHANNELS, LINES, Channel, Emulator, Line
-from auv_sim.nodes.mavlink.mapping import Limits, manual_control
+from auv_sim.nodes.mavlink.emulator import ANSWERS, BOOT_MS, CHANNELS, LINES, DelayLine, Emulator, MessageKind
+from auv_sim.nodes.mavlink.mapping import CommandLimits, manual_control
 from auv_sim.vehicle.remus import PlantState
 
 REMUS = vehicle.load("remus100")
@@ -28,7 +28,7 @@ def emulator() -> Emulator:
 
 def order(emulator: Emulator, rudder: float, thrust: float) -> None:
     command = Command(rudder, thrust)
-    emulator.hear(manual_control(command, Limits.of(REMUS), clockwise=True, target=1))
+    emulator.hear(manual_control(command, CommandLimits.of(REMUS), clockwise=True, target=1))
 
 
 def live(emulator: Emulator, ms: int, command: Command | None = None) -> list[Any]:
@@ -89,7 +89,7 @@ def test_it_answers_timesync_with_its_own_time(emulator: Emulator) -> None:
 
 
 def test_a_line_delays_shuffles_and_loses() -> None:
-    line, channel = Line(0.2, random.Random(5)), Channel(10, 50.0, 30.0)
+    line, channel = DelayLine(0.2, random.Random(5)), MessageKind(10, 50.0, 30.0)
     out: list[int] = []
     for now in range(0, 20_000, 10):
         line.put(now, channel, now)
@@ -107,8 +107,8 @@ def test_every_period_is_a_multiple_of_the_step() -> None:
 def test_messages_of_one_line_keep_their_order() -> None:
     """Signatures have to rise on a line: what overtakes there is refused as a replay."""
     assert len(set(LINES.values())) == len(CHANNELS) + 1
-    way, dice = Line(0.0, random.Random(3)), random.Random(4)
-    arrived: dict[Channel, list[int]] = {channel: [] for channel in LINES}
+    way, dice = DelayLine(0.0, random.Random(3)), random.Random(4)
+    arrived: dict[MessageKind, list[int]] = {channel: [] for channel in LINES}
     for now in range(0, 20_000, 10):
         for channel in LINES:
             due = dice.random() < 0.3 if channel is ANSWERS else now % channel.period == 0

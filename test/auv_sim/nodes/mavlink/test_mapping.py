@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from auv_msgs_py.values.types import STOP, Command
 from auv_sim.nodes.mavlink.mapping import (
-    Limits,
+    CommandLimits,
     command_of,
     manual_control,
     pulse_of_rudder,
@@ -18,7 +18,7 @@ from auv_sim.nodes.mavlink.mapping import (
     water_track,
 )
 
-LIMITS = Limits(math.radians(35.0), 6.48)
+LIMITS = CommandLimits(math.radians(35.0), 6.48)
 
 
 def test_a_rudder_to_port_is_a_counter_clockwise_axis() -> None:

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.bags.content.recorded_mission import Flight
-from auv_sim.bags.reading.bag import Bag
+from auv_sim.bags.content.recorded_mission import RecordedMission
 from auv_sim.bags.reading.load import messages_of
+from auv_sim.bags.reading.recording import Bag
 from auv_sim.flight.metrics import under_way
 
 _LEVELS = {0: "OK", 1: "WARN", 2: "ERROR", 3: "STALE"}
@@ -41,7 +41,7 @@ class Event:
     level: int = 0
 
 
-def events_of(flight: Flight) -> list[Event]:
+def events_of(flight: RecordedMission) -> list[Event]:
     """Everything worth telling, by time."""
     bag = flight.bag
     found = [*_states(bag), *_diagnostics(bag), *_log(bag), *_flown(flight)]
@@ -101,7 +101,7 @@ def _log(bag: Bag) -> list[Event]:
     ]
 
 
-def _flown(flight: Flight) -> list[Event]:
+def _flown(flight: RecordedMission) -> list[Event]:
     run, mission, hull = flight.run, flight.mission, flight.vehicle
     if run is None:
         return []

@@ -13,7 +13,7 @@ from auv_sim.bags.content.recorded_mission import (
     VEHICLE,
     configuration,
 )
-from auv_sim.bags.reading.bag import Bag
+from auv_sim.bags.reading.recording import Bag
 
 #: Files that the parameters name: their content counts, not where they lay.
 _FILES = (MISSION, VEHICLE, FORMER_CONTROLLER_MODEL, CONTROLLER_MODEL, "sea.yaml")

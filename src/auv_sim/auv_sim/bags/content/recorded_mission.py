@@ -15,13 +15,13 @@ from auv_path_following import config_files, vehicle
 from auv_path_following.missions import mission_file
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
-from auv_sim.bags.reading.bag import Bag
 from auv_sim.bags.reading.load import run_of
+from auv_sim.bags.reading.recording import Bag
 from auv_sim.bags.writing.bag_writer import texts_below
 from auv_sim.flight.by_odometry import ByOdometry, by_odometry
 from auv_sim.flight.metrics import MissionSummary, summarise
 from auv_sim.flight.run_record import Run
-from auv_sim.parameters import SUITE
+from auv_sim.sim_parameters import SUITE
 
 #: The files that the launcher writes and the recorder keeps.
 MISSION, VEHICLE, PARAMS = "mission.yaml", "vehicle.yaml", "params.yaml"
@@ -30,7 +30,7 @@ CONTROLLER_MODEL, FORMER_CONTROLLER_MODEL = "controller_model.yaml", "believed.y
 
 
 @dataclass
-class Flight:
+class RecordedMission:
     """What a recording tells about a mission; None where it tells nothing.
 
     Attributes:
@@ -61,7 +61,7 @@ class Flight:
         return by_odometry(self.run, self.mission.path)
 
 
-def flight_of(bag: Bag, mission: str | None = None, namespace: str | None = None) -> Flight:
+def mission_in(bag: Bag, mission: str | None = None, namespace: str | None = None) -> RecordedMission:
     """Find out what was flown.
 
     Args:
@@ -96,7 +96,7 @@ def flight_of(bag: Bag, mission: str | None = None, namespace: str | None = None
                 flown = mission_file.load(str(directory / MISSION), model)
     if flown is None and run is not None:
         notes.append("no mission file in or beside the recording: name one with --mission for the figures")
-    return Flight(bag, run, flown, hull, [printable(note) for note in notes])
+    return RecordedMission(bag, run, flown, hull, [printable(note) for note in notes])
 
 
 def controller_model(directory: Path) -> Path:

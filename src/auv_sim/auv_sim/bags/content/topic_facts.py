@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from auv_sim.bags.reading.bag import Bag, RecordedTopic
+from auv_sim.bags.reading.recording import Bag, RecordedTopic
 from auv_sim.bags.sequence_watch import SequenceWatch
 
 #: An interval this many times the usual one is a gap.

@@ -23,7 +23,7 @@ from auv_msgs_py.node.graph_look import GraphLook, GraphTaken
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.playing.keyboard import Keyboard
 from auv_sim.bags.playing.play_bar import PlayBar
-from auv_sim.bags.reading.bag import Bag, RecordedTopic
+from auv_sim.bags.reading.recording import Bag, RecordedTopic
 
 #: What nodes say of themselves: repeating it would only pretend that they are there.
 _NOT_REPEATED = ("/rosout", "/parameter_events")

@@ -9,7 +9,7 @@ from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.definitions import typestore
-from auv_sim.bags.reading.bag import RecordedTopic
+from auv_sim.bags.reading.recording import RecordedTopic
 
 
 def deserializer(topic: RecordedTopic) -> Callable[[bytes], Any]:

@@ -22,10 +22,11 @@ from auv_msgs_py.contract.frames import (
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.values.angles import wrap
 from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
-from auv_sim.bags.reading.bag import Bag, RecordedTopic, read_bag
+from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.cdr import Columns, decode
 from auv_sim.bags.reading.deserialize import deserializer
 from auv_sim.bags.reading.held_rows import held_rows
+from auv_sim.bags.reading.recording import Bag, RecordedTopic
 from auv_sim.flight.run_record import Run
 
 #: Every topic that a `Run` takes something from.

@@ -9,14 +9,14 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from auv_sim.bags.content.recorded_mission import Flight
+from auv_sim.bags.content.recorded_mission import RecordedMission
 from auv_sim.flight.metrics import under_way
 from auv_sim.views.plot_style import BLUE, GREEN, INK, ORANGE, PATH, RED, save, style
 
 _COLOURS = (BLUE, ORANGE, GREEN, RED, "#7b4fa3", "#8a6d3b", "#2b8c9e", "#55606b")
 
 
-def draw(flights: list[Flight], labels: list[str], png: Path) -> None:
+def draw(flights: list[RecordedMission], labels: list[str], png: Path) -> None:
     """Tracks over the path, and signals over s, so that runs of different speed lie on each other.
 
     Track and distance are the true ones, where they were recorded, with the odometry's beside them.

@@ -14,7 +14,7 @@ from rich.table import Table
 
 from auv_msgs_py.values.errors import printable
 from auv_sim.bags.content.events import Event
-from auv_sim.bags.content.recorded_mission import Flight
+from auv_sim.bags.content.recorded_mission import RecordedMission
 from auv_sim.bags.content.topic_facts import TopicFacts
 from auv_sim.flight.flown_share import percent
 from auv_sim.flight.metrics import MissionSummary, SubpathSummary
@@ -24,7 +24,7 @@ _EVENTS = 40
 _COLOURS = {0: "", 1: "yellow", 2: "red"}
 
 
-def show(flight: Flight, facts: list[TopicFacts], events: list[Event], console: Console) -> None:
+def show(flight: RecordedMission, facts: list[TopicFacts], events: list[Event], console: Console) -> None:
     """One recording."""
     bag = flight.bag
     first, last = bag.span_ns
@@ -124,7 +124,7 @@ def _events(events: list[Event], start: float, console: Console) -> None:
         console.print(f"[dim]and {len(lines) - len(kept)} other kinds (--json lists all)[/dim]")
 
 
-def show_many(rows: list[tuple[Path, Flight | None, str]], console: Console) -> None:
+def show_many(rows: list[tuple[Path, RecordedMission | None, str]], console: Console) -> None:
     """A row for each recording."""
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     table.add_column("recording", overflow="fold")

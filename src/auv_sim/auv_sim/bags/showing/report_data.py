@@ -13,9 +13,9 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.curves.composite import CompositePath
 from auv_sim.bags.content.events import Event, diagnostic_spans
-from auv_sim.bags.content.recorded_mission import Flight, texts_of
-from auv_sim.bags.reading.bag import Bag
+from auv_sim.bags.content.recorded_mission import RecordedMission, texts_of
 from auv_sim.bags.reading.load import messages_of
+from auv_sim.bags.reading.recording import Bag
 from auv_sim.flight.by_odometry import ByOdometry
 from auv_sim.flight.flown_share import percent
 from auv_sim.flight.metrics import MissionSummary, SubpathSummary
@@ -24,7 +24,7 @@ from auv_sim.flight.run_record import Run
 _DEGREES = ("psi", "psi_true", "r", "rudder", "rudder_cmd", "psi_d", "r_d", "psi_e")
 
 
-def page_data(flight: Flight, events: list[Event], title: str) -> dict[str, Any]:
+def page_data(flight: RecordedMission, events: list[Event], title: str) -> dict[str, Any]:
     """The page's content; times are seconds since the first odometry."""
     run = flight.run
     start = float(run.t[0]) if run is not None and run.steps else flight.bag.span_ns[0] * 1e-9
@@ -53,7 +53,7 @@ def _packed(values: NDArray[np.float64]) -> str:
     return base64.b64encode(np.ascontiguousarray(values, "<f4").tobytes()).decode()
 
 
-def _columns(flight: Flight) -> dict[str, NDArray[np.float64]]:
+def _columns(flight: RecordedMission) -> dict[str, NDArray[np.float64]]:
     """The run's columns that have values, angles in degrees, time from 0; and what follows from them."""
     run = flight.run
     assert run is not None
@@ -89,7 +89,7 @@ def _distance(
     return distance
 
 
-def _path(flight: Flight) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
+def _path(flight: RecordedMission) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
     """North and east of the path: the mission's, else the one that guidance published."""
     if flight.mission is not None:
         x, y, _ = flight.mission.path.polyline(1.0)
@@ -110,7 +110,7 @@ def _published_path(bag: Bag) -> tuple[NDArray[np.float64], NDArray[np.float64]]
 
 
 def _facts(
-    flight: Flight, summary: MissionSummary | None, opinion: ByOdometry | None
+    flight: RecordedMission, summary: MissionSummary | None, opinion: ByOdometry | None
 ) -> list[tuple[str, str]]:
     first, last = flight.bag.span_ns
     facts = [("recorded", f"{(last - first) * 1e-9:.1f} s"), ("messages", f"{flight.bag.count:,}")]
@@ -167,7 +167,7 @@ def _series(name: str, label: str, color: str, width: float = 1.5, wraps: bool =
     return {"name": name, "label": label, "color": color, "width": width, "wraps": wraps}
 
 
-def _panels(flight: Flight, columns: dict[str, Any], start: float) -> list[dict[str, Any]]:
+def _panels(flight: RecordedMission, columns: dict[str, Any], start: float) -> list[dict[str, Any]]:
     """Only signals that were recorded, and only panels that have one."""
     hull, erring = flight.vehicle, "x_true" in columns
     angle = [math.degrees(hull.rudder.max_angle)] if hull is not None else []

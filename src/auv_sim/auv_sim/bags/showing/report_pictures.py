@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from auv_sim.bags.content.recorded_mission import Flight
+from auv_sim.bags.content.recorded_mission import RecordedMission
 from auv_sim.flight.metrics import under_way
 from auv_sim.views import overview
 from auv_sim.views.plot_style import BLUE, INK, ORANGE, save, style
@@ -17,7 +17,7 @@ from auv_sim.views.signal_panels import cross_track, current, heading_error, rud
 from auv_sim.views.track_panel import track
 
 
-def pictures(flight: Flight, directory: Path, title: str) -> list[Path]:
+def pictures(flight: RecordedMission, directory: Path, title: str) -> list[Path]:
     """Draw what there is to draw; returns the files."""
     run, mission, summary = flight.run, flight.mission, flight.summary
     if run is None or not run.steps:
@@ -49,7 +49,7 @@ def pictures(flight: Flight, directory: Path, title: str) -> list[Path]:
     return [whole, _draw(directory / "track.png", map_only), _draw(directory / "signals.png", signals)]
 
 
-def _track_alone(figure: Figure, flight: Flight) -> None:
+def _track_alone(figure: Figure, flight: RecordedMission) -> None:
     run = flight.run
     assert run is not None
     axes = figure.add_subplot()

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from auv_sim.bags.content.rerun_chain import Answers
+from auv_sim.bags.content.rerun_pilot import Answers
 from auv_sim.views.plot_style import BLUE, INK, ORANGE, PATH, save, style
 
 

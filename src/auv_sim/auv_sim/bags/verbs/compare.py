@@ -13,8 +13,8 @@ from rich.table import Table
 
 from auv_msgs_py.values.errors import ConfigurationError, printable
 from auv_sim.bags.content.flown_settings import differences
-from auv_sim.bags.content.recorded_mission import flight_of
-from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.content.recorded_mission import mission_in
+from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.showing.compare_picture import draw
 from auv_sim.bags.verbs.arguments import add_choice
 from auv_sim.command_line import target, to_type
@@ -61,7 +61,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise ConfigurationError("compare", "one recording", "two or more")
     flights = []
     for path in arguments.bag:
-        flight = flight_of(
+        flight = mission_in(
             read_bag(path, odometry=arguments.odometry), arguments.mission, arguments.namespace
         )
         if flight.summary is None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from auv_msgs_py.settings.result_files import replacing
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.load import run_of
 from auv_sim.bags.verbs.arguments import add_choice
 from auv_sim.command_line import say, target

@@ -15,11 +15,12 @@ from rich.console import Console
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.content.events import Event, events_of
-from auv_sim.bags.content.recorded_mission import Flight, flight_of
+from auv_sim.bags.content.recorded_mission import RecordedMission, mission_in
 from auv_sim.bags.content.topic_facts import TopicFacts, facts_of
 from auv_sim.bags.metadata import METADATA_FILE
-from auv_sim.bags.reading.bag import Bag, read_bag
 from auv_sim.bags.reading.bag_files import storage_of
+from auv_sim.bags.reading.bag_reader import read_bag
+from auv_sim.bags.reading.recording import Bag
 from auv_sim.bags.showing import inspect_tables
 from auv_sim.bags.verbs.arguments import add_choice
 from auv_sim.command_line import say, to_type
@@ -49,7 +50,7 @@ def run(arguments: argparse.Namespace) -> int:
     if len(bags) > 1:
         return _many(bags, arguments, console)
     bag = read_bag(bags[0], _wanted, arguments.odometry)
-    flight = flight_of(bag, arguments.mission, arguments.namespace)
+    flight = mission_in(bag, arguments.mission, arguments.namespace)
     facts, events = facts_of(bag), events_of(flight)
     if arguments.json:
         print(json.dumps(as_data(flight, facts, events), indent=2, allow_nan=False))
@@ -59,7 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _next(flight: Flight, path: Path) -> tuple[str, str]:
+def _next(flight: RecordedMission, path: Path) -> tuple[str, str]:
     """What follows, and its command."""
     if flight.bag.notes:
         return "Make it whole", to_type("bag.py", "repair", path)
@@ -92,11 +93,11 @@ def _is_bag(path: Path) -> bool:
 
 
 def _many(bags: list[Path], arguments: argparse.Namespace, console: Console) -> int:
-    rows: list[tuple[Path, Flight | None, str]] = []
+    rows: list[tuple[Path, RecordedMission | None, str]] = []
     for path in bags:
         try:
             bag = read_bag(path, _wanted, arguments.odometry)
-            flight = flight_of(bag, arguments.mission, arguments.namespace)
+            flight = mission_in(bag, arguments.mission, arguments.namespace)
             rows.append((path, flight, "; ".join(flight.bag.notes)))
         except ConfigurationError as error:
             rows.append((path, None, f"found {error.found}, expected {error.expected}"))
@@ -119,7 +120,7 @@ def _many(bags: list[Path], arguments: argparse.Namespace, console: Console) -> 
     return 0
 
 
-def as_data(flight: Flight, facts: list[TopicFacts], events: list[Event]) -> dict[str, Any]:
+def as_data(flight: RecordedMission, facts: list[TopicFacts], events: list[Event]) -> dict[str, Any]:
     """Everything that the tables show, for programs; unknown values are null."""
     bag: Bag = flight.bag
     first, last = bag.span_ns

@@ -9,7 +9,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from auv_sim.bags.mending import repair
+from auv_sim.bags.bag_repair import repair
 from auv_sim.command_line import say
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.playing.playback import Player, Selected, select
-from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.command_line import not_negative, positive, say
 from auv_sim.terminal import console as terminal
 

@@ -13,8 +13,9 @@ from typing import Any
 from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.content.events import events_of
-from auv_sim.bags.content.recorded_mission import Flight, flight_of
-from auv_sim.bags.reading.bag import Bag, read_bag
+from auv_sim.bags.content.recorded_mission import RecordedMission, mission_in
+from auv_sim.bags.reading.bag_reader import read_bag
+from auv_sim.bags.reading.recording import Bag
 from auv_sim.bags.showing.report_data import page_data
 from auv_sim.bags.showing.report_pictures import pictures
 from auv_sim.bags.verbs.arguments import add_choice
@@ -49,7 +50,7 @@ def run(arguments: argparse.Namespace) -> int:
     bag = read_bag(arguments.bag, odometry=arguments.odometry)
     for note in bag.notes:
         say(f"damaged: {note}")
-    flight = flight_of(bag, arguments.mission, arguments.namespace)
+    flight = mission_in(bag, arguments.mission, arguments.namespace)
     directory = arguments.out or _beside(bag)
     try:
         directory.mkdir(parents=True, exist_ok=True)
@@ -68,7 +69,7 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def page_of(flight: Flight) -> str:
+def page_of(flight: RecordedMission) -> str:
     """The page as text: everything is in it."""
     title = _title(flight)
     data = json.dumps(_plain(page_data(flight, events_of(flight), title)), allow_nan=False)
@@ -80,7 +81,7 @@ def page_of(flight: Flight) -> str:
     return template.replace("{{TITLE}}", html.escape(title)).replace("{{DATA}}", data)
 
 
-def _title(flight: Flight) -> str:
+def _title(flight: RecordedMission) -> str:
     path = flight.bag.path
     name = path.parent.name if path.name == "bag" else path.stem
     return f"{flight.mission.name}: {name}" if flight.mission is not None else name

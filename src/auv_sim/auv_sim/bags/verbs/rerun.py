@@ -25,12 +25,12 @@ from auv_path_following import config_files, vehicle
 from auv_path_following.missions import mission_file
 from auv_sim.bags.content.flown_settings import dotted
 from auv_sim.bags.content.recorded_mission import MISSION, PARAMS, configuration, controller_model
-from auv_sim.bags.content.rerun_chain import Answers, answers
-from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.content.rerun_pilot import Answers, answers
+from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.load import is_used
 from auv_sim.bags.verbs.arguments import add_choice
 from auv_sim.command_line import target
-from auv_sim.parameters import SUITE
+from auv_sim.sim_parameters import SUITE
 from auv_sim.terminal import console as terminal
 
 _FURTHER = {topics.MISSION_STATE.name, topics.DESIRED_THRUST.name}

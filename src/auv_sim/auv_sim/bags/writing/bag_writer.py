@@ -15,7 +15,7 @@ from rosbags.rosbag2.metadata import dump_qos_v9
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags import metadata
 from auv_sim.bags.definitions import Definition, definition, typestore
-from auv_sim.bags.metadata import METADATA_FILE, FileFacts, TopicFacts
+from auv_sim.bags.metadata import METADATA_FILE, FileMetadata, TopicMetadata
 from auv_sim.bags.writing.channel import Channel
 from auv_sim.bags.writing.mcap_file import Compression, McapFile
 
@@ -83,7 +83,7 @@ class BagWriter:
         self._name = name or directory.resolve().name
         self._definitions = definitions if definitions is not None else {}
         self._channels: dict[str, Channel] = {}
-        self._files: list[FileFacts] = []
+        self._files: list[FileMetadata] = []
         self._closed = self._whole = False
         #: Messages given up because the disk had no room for them.
         self.given_up = 0
@@ -202,14 +202,14 @@ class BagWriter:
             self._schemas[described] = self._file.schema(*described)
         return self._schemas[described]
 
-    def _facts(self, channel: Channel) -> TopicFacts:
+    def _facts(self, channel: Channel) -> TopicMetadata:
         if channel.original is None:
             type_hash, encoding = self._definition(channel.type).type_hash, "cdr"
         else:
             known, _ = channel.original
             type_hash, encoding = known.metadata.get("topic_type_hash", ""), known.message_encoding
         messages = channel.count + channel.repeated
-        return TopicFacts(channel.name, channel.type, messages, channel.qos, type_hash, encoding)
+        return TopicMetadata(channel.name, channel.type, messages, channel.qos, type_hash, encoding)
 
     def write(
         self, channel: Channel, log_time_ns: int, publish_time_ns: int, cdr: bytes, sequence: int = 0
@@ -260,7 +260,9 @@ class BagWriter:
         if not file.journal.commit() or not file.flush():
             file.journal.close()
             return False
-        self._files.append(FileFacts(file.path.name, file.first_ns, file.last_ns, file.messages, file.size))
+        self._files.append(
+            FileMetadata(file.path.name, file.first_ns, file.last_ns, file.messages, file.size)
+        )
         # rosbag2 keeps a copy inside the storage file, so that the file alone tells everything.
         file.metadata("rosbag2", {"serialized_metadata": metadata.dump(self._information()).rstrip("\n")})
         return file.finish()

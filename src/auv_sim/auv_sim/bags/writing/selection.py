@@ -14,7 +14,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.writing.bag_writer import BagWriter
 from auv_sim.bags.writing.intake import PolledTopic
 from auv_sim.bags.writing.qos_records import matching, qos_record
-from auv_sim.parameters import RecorderParameters
+from auv_sim.sim_parameters import RecorderParameters
 
 #: ROS's own topics that belong to every record.
 LOG = Topic("/rosout", "rcl_interfaces/msg/Log", "every node", latched=True)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any, Literal, NamedTuple
 
 from auv_msgs_py.contract import topics
-from auv_sim.parameters import Fault
+from auv_sim.sim_parameters import Fault
 
 Kind = Fault | Literal["kill"]
 

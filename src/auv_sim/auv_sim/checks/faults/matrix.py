@@ -13,8 +13,8 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from auv_msgs_py.contract import topics
 from auv_msgs_py.values.types import STOP
 from auv_path_following.missions import mission_file
-from auv_sim.bags.mending import repair
-from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.bag_repair import repair
+from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.checks.faults.expectations import Expectation
 from auv_sim.checks.faults.spoiled_graph import PATIENCE, Flight, GraphFailed, Nodes, says
 from auv_sim.vehicle.remus import PlantState

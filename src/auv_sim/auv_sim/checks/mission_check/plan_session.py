@@ -29,7 +29,7 @@ from auv_sim.checks.mission_check import chart, drawing
 from auv_sim.checks.mission_check.flyable import Verdicts, check, refusal
 from auv_sim.cli.plan import STILL, VEHICLE
 from auv_sim.command_line import EXIT_DONE, to_type
-from auv_sim.parameters import SUITE
+from auv_sim.sim_parameters import SUITE
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, wrote
 

@@ -18,7 +18,7 @@ from rich.table import Table
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import nanoseconds
 from auv_msgs_py.settings.result_files import write_text
-from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.load import load, load_messages
 from auv_sim.checks.soak import memory
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, make_directory
@@ -29,7 +29,7 @@ from auv_sim.launch.options import Options
 from auv_sim.launch.outcome import MissionFailed
 from auv_sim.launch.processes.adopted import Loader
 from auv_sim.launch.processes.domains import free_domain
-from auv_sim.launch.progress import Progress
+from auv_sim.launch.progress_display import ProgressDisplay
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import wrote
 
@@ -55,7 +55,7 @@ _LEAST_SHARE = 0.95
 _PERIOD = 1.0
 
 
-class Watch(Progress):
+class Watch(ProgressDisplay):
     """A progress bar that also keeps each process's memory.
 
     Args:

@@ -33,7 +33,7 @@ Flags = npt.NDArray[np.bool_]
 TRACK_COLUMNS = 23
 
 
-class Flight(NamedTuple):
+class FlightConfig(NamedTuple):
     """Everything that decides a flight but its path, its start and its current.
 
     Attributes:
@@ -71,7 +71,7 @@ def scratch_of(course: Course) -> Scratch:
 
 @compiled
 def fly_many(
-    example: Flight, configs: Array, which: Array, starts: Array, currents: Array,
+    example: FlightConfig, configs: Array, which: Array, starts: Array, currents: Array,
     course: Course, scratch: Scratch, whole: Array, subpaths: Array, ends: Array,
 ) -> None:  # fmt: skip
     """Fly n flights of one course.
@@ -99,7 +99,7 @@ def fly_many(
 
 @compiled
 def fly_one(
-    c: Flight, vehicle: Any, afloat: Any, constant: Current, course: Course, scratch: Scratch,
+    c: FlightConfig, vehicle: Any, afloat: Any, constant: Current, course: Course, scratch: Scratch,
     whole: Array, subpaths: Array, end: Array, track: Array, every: int,
 ) -> None:  # fmt: skip
     """Fly until the end of the path, the last step, or a state that is not finite.

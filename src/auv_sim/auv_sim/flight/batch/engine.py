@@ -24,7 +24,14 @@ from auv_path_following.curves.kinds.line import Line
 from auv_sim.flight import closed_loop
 from auv_sim.flight.batch import tally
 from auv_sim.flight.batch.compiled import COMPILED
-from auv_sim.flight.batch.compiled_flight import TRACK_COLUMNS, Course, Flight, fly_many, fly_one, scratch_of
+from auv_sim.flight.batch.compiled_flight import (
+    TRACK_COLUMNS,
+    Course,
+    FlightConfig,
+    fly_many,
+    fly_one,
+    scratch_of,
+)
 from auv_sim.flight.batch.distance import outlines_of, rows_of
 from auv_sim.flight.batch.flight_figures import Flights, figures_of
 from auv_sim.flight.batch.judge import judged
@@ -88,7 +95,7 @@ class _Chunk(NamedTuple):
     """
 
     places: Sequence[int]
-    example: Flight
+    example: FlightConfig
     course: Course
     configs: Any
     which: Any
@@ -171,7 +178,7 @@ def track(scenario: Scenario, every: int = 1) -> Run:
     return Run.from_columns({"t": t} | {name: rows[:, j] for j, name in enumerate(names, 1)})
 
 
-def _at_sea(scenario: Scenario, course: Course, flight: Flight) -> dict[str, Any]:
+def _at_sea(scenario: Scenario, course: Course, flight: FlightConfig) -> dict[str, Any]:
     """Return the figures of one flight at sea, one row of each."""
     if not COMPILED:
         return {
@@ -181,7 +188,7 @@ def _at_sea(scenario: Scenario, course: Course, flight: Flight) -> dict[str, Any
     return figures_of(end[None], whole[None], subpaths[None], np.array([scenario.dt]))
 
 
-def _flown(scenario: Scenario, course: Course, flight: Flight, every: int) -> tuple[Any, Any, Any, Any]:
+def _flown(scenario: Scenario, course: Course, flight: FlightConfig, every: int) -> tuple[Any, Any, Any, Any]:
     """Fly one scenario; return its tallies, those of its subpaths, its end, and every `every`-th row."""
     start = PlantState(*map(float, scenario.initial or start_of(scenario.path)))
     constant = Current(*map(float, scenario.current))
@@ -206,7 +213,7 @@ def _flown(scenario: Scenario, course: Course, flight: Flight, every: int) -> tu
         steps *= 2  # from the beginning: the same seed is the same flight
 
 
-def _likely_steps(scenario: Scenario, flight: Flight) -> int:
+def _likely_steps(scenario: Scenario, flight: FlightConfig) -> int:
     """Return for how many odometries it pays to draw random numbers."""
     if scenario.sea is None:
         return flight.steps

@@ -8,13 +8,13 @@ import numpy as np
 import numpy.typing as npt
 
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.flight.batch.compiled_flight import Flight
+from auv_sim.flight.batch.compiled_flight import FlightConfig
 from auv_sim.flight.batch.config_rows import flat, layout_of
 from auv_sim.flight.closed_loop import Scenario, pilot_of
 from auv_sim.vehicle.remus import plant_of
 
 
-def flight_of(scenario: Scenario) -> Flight:
+def flight_of(scenario: Scenario) -> FlightConfig:
     """Return everything that decides a flight but its path, its start and its current.
 
     Raises:
@@ -22,7 +22,7 @@ def flight_of(scenario: Scenario) -> Flight:
     """
     if not scenario.thrust > 0.0:
         raise ConfigurationError("thrust", f"{scenario.thrust:g}", "a number greater than 0")
-    return Flight(
+    return FlightConfig(
         pilot=pilot_of(scenario),
         plant=plant_of(scenario.vehicle),
         dt=scenario.dt,
@@ -38,7 +38,7 @@ class Preparation:
     """
 
     def __init__(self) -> None:
-        self.flights: list[Flight] = []
+        self.flights: list[FlightConfig] = []
         self._layouts: list[Any] = []
         self._known: dict[tuple[Any, ...], int] = {}
 

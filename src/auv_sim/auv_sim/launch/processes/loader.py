@@ -36,7 +36,7 @@ LOADED = (
     "auv_path_following.missions.mission_file",
     "auv_path_following.parameters",
     "auv_path_following.control.reference_watch",
-    "auv_sim.parameters",
+    "auv_sim.sim_parameters",
     "auv_sim.vehicle.simulated",
     "auv_sim.bags.writing.bag_writer",
     "auv_msgs_py.contract.conversions",

@@ -7,7 +7,7 @@ from auv_msgs_py.contract.mission_word import MissionWord
 from auv_msgs_py.values.errors import MessageRefused
 from auv_msgs_py.values.types import STOP, Command
 from auv_path_following.missions.mission_state import State
-from auv_sim.nodes.mavlink.mapping import Limits
+from auv_sim.nodes.mavlink.mapping import CommandLimits
 
 #: States of the mission in which no command moves the vehicle, from any sender.
 _OVER = (State.HOLDING, State.COMPLETE, State.ABORTED)
@@ -23,7 +23,7 @@ class Commands:
         timeout: age beyond which a command is a stop, s of ROS time.
     """
 
-    def __init__(self, limits: Limits, timeout: float) -> None:
+    def __init__(self, limits: CommandLimits, timeout: float) -> None:
         self._range = {
             topics.RUDDER_CMD.name: (-limits.rudder, limits.rudder),
             topics.THRUST_CMD.name: (0.0, limits.thrust),

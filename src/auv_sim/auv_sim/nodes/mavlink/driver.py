@@ -27,7 +27,7 @@ from auv_sim.driver_parameters import MavlinkDriverParameters
 from auv_sim.nodes.mavlink.commands import Commands
 from auv_sim.nodes.mavlink.link import MavlinkLink
 from auv_sim.nodes.mavlink.link_watch import LinkWatch
-from auv_sim.nodes.mavlink.mapping import WATER_LOG, Limits, heartbeat, manual_control, rudder_of_pulse
+from auv_sim.nodes.mavlink.mapping import WATER_LOG, CommandLimits, heartbeat, manual_control, rudder_of_pulse
 from auv_sim.nodes.mavlink.navigation import Assembly, Attitude, Position
 from auv_sim.nodes.mavlink.peer import Configured, Peer
 from auv_sim.nodes.mavlink.signing import load_key
@@ -54,7 +54,7 @@ class MavlinkDriverNode(SuiteNode):
             raise ConfigurationError(
                 f"{self.get_name()}: parameter lockstep", "true", "false: vehicles never wait"
             )
-        self.limits = Limits.of(vehicle.load(p.vehicle))
+        self.limits = CommandLimits.of(vehicle.load(p.vehicle))
         where = f"{self.get_name()}: parameter"
         allowed = Configured(p.peer, f"{where} peer") if p.peer else None
         peer = Peer(p.vehicle_system, p.peer_timeout, allowed)

@@ -25,13 +25,13 @@ from auv_sim.command_line import EXIT_DONE, Parser, command, finite, not_negativ
 from auv_sim.nodes.mavlink.link import STANDARD_PORT, MavlinkLink
 from auv_sim.nodes.mavlink.mapping import (
     WATER_LOG,
-    Limits,
+    CommandLimits,
     command_of,
     pulse_of_rudder,
     water_track,
 )
 from auv_sim.nodes.mavlink.signing import load_key
-from auv_sim.parameters import CRUISE
+from auv_sim.sim_parameters import CRUISE
 from auv_sim.vehicle.remus import PlantState
 from auv_sim.vehicle.simulated import SimulatedVehicle
 
@@ -46,7 +46,7 @@ BOOT_MS = 12_340
 _PATIENCE, _WAIT, _LOOK = 0.1, 0.25, 0.001
 
 
-class Channel(NamedTuple):
+class MessageKind(NamedTuple):
     """A kind of message: its period, the delay on its way and how much that varies (all ms)."""
 
     period: int
@@ -55,18 +55,18 @@ class Channel(NamedTuple):
 
 
 CHANNELS = {
-    "attitude": Channel(20, 20.0, 5.0),
-    "position": Channel(50, 40.0, 10.0),
-    "water": Channel(100, 60.0, 20.0),
-    "servo": Channel(100, 30.0, 10.0),
-    "heartbeat": Channel(1000, 20.0, 5.0),
+    "attitude": MessageKind(20, 20.0, 5.0),
+    "position": MessageKind(50, 40.0, 10.0),
+    "water": MessageKind(100, 60.0, 20.0),
+    "servo": MessageKind(100, 30.0, 10.0),
+    "heartbeat": MessageKind(1000, 20.0, 5.0),
 }
 #: Answers and warnings come at any time: with a delay that varied they would overtake each other.
-ANSWERS = Channel(0, 20.0, 0.0)
+ANSWERS = MessageKind(0, 20.0, 0.0)
 #: Signatures have to rise on each line, and messages of different channels overtake each other.
 LINES = {channel: number for number, channel in enumerate((*CHANNELS.values(), ANSWERS))}
 #: What the vehicle hears: commands and questions.
-UPLINK = Channel(0, 20.0, 5.0)
+UPLINK = MessageKind(0, 20.0, 5.0)
 
 
 class Emulator:
@@ -82,13 +82,13 @@ class Emulator:
 
     def __init__(self, hull: Vehicle, initial: PlantState, current: Current) -> None:
         self.plant = SimulatedVehicle(hull, initial, current=current)
-        self.limits = Limits.of(hull)
+        self.limits = CommandLimits.of(hull)
         self.now_ms = BOOT_MS
         self.in_tube = True
         self.failsafe = True
         self.failsafes = 0
         #: What it has said since this was last cleared: (kind of message, message).
-        self.said: list[tuple[Channel, Any]] = []
+        self.said: list[tuple[MessageKind, Any]] = []
         self._command, self._commanded_at = STOP, -COMMAND_TIMEOUT_MS
 
     def hear(self, message: Any) -> None:
@@ -148,7 +148,7 @@ class Emulator:
         return mavlink.MAVLink_servo_output_raw_message(self.now_ms * 1000 % 2**32, 0, pulse, *[0] * 7)
 
 
-class Line:
+class DelayLine:
     """A cable or an acoustic modem: what goes in comes out later, perhaps in another order, perhaps never.
 
     Args:
@@ -161,7 +161,7 @@ class Line:
         self._under_way: list[tuple[float, int, Any]] = []
         self._number = 0
 
-    def put(self, now: float, channel: Channel, item: Any) -> None:
+    def put(self, now: float, channel: MessageKind, item: Any) -> None:
         """Something goes in at `now`, ms."""
         if self._dice.random() < self._loss:
             return
@@ -183,7 +183,7 @@ def live(emulator: Emulator, link: MavlinkLink, speed: float, loss: float, seed:
     that only the line's own delays are left; but for `_WAIT` at most, and only while commands come.
     """
     dice = random.Random(seed)  # noqa: S311 - delays, not secrets
-    down, up = Line(loss, dice), Line(loss, dice)
+    down, up = DelayLine(loss, dice), DelayLine(loss, dice)
     next_step = time.monotonic()
     answer_due = float("-inf")
     while True:

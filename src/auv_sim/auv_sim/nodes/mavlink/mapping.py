@@ -21,14 +21,14 @@ NEUTRAL_PULSE, PULSE_RANGE = 1500, 400
 WATER_LOG = mavlink.MAV_COMP_ID_USER1
 
 
-class Limits(NamedTuple):
+class CommandLimits(NamedTuple):
     """What full deflection of an axis means: rudder in rad, thrust in N."""
 
     rudder: float
     thrust: float
 
     @classmethod
-    def of(cls, vehicle: Vehicle) -> Limits:
+    def of(cls, vehicle: Vehicle) -> CommandLimits:
         """The vehicle's own."""
         return cls(vehicle.rudder.max_angle, vehicle.thrust_max)
 
@@ -39,7 +39,7 @@ def heartbeat() -> Any:
     return mavlink.MAVLink_heartbeat_message(kind, autopilot, 0, 0, mavlink.MAV_STATE_ACTIVE, 3)
 
 
-def manual_control(command: Command, limits: Limits, clockwise: bool, target: int) -> Any:
+def manual_control(command: Command, limits: CommandLimits, clockwise: bool, target: int) -> Any:
     """MANUAL_CONTROL: x is thrust ahead, r the rudder; y, z and the buttons stay at rest.
 
     Args:
@@ -54,7 +54,7 @@ def manual_control(command: Command, limits: Limits, clockwise: bool, target: in
     return mavlink.MAVLink_manual_control_message(target, x, 0, 0, -r if clockwise else r, 0)
 
 
-def command_of(message: Any, limits: Limits, clockwise: bool) -> Command:
+def command_of(message: Any, limits: CommandLimits, clockwise: bool) -> Command:
     """MANUAL_CONTROL as a vehicle understands it."""
     rudder = limits.rudder * message.r / FULL
     return Command(-rudder if clockwise else rudder, limits.thrust * message.x / FULL)
@@ -64,12 +64,12 @@ def _axis(share: float) -> int:
     return round(FULL * min(max(share, -1.0), 1.0))
 
 
-def pulse_of_rudder(angle: float, limits: Limits) -> int:
+def pulse_of_rudder(angle: float, limits: CommandLimits) -> int:
     """Rudder angle (rad, positive to port) -> servo pulse; a longer pulse is more to starboard."""
     return NEUTRAL_PULSE - round(PULSE_RANGE * angle / limits.rudder)
 
 
-def rudder_of_pulse(pulse: int, limits: Limits) -> float:
+def rudder_of_pulse(pulse: int, limits: CommandLimits) -> float:
     """The inverse of `pulse_of_rudder`."""
     return limits.rudder * (NEUTRAL_PULSE - pulse) / PULSE_RANGE
 

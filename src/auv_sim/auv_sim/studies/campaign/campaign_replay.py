@@ -22,7 +22,7 @@ from auv_sim.flight.batch import engine
 from auv_sim.flight.closed_loop import Scenario, start_of
 from auv_sim.flight.metrics import summarise
 from auv_sim.flight.run_record import Run
-from auv_sim.parameters import ConstantCurrent, InitialPose
+from auv_sim.sim_parameters import ConstantCurrent, InitialPose
 from auv_sim.studies.campaign.campaign_plan import StudyPlan
 from auv_sim.studies.campaign.store import RESULTS, Store
 from auv_sim.terminal import go_on, wrote

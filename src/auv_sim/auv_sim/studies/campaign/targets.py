@@ -22,7 +22,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import Current
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.segment import PathPoint
-from auv_sim.parameters import CRUISE
+from auv_sim.sim_parameters import CRUISE
 from auv_sim.vehicle.remus import PlantState
 
 T = TypeVar("T")

@@ -24,7 +24,7 @@ from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.kinds.line import Line
 from auv_sim.flight.batch import engine
 from auv_sim.flight.closed_loop import Scenario
-from auv_sim.parameters import SUITE
+from auv_sim.sim_parameters import SUITE
 
 #: (hull that is flown, hull of the controller's model).
 PAIRS = (

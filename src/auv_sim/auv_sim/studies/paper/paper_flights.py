@@ -17,7 +17,7 @@ from auv_path_following.vehicle import Vehicle
 from auv_sim.flight import closed_loop
 from auv_sim.flight.closed_loop import Scenario
 from auv_sim.flight.run_record import Run
-from auv_sim.parameters import CRUISE, SUITE
+from auv_sim.sim_parameters import CRUISE, SUITE
 from auv_sim.vehicle.remus import PlantState
 
 T = TypeVar("T")

@@ -10,7 +10,7 @@ from rosbags.rosbag1 import Writer as Ros1Writer
 from rosbags.typesys import Stores, get_typestore
 
 from auv_sim.bags.definitions import typestore
-from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.load import load
 from auv_sim.cli import bag as bag_command
 

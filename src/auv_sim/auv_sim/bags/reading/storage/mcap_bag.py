@@ -6,7 +6,7 @@ from pathlib import Path
 
 from mcap.records import Channel, Schema
 
-from auv_sim.bags.reading.bag import Bag, RecordedTopic, Wanted
+from auv_sim.bags.reading.recording import Bag, RecordedTopic, TopicFilter
 from auv_sim.bags.reading.storage.mcap_scan import scan
 from auv_sim.bags.writing.bag_writer import TEXTS
 
@@ -16,7 +16,7 @@ _REPEATED = "rosbag2"
 _LATCHED = 100
 
 
-def read_mcap(bag: Bag, file: Path, wanted: Wanted) -> None:
+def read_mcap(bag: Bag, file: Path, keeps: TopicFilter) -> None:
     """Add a file to a recording.
 
     Raises:
@@ -62,7 +62,7 @@ def read_mcap(bag: Bag, file: Path, wanted: Wanted) -> None:
         repeated = _repeats(topic, here)
         bag.repeated += repeated
         renumbered[id(here)] = topic, topic.count - repeated, repeated
-        keep = wanted(channel.topic, topic.type)
+        keep = keeps(channel.topic, topic.type)
         topic.log_ns += here.log_ns[repeated:]
         topic.publish_ns += here.publish_ns[repeated:]
         topic.sequence += here.sequence[repeated:]

@@ -14,13 +14,13 @@ from rosbags.typesys.store import Typestore
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.definitions import typestore
-from auv_sim.bags.reading.bag import Bag, RecordedTopic, Wanted
+from auv_sim.bags.reading.recording import Bag, RecordedTopic, TopicFilter
 
 _ROS1 = "a ROS 1 bag"
 _HEADER = "std_msgs/msg/Header"
 
 
-def read_ros1(bag: Bag, file: Path, wanted: Wanted) -> None:
+def read_ros1(bag: Bag, file: Path, keeps: TopicFilter) -> None:
     """Add a file to a recording.
 
     Raises:
@@ -40,7 +40,7 @@ def read_ros1(bag: Bag, file: Path, wanted: Wanted) -> None:
                     topic, convert = converters[connection.id]
                     cdr = convert(data)
                     bag.order.append((topic, topic.count))
-                    topic.put(0, log_ns, log_ns, cdr, wanted(topic.name, topic.type))
+                    topic.put(0, log_ns, log_ns, cdr, keeps(topic.name, topic.type))
     except Exception as error:
         # A damaged file makes the reader fail in any way it likes.
         reason = " ".join(str(error).split())

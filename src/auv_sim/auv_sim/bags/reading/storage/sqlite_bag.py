@@ -14,8 +14,8 @@ from typing import Any
 from mcap.records import Channel, Schema
 
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.bags.reading.bag import Bag, RecordedTopic, Wanted
 from auv_sim.bags.reading.bag_files import companions
+from auv_sim.bags.reading.recording import Bag, RecordedTopic, TopicFilter
 from auv_sim.bags.reading.storage.sqlite_pages import Row, rows_of
 
 _SQLITE = "a rosbag2 SQLite file"
@@ -37,7 +37,7 @@ class _Content:
     trouble: str = ""
 
 
-def read_sqlite(bag: Bag, file: Path, wanted: Wanted) -> None:
+def read_sqlite(bag: Bag, file: Path, keeps: TopicFilter) -> None:
     """Add a file to a recording.
 
     Raises:
@@ -55,13 +55,13 @@ def read_sqlite(bag: Bag, file: Path, wanted: Wanted) -> None:
         try:
             query = "SELECT id, topic_id, timestamp, data FROM messages NOT INDEXED ORDER BY id"
             for row in connection.execute(query):
-                _take(bag, content, row, wanted)
+                _take(bag, content, row, keeps)
         except _DAMAGE as error:
             content.trouble = str(error)
         if content.trouble:
             before = content.messages
             for row in sorted(row for row in rows_of(readable) if row[1] in content.topics):
-                _take(bag, content, row, wanted)
+                _take(bag, content, row, keeps)
             further = content.messages - before
             content.trouble += f"; {before} messages are readable, {further} more page by page"
     bag.notes += [f"{file.name}: {note}" for note in _notes(file, content)]
@@ -165,7 +165,7 @@ def _joined(bag: Bag, file: Path, topic: RecordedTopic) -> RecordedTopic:
     return there
 
 
-def _take(bag: Bag, content: _Content, row: Row, wanted: Wanted) -> None:
+def _take(bag: Bag, content: _Content, row: Row, keeps: TopicFilter) -> None:
     """Append a message, once; a row of other values than a message's is counted."""
     number, topic_number, log_ns, data = row
     if number in content.seen:
@@ -178,4 +178,4 @@ def _take(bag: Bag, content: _Content, row: Row, wanted: Wanted) -> None:
     content.messages += 1
     if bag.topics.get(topic.name) is topic:
         bag.order.append((topic, topic.count))
-        topic.put(0, log_ns, log_ns, data, wanted(topic.name, topic.type))
+        topic.put(0, log_ns, log_ns, data, keeps(topic.name, topic.type))

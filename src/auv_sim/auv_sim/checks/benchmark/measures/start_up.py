@@ -11,7 +11,7 @@ import time
 from pathlib import Path
 
 from auv_msgs_py.contract import topics
-from auv_sim.bags.reading.bag_watch import recorded
+from auv_sim.bags.reading.growing_bag import has_message
 from auv_sim.checks.benchmark.measures.children import BenchmarkFailed, interruptible
 from auv_sim.checks.benchmark.measures.rig import NAMESPACE
 
@@ -53,7 +53,7 @@ def first_command(python: str = sys.executable, composed: bool = False) -> float
             start_new_session=True,  # Ctrl-C is passed on, once
         )
         try:
-            while not recorded(run / "bag", _TOPIC):
+            while not has_message(run / "bag", _TOPIC):
                 if launcher.poll() is not None or time.monotonic() - begin > _PATIENCE:
                     raise BenchmarkFailed("the launcher did not bring up a mission")
                 if stop.requested:

@@ -15,9 +15,10 @@ from rosbags.rosbag2.metadata import dump_qos_v9, parse_qos
 from auv_msgs_py.settings import yaml_file
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.definitions import Definition
-from auv_sim.bags.metadata import METADATA_FILE, FileFacts, TopicFacts, information, write
-from auv_sim.bags.reading.bag import Bag, RecordedTopic, read_bag
+from auv_sim.bags.metadata import METADATA_FILE, FileMetadata, TopicMetadata, information, write
 from auv_sim.bags.reading.bag_files import NO_METADATA, companions
+from auv_sim.bags.reading.bag_reader import read_bag
+from auv_sim.bags.reading.recording import Bag, RecordedTopic
 from auv_sim.bags.reading.storage.mcap_scan import NOT_CLOSED, scan
 from auv_sim.bags.writing.bag_writer import TEXTS, BagWriter, Channel
 
@@ -88,7 +89,7 @@ def _described(bag: Bag, storage: str) -> Repaired:
         times = [topic.log_ns[k] for topic, k in bag.order[begin : begin + count]]
         begin += count
         first, last = min(times, default=0), max(times, default=0)
-        files.append(FileFacts(file.name, first, last, count, file.stat().st_size))
+        files.append(FileMetadata(file.name, first, last, count, file.stat().st_size))
     topics = [_facts(topic) for topic in bag.topics.values()]
     try:
         write(bag.path, information(topics, files, storage))
@@ -97,13 +98,13 @@ def _described(bag: Bag, storage: str) -> Repaired:
     return Repaired(bag.path, bag.count, bag.notes, [])
 
 
-def _facts(topic: RecordedTopic) -> TopicFacts:
+def _facts(topic: RecordedTopic) -> TopicMetadata:
     encoding, type_hash = "cdr", ""
     if topic.original is not None:
         channel, _ = topic.original
         encoding, type_hash = channel.message_encoding, channel.metadata.get("topic_type_hash", "")
     qos = list(dump_qos_v9(_offered(topic)))
-    return TopicFacts(topic.name, topic.type, topic.count, qos, type_hash, encoding)
+    return TopicMetadata(topic.name, topic.type, topic.count, qos, type_hash, encoding)
 
 
 def _replace(bag: Bag, directory: Path, done: Repaired) -> list[Path]:

@@ -6,7 +6,7 @@ import pytest
 
 from auv_msgs_py.settings.schema import SettingInfo, leaves, nested, validated
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.parameters import SUITE, FaultRelayParameters
+from auv_sim.sim_parameters import SUITE, FaultRelayParameters
 
 #: Parameters of the laws are gains: any positive value is a law, if a poor one.
 _LAWS = ("guidance.", "autopilot.", "observer.")

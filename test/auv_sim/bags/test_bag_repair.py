@@ -11,9 +11,9 @@ from mcap.records import Schema
 from mcap.stream_reader import StreamReader
 from mcap.writer import IndexType, Writer
 
-from auv_sim.bags import mending as module
+from auv_sim.bags import bag_repair as module
 from auv_sim.bags.definitions import definition, typestore
-from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.writing.bag_writer import BagWriter
 from auv_sim.bags.writing.journal import Journal
 from auv_sim.cli import bag as bag_command

@@ -17,7 +17,7 @@ from auv_sim.cli import mission as mission_command
 from auv_sim.flight import closed_loop
 from auv_sim.flight.metrics import CornerSummary, summarise
 from auv_sim.flight.run_record import Run
-from auv_sim.launch import launcher, mission_plan, results
+from auv_sim.launch import launcher, mission_plan, mission_results
 from auv_sim.launch.options import Options
 from auv_sim.launch.outcome import Outcome
 
@@ -27,7 +27,7 @@ def test_figures_have_units_and_the_next_command_is_quoted(short_mission: Path, 
     summary = summarise(closed_loop.fly(resolved.scenario()), resolved.mission.path)
     told, directory = io.StringIO(), tmp_path / "my [first] run"
     console = Console(file=told, width=140, highlight=False)
-    results.show(resolved, directory, Outcome("complete", "", 10.0, 40.0), summary, console)
+    mission_results.show(resolved, directory, Outcome("complete", "", 10.0, 40.0), summary, console)
     for head in ("time (s)", "rms distance (m)", "largest (m)", "rms heading error (°)", "rudder (°/m)"):
         assert head in told.getvalue()
     last = told.getvalue().splitlines()[-1].removeprefix("Look further:")
@@ -42,7 +42,7 @@ def test_what_was_not_reached_has_no_figure(short_mission: Path, tmp_path: Path)
         summary, corners=(corner,), largest_distance_off_corners=math.nan, navigation_error=0.25
     )
     told = io.StringIO()
-    results.show(
+    mission_results.show(
         resolved, tmp_path, Outcome("interrupted", "", 1.0, 1.0), early, Console(file=told, width=140)
     )
     assert "at most -" not in told.getvalue()
@@ -55,7 +55,7 @@ def skips_a_fifth(short_mission: Path, tmp_path: Path, monkeypatch: pytest.Monke
     run = closed_loop.fly(mission_plan.make(Options(mission=str(short_mission)), tmp_path).scenario())
     on_the_arc = run.subpath(3) == 1
     cut = dataclasses.replace(run, x=run.x - np.where(on_the_arc, 8.0, 0.0))
-    monkeypatch.setattr(results, "load", lambda _: cut)
+    monkeypatch.setattr(mission_results, "load", lambda _: cut)
     monkeypatch.setattr(launcher, "fly", lambda *_: Outcome("complete", "", 10.0, 40.0))
     return cut
 
@@ -88,7 +88,7 @@ def test_complete_is_not_reported_where_the_recording_does_not_reach_the_end(
     """However much was flown: whatever mission_state said, it may have been forged."""
     run = closed_loop.fly(mission_plan.make(Options(mission=str(short_mission)), tmp_path).scenario())
     short = run.select(run.s < 3.0)
-    monkeypatch.setattr(results, "load", lambda _: short)
+    monkeypatch.setattr(mission_results, "load", lambda _: short)
     monkeypatch.setattr(launcher, "fly", lambda *_: Outcome("complete", "", 10.0, 40.0))
     asked = ["--mission", str(short_mission), "--flown", "0", "--quiet", "--out", str(tmp_path / "run")]
     assert mission_command.main(asked) == 1

@@ -30,9 +30,9 @@ from auv_path_following.missions.mission_file import Mission
 from auv_path_following.navigation import current_observer
 from auv_path_following.pilot import Pilot, first_state, pilot
 from auv_path_following.vehicle import Vehicle
-from auv_sim.bags.reading.bag import Bag, RecordedTopic
 from auv_sim.bags.reading.deserialize import deserializer
 from auv_sim.bags.reading.load import messages_of
+from auv_sim.bags.reading.recording import Bag, RecordedTopic
 
 
 class Answer(NamedTuple):

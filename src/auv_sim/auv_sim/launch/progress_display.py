@@ -11,7 +11,7 @@ from rich.progress import Progress as Bar
 from auv_path_following.curves.composite import CompositePath
 
 
-class Progress:
+class ProgressDisplay:
     """A bar along the path: subpath, s, distance to the path, speed relative to real time.
 
     Args:
@@ -33,7 +33,7 @@ class Progress:
         )
         self._task = self._bar.add_task("starting the nodes", total=path.length)
 
-    def __enter__(self) -> Progress:
+    def __enter__(self) -> ProgressDisplay:
         self._bar.__enter__()
         return self
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from auv_sim.bags.reading.bag import read_bag
+from auv_sim.bags.reading.bag_reader import read_bag
 
 
-def recorded(directory: Path, topic: str) -> bool:
+def has_message(directory: Path, topic: str) -> bool:
     """Return whether a bag has a message of a topic (its full name) by now; a file just made has none."""
     if not any(file.stat().st_size for file in directory.glob("*.mcap")):
         return False
