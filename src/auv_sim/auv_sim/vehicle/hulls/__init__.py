@@ -1,0 +1,1 @@
+"""Hulls in six degrees of freedom, one a file. No ROS."""
