@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import math
 import signal
 import subprocess
 import sys
@@ -16,8 +17,9 @@ import numpy as np
 import pytest
 
 from auv_msgs_py.contract import topics
-from auv_sim.checks.benchmark import against, figures_page, sheets
+from auv_sim.checks.benchmark import against, contender, figures_page, sheets
 from auv_sim.checks.benchmark.measures import graph_speed, law_speed, start_up
+from auv_sim.checks.benchmark.measures.children import BenchmarkFailed
 from auv_sim.checks.benchmark.measures.rig import Setup, Timing, free_running, lockstep
 from auv_sim.checks.benchmark.measures.stopwatch import BLOCK
 from auv_sim.checks.benchmark.measures.usage import Memory, Usage
@@ -127,13 +129,22 @@ def test_two_checkouts_fly_in_turns() -> None:
     one = against.Contender(sys.executable, "closed_loop", "-", 2, 0.5, 1)
     other = against.Contender(sys.executable, "batch", "rough", 2, 0.5, 1)
     try:
-        for contender in (one, other):
-            contender.fly(counts=False)
-            contender.fly()
-            assert len(contender.times) == 1 and contender.times[0] > 0.0
+        for side in (one, other):
+            side.fly(counts=False)
+            side.fly()
+            assert len(side.times) == 1 and side.times[0] > 0.0
     finally:
         one.close()
         other.close()
+
+
+def test_another_checkout_may_have_former_names() -> None:
+    assert contender.first_of("no_such_module", "math") is math
+    with pytest.raises(ModuleNotFoundError, match="nor_this"):
+        contender.first_of("no_such_module", "nor_this")
+    assert start_up.launcher_of("/bin/true") == "auv_sim.cli.mission"
+    with pytest.raises(BenchmarkFailed, match="/bin/false has no launcher"):
+        start_up.launcher_of("/bin/false")
 
 
 def test_a_checkout_without_an_environment_is_named(

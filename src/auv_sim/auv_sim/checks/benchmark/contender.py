@@ -1,7 +1,7 @@
 """One side of a comparison of two checkouts: flies when it is asked to, and answers with the time it took.
 
 The source of this file runs with the interpreter of either checkout (`python -c`), so it uses nothing of the
-benchmark and only what every version of the suite has: `plan.scenario`, `closed_loop.fly`, `engine.fly`.
+benchmark, and of the suite only what every version has: `scenario(options)`, `closed_loop.fly`, `engine.fly`.
 
 Arguments: what to fly (closed_loop or batch), sea file or -, flights, s of each, threads. Each line on
 standard input asks for one round; the answer is a line with the seconds for a vehicle-step.
@@ -10,14 +10,31 @@ standard input asks for one round; the answer is a line with the seconds for a v
 from __future__ import annotations
 
 import dataclasses
+import importlib
 import math
 import sys
 import time
+from typing import Any
 
-from auv_msgs_py.values.types import Current
-from auv_sim.flight import closed_loop
-from auv_sim.launch import mission_plan
-from auv_sim.launch.options import Options
+
+def first_of(*names: str) -> Any:
+    """Return the first of these modules that the checkout has: by today's name, then by its former one.
+
+    Raises:
+        ModuleNotFoundError: it has none.
+    """
+    for name in names[:-1]:
+        try:
+            return importlib.import_module(name)
+        except ModuleNotFoundError:
+            continue
+    return importlib.import_module(names[-1])
+
+
+Current = first_of("auv_msgs_py.values.types", "auv_msgs_py.types").Current
+Options = first_of("auv_sim.launch.options", "auv_sim.mission.options").Options
+closed_loop = first_of("auv_sim.flight.closed_loop", "auv_sim.closed_loop")
+mission_plan = first_of("auv_sim.launch.mission_plan", "auv_sim.mission.plan")
 
 
 def main(what: str, sea: str, flights: int, duration: float, threads: int) -> None:
@@ -29,8 +46,7 @@ def main(what: str, sea: str, flights: int, duration: float, threads: int) -> No
     currents = [Current(0.2 * math.cos(angle), 0.2 * math.sin(angle)) for angle in angles]
     scenarios = [dataclasses.replace(flight, current=current, seed=k) for k, current in enumerate(currents)]
     if what == "batch":
-        from auv_sim.flight.batch import engine
-
+        engine = first_of("auv_sim.flight.batch.engine", "auv_sim.batch.engine")
         engine.fly(scenarios[:1])  # compiles
     for _ in sys.stdin:
         begin = time.perf_counter()

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from functools import cache
 from pathlib import Path
 
 from auv_msgs_py.contract import topics
@@ -16,6 +17,8 @@ from auv_sim.checks.benchmark.measures.children import BenchmarkFailed, interrup
 from auv_sim.checks.benchmark.measures.rig import NAMESPACE
 
 _PATIENCE = 90.0
+#: The launcher's module, by today's name and by its former one.
+_LAUNCHERS = ("auv_sim.cli.mission", "auv_sim.mission")
 _TOPIC = topics.full_name(NAMESPACE, topics.RUDDER_CMD.name)
 
 
@@ -32,6 +35,22 @@ def environment() -> dict[str, str]:
     return kept | {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
 
 
+@cache
+def launcher_of(python: str) -> str:
+    """Return the launcher's module in the checkout of an interpreter.
+
+    Raises:
+        BenchmarkFailed: it has none.
+    """
+    for name in _LAUNCHERS:
+        shown = subprocess.run(  # noqa: S603 - an interpreter of the suite, our own module
+            [python, "-m", name, "--help"], env=environment(), capture_output=True, check=False
+        )
+        if shown.returncode == 0:
+            return name
+    raise BenchmarkFailed(f"{python} has no launcher: {' or '.join(_LAUNCHERS)}")
+
+
 def first_command(python: str = sys.executable, composed: bool = False) -> float:
     """Fly until the recording has a rudder command, s; nothing else is in the mission's ROS domain.
 
@@ -44,7 +63,7 @@ def first_command(python: str = sys.executable, composed: bool = False) -> float
     """
     with tempfile.TemporaryDirectory(prefix="auv-benchmark-") as name, interruptible() as stop:
         run = Path(name) / "run"
-        command = [python, "-m", "auv_sim.cli.mission", "--quiet", "--out", str(run)]
+        command = [python, "-m", launcher_of(python), "--quiet", "--out", str(run)]
         begin = time.monotonic()
         launcher = subprocess.Popen(  # noqa: S603 - an interpreter of the suite, our own module
             [*command, *["--composed"] * composed],
