@@ -270,7 +270,7 @@ def test_the_vehicle_in_per_cent_of_the_page_is_one(tmp_path: Path) -> None:
 
 
 def test_the_signing_key_of_the_page_is_a_parameter(tmp_path: Path) -> None:
-    (text,) = listings("docs/driver.md", "yaml")
+    (text,) = listings("docs/mavlink.md", "yaml")
     (tmp_path / "signed.yaml").write_text(text, encoding="utf-8")
     node = topics.MAVLINK_DRIVER
     read = params_file.load(tmp_path / "signed.yaml", {node: MavlinkDriverParameters})

@@ -1,4 +1,4 @@
-"""The mapping between the wire contract and MAVLink, in numbers; docs/driver.md has it as a table. ROS-free.
+"""The mapping between the wire contract and MAVLink, in numbers; docs/mavlink.md has it as a table. ROS-free.
 
 MAVLink's local frame is NED and its body frame FRD, which is also what the suite calculates in: nothing is
 turned here. What has to be turned for the wire is turned by `auv_msgs_py.contract.conversions`.
