@@ -1,4 +1,4 @@
-"""Light messages (see `wire`) through rclpy."""
+"""Publish and receive light messages (see `wire`) through rclpy."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _LAST_ENCODING = b"\x0b"
 
 
 class WirePublisher(Publisher):  # type: ignore[misc]
-    """Sends light messages as the bytes that they are, and generated ones as ever."""
+    """Publish light messages as their bytes, and generated ones as rclpy does."""
 
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__(*arguments, **named)
@@ -35,9 +35,9 @@ class WirePublisher(Publisher):  # type: ignore[misc]
 def decoder(topic: Topic) -> Callable[[bytes], Any]:
     """Return the function that turns the bytes of a raw subscription into a message.
 
-    A type that `wire` has is returned as its light class, the same object each time; any other, and bytes
-    that `wire` does not understand, as the generated class. Subscriptions are raw because the middleware
-    drops bytes that it cannot decode without a count. The function raises `MessageRefused` for those.
+    A type of `wire` is returned as its light class, the same object each time; any other type, and bytes in
+    another byte order, as the generated class. Subscriptions are raw because the middleware drops bytes that
+    it cannot decode without counting them. The function raises `MessageRefused` for those.
     """
     generated = generated_decoder(topic)
     if topic.type not in wire.LIGHT:
@@ -57,16 +57,16 @@ def decoder(topic: Topic) -> Callable[[bytes], Any]:
 
 
 def generated_decoder(topic: Topic) -> Callable[[bytes], Any]:
-    """As `decoder`, but always a new message of the generated class."""
+    """Return a function as `decoder` does, which always makes a new message of the generated class."""
     kind = qos.message_class(topic.type)
 
     def decode(data: bytes) -> Any:
-        # The deserialiser writes ten lines to stderr for each failure, so what is obvious does not get there.
+        # The deserialiser writes ten lines to stderr for each failure: refuse unknown encodings before.
         if data[:1] != b"\0" or data[1:2] > _LAST_ENCODING:
             raise _refused(topic, data)
         try:
             return deserialize_message(data, kind)
-        except Exception:  # the middlewares raise what they like
+        except Exception:  # of a type that depends on the middleware
             raise _refused(topic, data) from None
 
     return decode

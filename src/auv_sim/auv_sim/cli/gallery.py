@@ -168,8 +168,7 @@ def _table(rows: list[list[str]]) -> str:
     heads = ["path", "joints", "length (m)"]
     for where in ("", " in the current"):
         heads += [f"rms (m){where}", f"largest (m){where}", f"rudder (°/m){where}"]
-    lines = [heads, ["---", "---", *["---:"] * (len(heads) - 2)], *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+    return doc_pages.markdown_table(heads, rows, left=2)
 
 
 if __name__ == "__main__":

@@ -216,11 +216,10 @@ def _table(rows: Sequence[Together], options: argparse.Namespace) -> Table:
 
 
 def _markdown(rows: Sequence[Together]) -> str:
-    lines = [["gains", *(heading for heading, _ in _COLUMNS)], ["---", *["---:"] * len(_COLUMNS)]]
-    lines += [
+    cells = [
         [f"`{row.params.removesuffix('.yaml')}.yaml`", *(cell(row) for _, cell in _COLUMNS)] for row in rows
     ]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+    return doc_pages.markdown_table(["gains", *(heading for heading, _ in _COLUMNS)], cells)
 
 
 def _write(file: Path, record: Any) -> None:

@@ -19,6 +19,7 @@ from auv_sim.studies.paper.paper_flights import changed
 from auv_sim.studies.trials import Trial, judge
 from auv_sim.vehicle.actuator import RudderFlaws
 from auv_sim.vehicle.sea import Sea
+from auv_sim.views.doc_pages import markdown_table
 from auv_sim.views.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, save, style
 
 #: Of the page.
@@ -172,5 +173,4 @@ def record(study: Study) -> list[dict[str, Any]]:
 
 def markdown(study: Study) -> str:
     """For a page."""
-    lines = [list(_HEADS), ["---", "---", *["---:"] * len(LEVELS)], *_rows(study)]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+    return markdown_table(_HEADS, _rows(study), left=2)

@@ -1,21 +1,28 @@
-"""Pages of docs/ with a part that a command renews: it stands between two marks, the rest is a person's."""
+"""Pages of docs/ with a part that a command renews: it stands between two marks. Tables in Markdown."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.errors import ConfigurationError
 
 
+def markdown_table(heads: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) -> str:
+    """Return a table whose columns are aligned to the right, but for the first `left` ones."""
+    lines = [heads, ["---"] * left + ["---:"] * (len(heads) - left), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
 def marks(name: str) -> tuple[str, str]:
-    """What stands before and behind the part of this name."""
+    """Return the lines before and after the part of this name."""
     return f"<!-- {name}: begin -->", f"<!-- {name}: end -->"
 
 
 def check(page: Path, name: str) -> None:
-    """Look before the work whether its result can be put down.
+    """Check before the work that its result can be written.
 
     Raises:
         ConfigurationError: no such page, or it has no such part, or it is not to be written.

@@ -23,7 +23,7 @@ from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.values.angles import wrap
 from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
 from auv_sim.bags.reading.bag_reader import read_bag
-from auv_sim.bags.reading.cdr import Columns, decode
+from auv_sim.bags.reading.columns import Columns, decode
 from auv_sim.bags.reading.deserialize import deserializer
 from auv_sim.bags.reading.held_rows import held_rows
 from auv_sim.bags.reading.recording import Bag, RecordedTopic

@@ -8,6 +8,8 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
+from auv_sim.views.doc_pages import markdown_table
+
 #: Simulated seconds per lockstep step, the simulator's default.
 STEP = 0.05
 _LOCKSTEP_ROWS = (
@@ -175,7 +177,5 @@ def markdown(found: list[Sheet]) -> str:
     """The tables for the page."""
     texts = []
     for sheet in found:
-        lines = [sheet.heads, ("---", *["---:"] * (len(sheet.heads) - 1)), *sheet.rows]
-        table = "\n".join("| " + " | ".join(line) + " |" for line in lines)
-        texts.append(f"**{sheet.title}**\n\n{table}")
+        texts.append(f"**{sheet.title}**\n\n{markdown_table(sheet.heads, sheet.rows)}")
     return "\n\n".join(texts)

@@ -29,10 +29,10 @@ _PROLOGUE = struct.Struct("<QQQII")  # of a chunk: first, last, uncompressed siz
 _FOOTER_SIZE = _RECORD.size + 20 + len(MAGIC)
 _COMPRESSIONS = (b"", b"lz4", b"zstd")
 _MCAP = "an MCAP file"
-#: Chunks are unpacked up to this many times the size of their file, and that many bytes for a small file: a
-#: file that holds more was made to fill the memory.
+#: Chunks are unpacked up to this many times the size of their file, and to that many bytes for a small file.
+#: A file that holds more was made to fill the memory.
 _MOST_PACKED, _LEAST_ROOM = 50, 32_000_000
-#: More topics than this are no recording of a vehicle.
+#: A recording of vehicles has fewer topics.
 _MOST_CHANNELS = 10_000
 #: The note of a file that lacks its index and nothing else.
 NOT_CLOSED = "the end is missing (not closed)"
@@ -56,7 +56,7 @@ class ScanResult(NamedTuple):
     Attributes:
         channels, schemas: by number.
         metadata, attachments: in the order of the file.
-        profile: what the file says of itself (``ros2``).
+        profile: the profile in the file's header (``ros2``).
         notes: one line for each damage; empty for a whole file.
         closed: whether the file has its index and its end.
     """
@@ -75,7 +75,7 @@ def scan(path: Path, sink: Sink) -> ScanResult:
 
     Args:
         path: the file.
-        sink: gets every message that is whole, in the order of the file.
+        sink: called with every message that is whole, in the order of the file.
 
     Raises:
         ConfigurationError: it cannot be opened, is empty, has too many topics, or is no MCAP file at all.
@@ -141,7 +141,7 @@ class _Scanner:
         )  # fmt: skip
 
     def _take(self, opcode: int, start: int, end: int) -> bool:
-        """Take in one record; False when it makes no sense, so that its length cannot be trusted either."""
+        """Take in one record; return False where it cannot be one, so that its length is wrong too."""
         body = start + _RECORD.size
         if opcode == Opcode.CHUNK:
             return self._chunk(start, body, end)
@@ -158,9 +158,9 @@ class _Scanner:
         return True
 
     def _intact(self, body: int, end: int) -> bool:
-        """Whether an attachment has its checksum; 0 is none."""
-        (told,) = struct.unpack_from("<I", self._data, end - 4)
-        return told in (0, zlib.crc32(self._data[body : end - 4]))
+        """Return whether an attachment's checksum is right; 0 stands for none."""
+        (expected,) = struct.unpack_from("<I", self._data, end - 4)
+        return expected in (0, zlib.crc32(self._data[body : end - 4]))
 
     def _keep(self, record: Any) -> None:
         # The index repeats them at the end of the file; the later one is the one under a checksum.
@@ -200,7 +200,7 @@ class _Scanner:
             self._notes.append(f"chunk at byte {start}: its checksum is wrong; {_span(chunk)} left out")
             return True
         except Exception as error:
-            # Damaged data make a decompressor fail in any way it likes.
+            # On damaged data a decompressor raises errors of several types.
             reason = " ".join(str(error).split())
             self._notes.append(f"chunk at byte {start}: {reason}; {_span(chunk)} left out")
             return True
@@ -209,7 +209,7 @@ class _Scanner:
         return True
 
     def _batch(self, raw: bytes, start: int) -> bool:
-        """The records of a chunk, or a bare one; False when they do not end where they should."""
+        """Take in the records of a chunk, or a single one; return False where they do not fill `raw`."""
         position, size, sink, head = 0, len(raw), self._sink, MESSAGE_HEAD
         while position + _RECORD.size <= size:
             opcode, length = _RECORD.unpack_from(raw, position)
@@ -227,7 +227,7 @@ class _Scanner:
         return position == size
 
     def _salvage(self, position: int) -> None:
-        """The messages at the beginning of a chunk that was cut off."""
+        """Take in the messages at the beginning of a chunk that was cut off."""
         if not self._is_chunk(position):
             return
         *_, name_length = _PROLOGUE.unpack_from(self._data, position + _RECORD.size)
@@ -252,7 +252,7 @@ class _Scanner:
         return first <= last and name_length <= 4 and self._data[at : at + name_length] in _COMPRESSIONS
 
     def _next_chunk(self, position: int) -> int | None:
-        """Where the next thing that looks like a whole chunk begins."""
+        """Return where the next bytes begin that can be a whole chunk; None where none do."""
         size = len(self._data)
         while (position := self._data.find(b"\x06", position)) != -1:
             if self._is_chunk(position):
@@ -264,7 +264,7 @@ class _Scanner:
 
 
 def _read(kind: Any, body: bytes) -> Any:
-    """A record, or None when the bytes are none."""
+    """Return a record, or None where the bytes are not one of this kind."""
     try:
         stream = ReadDataStream(BytesIO(body))
         return kind.read(stream)
@@ -273,11 +273,11 @@ def _read(kind: Any, body: bytes) -> Any:
 
 
 def _frame_size(chunk: Chunk) -> int:
-    """Size that the compressed data say they have, bytes: the decompressor makes room for it at once."""
+    """Return the size that compressed data declare, bytes: the decompressor allocates it at once."""
     try:
         return zstandard.frame_content_size(chunk.data) if chunk.compression == "zstd" else 0
     except zstandard.ZstdError:
-        return 0  # unpacking will say what is wrong
+        return 0  # unpacking will report what is wrong
 
 
 def _span(chunk: Chunk) -> str:

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from auv_msgs_py.contract.codec import LAYOUTS
-from auv_sim.bags.reading.cdr import decode, decode_at_once, decode_one_by_one
+from auv_sim.bags.reading.columns import decode, decode_at_once, decode_one_by_one
 from auv_sim.bags.writing.bag_writer import typestore
 
 FRAME = st.text(alphabet="abcdefgh_/", max_size=12)

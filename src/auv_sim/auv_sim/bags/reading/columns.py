@@ -1,9 +1,9 @@
-"""Serialised messages to columns of numbers, all messages of a topic at once.
+"""Decode all messages of a topic at once into columns of numbers.
 
-A message whose only variable parts are its frame ids has the same layout throughout a recording, so a
-topic is one NumPy structured array laid over the joined bytes. Where that does not hold (frame ids that
-change length, another byte order) every message is decoded separately by rosbags. Both take the order of the
-fields from the table in `auv_msgs_py.contract.codec`.
+Messages whose only parts of variable length are frame ids have one size as long as the frame ids stay the
+same, so that NumPy can read a topic as one array of bytes. Where they change, or in another byte order,
+rosbags decodes one message after the other. Both take the order of fields from the table in
+`auv_msgs_py.contract.codec`.
 """
 
 from __future__ import annotations
@@ -50,13 +50,16 @@ def decode(type_name: str, messages: Sequence[bytes]) -> Columns:
     Args:
         type_name: one of `LAYOUTS`.
         messages: n serialised messages, CDR header included.
+
+    Raises:
+        Exception: bytes that are no such message; of which type depends on what is wrong with them.
     """
     columns = decode_at_once(type_name, messages)
     return decode_one_by_one(type_name, messages) if columns is None else columns
 
 
 def decode_at_once(type_name: str, messages: Sequence[bytes]) -> Columns | None:
-    """Like `decode`, or None when the messages do not all have one layout."""
+    """Decode as `decode` does; return None where the messages do not all have one layout."""
     layout = LAYOUTS[type_name]
     if not messages:
         return Columns(layout, np.zeros(0, np.int64), (), np.zeros((0, layout.doubles)))
@@ -84,7 +87,7 @@ def decode_at_once(type_name: str, messages: Sequence[bytes]) -> Columns | None:
 
 
 def decode_one_by_one(type_name: str, messages: Sequence[bytes]) -> Columns:
-    """Like `decode`, by rosbags' own deserialiser: slow, for any layout and byte order."""
+    """Decode as `decode` does, by rosbags' deserialiser: slow, for any frame ids and byte order."""
     layout = LAYOUTS[type_name]
     store = typestore()
     stamp = np.zeros(len(messages), np.int64)
