@@ -15,7 +15,8 @@ from rclpy.serialization import serialize_message
 from std_msgs.msg import Float64
 
 from auv_msgs_py.contract import qos, topics, wire
-from auv_msgs_py.node.runtime import StopRequest, SuiteNode, run_nodes, spin
+from auv_msgs_py.node.run import StopRequest, run_nodes, spin
+from auv_msgs_py.node.runtime import SuiteNode
 from auv_path_following.parameters import NodeParameters
 from node_bench import NORTHWARD, Bench
 

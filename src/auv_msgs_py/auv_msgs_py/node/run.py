@@ -7,7 +7,7 @@ import signal
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
@@ -18,6 +18,7 @@ from rclpy.task import Future
 from auv_msgs_py.node.graph_look import GraphLook
 from auv_msgs_py.node.log_directory import ensure_log_directory
 from auv_msgs_py.node.ros_arguments import check_parameter_files
+from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.node.start_gate import is_gated, pass_gate
 from auv_msgs_py.values.errors import SuiteError, printable
 
@@ -25,9 +26,6 @@ try:
     from rclpy.experimental import EventsExecutor
 except ImportError:  # an rclpy without it: slower, otherwise the same
     EventsExecutor = SingleThreadedExecutor
-
-if TYPE_CHECKING:
-    from auv_msgs_py.node.runtime import SuiteNode
 
 #: Exit code for input that cannot be used; 1 is for everything else that went wrong.
 EXIT_BAD_INPUT = 2

@@ -20,13 +20,9 @@ from auv_msgs_py.node import params
 from auv_msgs_py.node.health import Health
 from auv_msgs_py.node.lockstep_gate import LockstepGate
 from auv_msgs_py.node.private_rclpy import stop_reading_clock
-from auv_msgs_py.node.run import StopRequest, run_nodes, spin
 from auv_msgs_py.node.transport import WirePublisher, decoder, generated_decoder
 from auv_msgs_py.node.watch import ClockWatch, RateWatch
 from auv_msgs_py.values.errors import LockstepBroken, MessageRefused
-
-#: A node's module needs its base and the loop: one import for both.
-__all__ = ["StopRequest", "SuiteNode", "run_nodes", "spin"]
 
 
 class SuiteNode(Node):  # type: ignore[misc]

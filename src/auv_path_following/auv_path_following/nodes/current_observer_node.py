@@ -8,7 +8,8 @@ from typing import Any
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import fill_current
 from auv_msgs_py.contract.wire import Vector3Stamped
-from auv_msgs_py.node.runtime import SuiteNode, run_nodes
+from auv_msgs_py.node.run import run_nodes
+from auv_msgs_py.node.runtime import SuiteNode
 from auv_path_following.navigation.current_observer import CurrentObserver
 from auv_path_following.nodes.navigation_input import Inputs, NavigationInput
 from auv_path_following.parameters import ObserverParameters

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from auv_msgs_py.contract import topics
-from auv_msgs_py.node.runtime import SuiteNode, run_nodes
+from auv_msgs_py.node.run import run_nodes
+from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.types import NO_WATER
 from auv_path_following import vehicle
 from auv_path_following.guidance.approach import ApproachWatch, agility_of

@@ -8,7 +8,8 @@ from typing import Any
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.pairing import Pairing
 from auv_msgs_py.contract.wire import Float64, Odometry
-from auv_msgs_py.node.runtime import SuiteNode, run_nodes
+from auv_msgs_py.node.run import run_nodes
+from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.types import STOP, Command, Navigation
 from auv_path_following import vehicle
 from auv_path_following.control.autopilot import HeadingAutopilot

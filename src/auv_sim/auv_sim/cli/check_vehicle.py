@@ -15,7 +15,7 @@ from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
-from auv_msgs_py.node.runtime import StopRequest
+from auv_msgs_py.node.run import StopRequest
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import vehicle
 from auv_path_following.vehicle import Vehicle

@@ -22,7 +22,7 @@ NODES = {
 
 def main(argv: Sequence[str], nodes: Mapping[str, str] = NODES) -> int:
     """Run the nodes named in the one argument, a JSON object of node name -> its ROS arguments."""
-    from auv_msgs_py.node.runtime import run_nodes  # the launcher needs the table without rclpy
+    from auv_msgs_py.node.run import run_nodes  # the launcher needs the table without rclpy
 
     wanted: dict[str, list[str]] = json.loads(argv[0])
     factories = []

@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 from auv_msgs_py.contract import topics
-from auv_msgs_py.node.runtime import StopRequest
+from auv_msgs_py.node.run import StopRequest
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.command_line import ros_domain
 from auv_sim.launch.composed import NODES

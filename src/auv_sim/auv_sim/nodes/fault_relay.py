@@ -18,7 +18,8 @@ from rclpy.clock import Clock, ClockType
 
 from auv_msgs_py.contract import qos, topics
 from auv_msgs_py.contract.topics import Topic
-from auv_msgs_py.node.runtime import SuiteNode, run_nodes
+from auv_msgs_py.node.run import run_nodes
+from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.nodes.fault_injection import Injector
 from auv_sim.sim_parameters import Fault, FaultRelayParameters

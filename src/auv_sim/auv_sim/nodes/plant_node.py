@@ -21,7 +21,8 @@ from auv_msgs_py.contract.conversions import (
 )
 from auv_msgs_py.contract.mission_word import MissionWord
 from auv_msgs_py.contract.wire import Clock, Float64, Odometry, TwistWithCovarianceStamped, Vector3Stamped
-from auv_msgs_py.node.runtime import SuiteNode, run_nodes
+from auv_msgs_py.node.run import run_nodes
+from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.types import STOP, Command
 from auv_path_following import vehicle
 from auv_path_following.missions.mission_state import State

@@ -15,7 +15,8 @@ from rclpy.clock import Clock, ClockType
 from std_msgs.msg import UInt64
 
 from auv_msgs_py.contract import topics
-from auv_msgs_py.node.runtime import SuiteNode, run_nodes
+from auv_msgs_py.node.run import run_nodes
+from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.writing.bag_writer import BagWriter, texts_below
 from auv_sim.bags.writing.disk_room import RoomWatch, room_lacking

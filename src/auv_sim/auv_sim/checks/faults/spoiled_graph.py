@@ -24,7 +24,7 @@ from std_msgs.msg import Float64, String
 from std_srvs.srv import Trigger
 
 from auv_msgs_py.contract import qos, topics
-from auv_msgs_py.node.runtime import StopRequest
+from auv_msgs_py.node.run import StopRequest
 from auv_msgs_py.node.transport import decoder
 from auv_msgs_py.values.errors import MessageRefused, SuiteError
 from auv_path_following import config_files

@@ -19,7 +19,8 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.claim import Claim, of_simulator
 from auv_msgs_py.contract.conversions import fill_odometry, fill_water_velocity, finite, set_stamp
 from auv_msgs_py.contract.topics import Topic
-from auv_msgs_py.node.runtime import SuiteNode, run_nodes
+from auv_msgs_py.node.run import run_nodes
+from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
 from auv_msgs_py.values.types import STOP, WaterVelocity
 from auv_path_following import vehicle

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from auv_msgs_py.node.runtime import StopRequest
+from auv_msgs_py.node.run import StopRequest
 from auv_msgs_py.values.errors import SuiteError
 from auv_sim.checks.benchmark.measures.usage import Usage, usage
 from auv_sim.launch.processes.domains import free_domain

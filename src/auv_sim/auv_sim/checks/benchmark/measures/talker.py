@@ -10,7 +10,8 @@ from rclpy.clock import Clock, ClockType
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.contract.wire import Float64
-from auv_msgs_py.node.runtime import SuiteNode, run_nodes
+from auv_msgs_py.node.run import run_nodes
+from auv_msgs_py.node.runtime import SuiteNode
 from auv_path_following.parameters import NodeParameters
 
 RATE = 50.0

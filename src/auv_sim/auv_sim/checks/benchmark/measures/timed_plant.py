@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from auv_msgs_py.contract import topics
-from auv_msgs_py.node.runtime import run_nodes
+from auv_msgs_py.node.run import run_nodes
 from auv_sim.checks.benchmark.measures.stopwatch import LatencyWatch, Stopwatch
 from auv_sim.launch import composed
 from auv_sim.nodes.plant_node import RemusPlantNode
