@@ -13,6 +13,17 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGES = ("auv_msgs_py", "auv_path_following", "auv_sim")  # each may import itself and those before it
+#: Rooms, and modules beside them, in the order in which they may import each other: only what stands before.
+ROOMS = (
+    ("auv_msgs_py", ("values", "settings", "contract", "node")),
+    (
+        "auv_path_following",
+        (
+            "config_files", "registry", "vehicle", "curves", "navigation", "missions", "control", "guidance",
+            "parameters", "pilot", "nodes",
+        ),
+    ),
+)  # fmt: skip
 #: What needs ROS 2 or a bag's format at run time.
 ROS = re.compile(
     r"rclpy|rcl_interfaces|ament_index_python|builtin_interfaces|rosidl\w*|\w+_msgs|std_srvs|rosbags|mcap\w*"
@@ -126,6 +137,31 @@ def test_imports_point_one_way(path: Path) -> None:
     for name in imports(path):
         top = name.split(".")[0]
         assert top not in PACKAGES or top in allowed, f"{dotted(path)} imports {name}"
+
+
+@pytest.mark.parametrize(("package", "rooms"), ROOMS, ids=[package for package, _ in ROOMS])
+def test_rooms_of_a_package_import_one_way(package: str, rooms: tuple[str, ...]) -> None:
+    found = {dotted(path).split(".")[1] for path in MODULES if dotted(path).startswith(f"{package}.")}
+    assert found == set(rooms)
+    for path in MODULES:
+        own, *parts = dotted(path).split(".")
+        if own != package or not parts:
+            continue
+        allowed = rooms[: rooms.index(parts[0]) + 1]
+        for source in sources(path):
+            top, *inner = source.split(".")
+            if top == package and inner:
+                assert inner[0] in allowed, f"{dotted(path)} imports {source}"
+
+
+@pytest.mark.parametrize("package", [package for package, _ in ROOMS])
+def test_no_modules_import_each_other_in_a_circle(package: str) -> None:
+    modules = [path for path in MODULES if path.name != "__init__.py" and dotted(path).startswith(package)]
+    left = {dotted(path): sources(path) for path in modules}
+    while free := [name for name, used in left.items() if not used & left.keys()]:
+        for name in free:
+            del left[name]
+    assert left == {}, "these import each other in a circle, or import a module that does"
 
 
 def test_ros_stays_at_the_border() -> None:

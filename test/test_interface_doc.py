@@ -6,15 +6,20 @@ import re
 from pathlib import Path
 
 from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.mission_word import MissionState
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "interface.md"
 ROW = re.compile(r"^\| `([^`]+)` \| ([a-z_]+/msg/\w+) \|(?: (\w+) \|)?", re.MULTILINE)
 
 
 def test_the_page_and_the_table_agree() -> None:
-    told = {name: kind for name, kind, _ in ROW.findall(PAGE.read_text(encoding="utf-8"))}
+    listed = {name: kind for name, kind, _ in ROW.findall(PAGE.read_text(encoding="utf-8"))}
     table = {topic.name: topic.type for topic in (*topics.CONTRACT, *topics.RECORDING, topics.GRAPH_CLAIMS)}
-    assert told == table
+    assert listed == table
+
+
+def test_the_page_names_every_state_of_a_mission() -> None:
+    assert f"| {', '.join(MissionState)};" in PAGE.read_text(encoding="utf-8")
 
 
 def test_the_page_names_the_right_publisher() -> None:

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import pytest
 
-from auv_msgs_py.contract.mission_word import ALONE, PERIOD, MissionWord
+from auv_msgs_py.contract.mission_word import ALONE, PERIOD, MissionState, MissionWord
 from auv_msgs_py.values.errors import MessageRefused
-
-WORDS = ("idle", "running", "holding", "complete", "aborted")
 
 
 def heard(*said: tuple[float, str]) -> MissionWord:
-    word = MissionWord(WORDS)
+    word = MissionWord()
     for at, text in said:
         word.hear(text, at)
     return word
 
 
-@pytest.mark.parametrize("forged", ["idle", "holding", "complete", "aborted"])
+@pytest.mark.parametrize("forged", [state.value for state in MissionState if state != "running"])
 def test_one_forged_word_among_those_of_guidance_ends_nothing(forged: str) -> None:
     word = heard((0.0, "running"), (PERIOD, "running"), (PERIOD + 0.001, forged))
     assert word.at(2.0 * PERIOD - 1e-6) == "running"

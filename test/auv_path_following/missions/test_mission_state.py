@@ -7,8 +7,9 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
+from auv_msgs_py.contract.mission_word import MissionState
 from auv_path_following.missions import mission_state as m
-from auv_path_following.missions.mission_state import MissionStatus, Reason, State, words
+from auv_path_following.missions.mission_state import MissionStatus, Reason, words
 
 
 class Life:
@@ -55,15 +56,15 @@ def mission():
 
 
 def test_the_words_on_the_wire():
-    assert [state.value for state in State] == ["idle", "running", "holding", "complete", "aborted"]
+    assert [state.value for state in MissionState] == ["idle", "running", "holding", "complete", "aborted"]
 
 
 def test_it_waits_runs_and_ends(mission):
-    assert (mission.state, mission.running) == (State.IDLE, False)
+    assert (mission.state, mission.running) == (MissionState.IDLE, False)
     assert mission.start()
-    assert (mission.state, mission.running) == (State.RUNNING, True)
+    assert (mission.state, mission.running) == (MissionState.RUNNING, True)
     mission.complete()
-    assert (mission.state, mission.running) == (State.COMPLETE, False)
+    assert (mission.state, mission.running) == (MissionState.COMPLETE, False)
 
 
 def test_it_can_be_flown_again_after_the_end_and_after_an_abort(mission):
@@ -71,7 +72,7 @@ def test_it_can_be_flown_again_after_the_end_and_after_an_abort(mission):
     mission.complete()
     assert mission.start()
     mission.abort()
-    assert (mission.state, mission.reason) == (State.ABORTED, "abort was called")
+    assert (mission.state, mission.reason) == (MissionState.ABORTED, "abort was called")
     assert mission.start()
     assert mission.running
 
@@ -90,18 +91,18 @@ def test_it_holds_while_navigation_is_missing_and_goes_on_afterwards(mission):
     mission.start()
     mission.navigation_lost(10.0)
     assert (mission.state, mission.reason, mission.running) == (
-        State.HOLDING,
+        MissionState.HOLDING,
         "no usable navigation for 1 s",
         False,
     )
     mission.tick(39.9)
-    assert mission.state is State.HOLDING
+    assert mission.state is MissionState.HOLDING
     mission.navigation_back()
     assert mission.running
     # The time held before does not count the next time.
     mission.navigation_lost(50.0)
     mission.tick(79.9)
-    assert mission.state is State.HOLDING
+    assert mission.state is MissionState.HOLDING
 
 
 def test_holding_for_too_long_aborts_and_says_why(mission):
@@ -109,10 +110,10 @@ def test_holding_for_too_long_aborts_and_says_why(mission):
     mission.navigation_lost(10.0)
     mission.navigation_lost(30.0, 2.0)  # a repetition: the first one counts
     mission.tick(40.1)
-    assert mission.state is State.ABORTED
+    assert mission.state is MissionState.ABORTED
     assert mission.reason == "held for more than 30 s: no usable navigation for 1 s"
     mission.navigation_back()
-    assert mission.state is State.ABORTED
+    assert mission.state is MissionState.ABORTED
 
 
 def test_a_clock_that_goes_back_while_holding_counts_from_there(mission):
@@ -120,9 +121,9 @@ def test_a_clock_that_goes_back_while_holding_counts_from_there(mission):
     mission.navigation_lost(1000.0)
     mission.tick(2.0)
     mission.tick(31.9)
-    assert mission.state is State.HOLDING
+    assert mission.state is MissionState.HOLDING
     mission.tick(32.1)
-    assert mission.state is State.ABORTED
+    assert mission.state is MissionState.ABORTED
 
 
 @pytest.mark.parametrize("end", ["complete", "abort"])
@@ -141,24 +142,24 @@ def test_abort_leaves_a_completed_mission_complete(mission):
     mission.start()
     mission.complete()
     mission.abort()
-    assert mission.state is State.COMPLETE
+    assert mission.state is MissionState.COMPLETE
 
 
 def test_only_a_running_mission_completes(mission):
     mission.complete()
-    assert mission.state is State.IDLE
+    assert mission.state is MissionState.IDLE
     mission.start()
     mission.navigation_lost(0.0)
     mission.complete()
-    assert mission.state is State.HOLDING
+    assert mission.state is MissionState.HOLDING
 
 
 ALLOWED = {
-    State.IDLE: {State.RUNNING, State.ABORTED},
-    State.RUNNING: {State.HOLDING, State.COMPLETE, State.ABORTED},
-    State.HOLDING: {State.RUNNING, State.ABORTED},
-    State.COMPLETE: {State.RUNNING},
-    State.ABORTED: {State.RUNNING},
+    MissionState.IDLE: {MissionState.RUNNING, MissionState.ABORTED},
+    MissionState.RUNNING: {MissionState.HOLDING, MissionState.COMPLETE, MissionState.ABORTED},
+    MissionState.HOLDING: {MissionState.RUNNING, MissionState.ABORTED},
+    MissionState.COMPLETE: {MissionState.RUNNING},
+    MissionState.ABORTED: {MissionState.RUNNING},
 }
 
 
@@ -169,7 +170,7 @@ class AnyOrder(RuleBasedStateMachine):
         super().__init__()
         self.mission = Life(abort_after=5.0)
         self.now = 0.0
-        self.last = State.IDLE
+        self.last = MissionState.IDLE
 
     @rule(event=st.sampled_from(["start", "complete", "navigation_back"]))
     def simple(self, event):
@@ -192,7 +193,7 @@ class AnyOrder(RuleBasedStateMachine):
     def keeps_to_the_rules(self):
         state = self.mission.state
         assert state is self.last or state in ALLOWED[self.last]
-        assert self.mission.running == (state is State.RUNNING)
+        assert self.mission.running == (state is MissionState.RUNNING)
         assert self.mission.reason
         self.last = state
 

@@ -1,4 +1,4 @@
-"""The mission's state as its readers take it: no single message ends anything. ROS-free.
+"""The words of `mission_state`, and how a reader takes them: no single message ends a mission. ROS-free.
 
 A subscription does not say which publisher a message came from. So a reader relies on how guidance publishes:
 a new state `TIMES` times in a row, and any state again once every `PERIOD`. Guidance therefore contradicts a
@@ -7,18 +7,30 @@ single word of another publisher within that time.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import enum
 
 from auv_msgs_py.contract.topics import MISSION_STATE
 from auv_msgs_py.values.errors import MessageRefused
 
-RUNNING = "running"
-#: How often guidance publishes a new state at once.
+#: Number of messages with which guidance publishes a new state.
 TIMES = 2
-#: After this long guidance publishes its state again, s of wall time (in lockstep of mission time).
+#: Period at which guidance repeats its state, s of wall time (in lockstep of mission time).
 PERIOD = 1.0
-#: A word that nothing contradicts for this long counts even if it was heard once, s of wall time.
+#: A word that was heard once counts if nothing contradicts it for this long, s of wall time.
 ALONE = 1.5 * PERIOD
+
+
+class MissionState(enum.StrEnum):
+    """Every state of a mission, as the word on the wire. Pure steps use its index in this order."""
+
+    IDLE = "idle"
+    RUNNING = "running"
+    HOLDING = "holding"
+    COMPLETE = "complete"
+    ABORTED = "aborted"
+
+
+_WORDS = tuple(state.value for state in MissionState)
 
 
 class MissionWord:
@@ -26,13 +38,9 @@ class MissionWord:
 
     `running` counts at once: it moves nothing without a thrust. Any other word counts when it is heard twice
     in a row, or once and nothing else for `ALONE` s. The first word ever heard counts, too.
-
-    Args:
-        words: the states that there are.
     """
 
-    def __init__(self, words: Iterable[str]) -> None:
-        self._words = tuple(words)
+    def __init__(self) -> None:
         self._word = ""
         self._once: tuple[str, float] | None = None
 
@@ -40,24 +48,25 @@ class MissionWord:
         """Take in a message.
 
         Args:
-            word: the state.
+            word: what the message holds.
             now: steady time, s.
 
         Returns:
             The refusal of an earlier word that was heard once and is contradicted by this one.
 
         Raises:
-            MessageRefused: there is no such state.
+            MessageRefused: `word` is no `MissionState`.
         """
-        if word not in self._words:
-            raise MessageRefused(MISSION_STATE.name, f"'{word}'", ", ".join(self._words))
+        if word not in _WORDS:
+            raise MessageRefused(MISSION_STATE.name, f"'{word}'", ", ".join(_WORDS))
         self.at(now)
         once, self._once = self._once, None
-        if word in (RUNNING, self._word) or not self._word or (once is not None and once[0] == word):
+        is_second = once is not None and once[0] == word
+        if is_second or not self._word or word in (MissionState.RUNNING, self._word):
             self._word = word
         else:
             self._once = word, now
-        if once is None or once[0] == word:
+        if once is None or is_second:
             return None
         return MessageRefused(
             MISSION_STATE.name, f"'{once[0]}' once among '{word}'", "a state that is repeated"

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from auv_msgs_py.contract.mission_word import MissionState
 from auv_msgs_py.values.types import Reference
-from auv_path_following.missions.mission_state import State
 
 
 class ReferenceWatch:
@@ -41,7 +41,7 @@ class ReferenceWatch:
 
     def _agrees(self, thrust: float, now: float, mission: str, timeout: float) -> bool:
         """The two come on different topics, so a short contradiction is nothing."""
-        if not thrust > 0.0 or mission in ("", State.RUNNING):
+        if not thrust > 0.0 or mission in ("", MissionState.RUNNING):
             self._contradicted, self.contradiction = None, ""
             return True
         if self._contradicted is None:

@@ -5,55 +5,20 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Final, Literal
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
 
-from auv_msgs_py.values.angles import wrap
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.curves.closest import closest_distance
+from auv_path_following.curves.joints import joint_between
 from auv_path_following.curves.rows import PathRows
 from auv_path_following.curves.segment import PathPoint, Segment
 from auv_path_following.curves.subpaths import Subpaths
 
 Array = npt.NDArray[np.float64]
-
-#: Largest step of the course that still counts as continuous (G1), rad.
-ANGLE_TOLERANCE = 1e-3
-#: Largest step of the curvature that still counts as continuous (G2), 1/m: a radius of 10 km.
-CURVATURE_TOLERANCE = 1e-4
-#: Largest step of dp/ds (C1) and d2p/ds2 (C2), as a share of the larger |dp/ds| at the joint.
-DERIVATIVE_TOLERANCE = 1e-3
-
-
-@dataclass(frozen=True)
-class Joint:
-    """Where one subpath ends and the next one starts, and how smoothly.
-
-    Attributes:
-        index: number of the subpath that ends here, counted from 1 as the paper does.
-        x, y: where it is (start of the next subpath), NED, m.
-        gap: distance between the end and the start that should be one, m.
-        chi_in, chi_out: courses before and after it, rad.
-        angle_step: how far the course jumps, rad in [-pi, pi), positive to starboard.
-        curvature_step: how far the curvature jumps, 1/m.
-        geometric: G0 connected, G1 course continuous too, G2 curvature continuous too.
-        parametric: C0 connected, C1 dp/ds continuous too, C2 d2p/ds2 continuous too.
-    """
-
-    index: int
-    x: float
-    y: float
-    gap: float
-    chi_in: float
-    chi_out: float
-    angle_step: float
-    curvature_step: float
-    geometric: Literal["G0", "G1", "G2"]
-    parametric: Literal["C0", "C1", "C2"]
 
 
 class CompositePath:
@@ -73,7 +38,7 @@ class CompositePath:
         if not self.segments:
             raise ConfigurationError("segments", "an empty path", "at least one segment")
         self.joints: Final = tuple(
-            _joint(number, before.evaluate(1.0), after.evaluate(0.0))
+            joint_between(number, before.evaluate(1.0), after.evaluate(0.0))
             for number, (before, after) in enumerate(itertools.pairwise(self.segments), start=1)
         )
         for joint in self.joints:
@@ -158,28 +123,3 @@ class CompositePath:
                 found = closest_distance(self.segments[j], x[near], y[near])
                 result[near] = np.minimum(result[near], found)
         return result
-
-
-def _joint(number: int, end: PathPoint, start: PathPoint) -> Joint:
-    chi_in, chi_out = end.chi, start.chi
-    angle_step = wrap(chi_out - chi_in)
-    curvature_step = start.kappa - end.kappa
-    geometric: Literal["G0", "G1", "G2"] = "G0"
-    if abs(angle_step) <= ANGLE_TOLERANCE:
-        geometric = "G2" if abs(curvature_step) <= CURVATURE_TOLERANCE else "G1"
-    allowed = DERIVATIVE_TOLERANCE * max(start.speed, end.speed)
-    parametric: Literal["C0", "C1", "C2"] = "C0"
-    if math.hypot(start.dx - end.dx, start.dy - end.dy) <= allowed:
-        parametric = "C2" if math.hypot(start.ddx - end.ddx, start.ddy - end.ddy) <= allowed else "C1"
-    return Joint(
-        index=number,
-        x=start.x,
-        y=start.y,
-        gap=math.hypot(start.x - end.x, start.y - end.y),
-        chi_in=chi_in,
-        chi_out=chi_out,
-        angle_step=angle_step,
-        curvature_step=curvature_step,
-        geometric=geometric,
-        parametric=parametric,
-    )

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
+from auv_path_following.curves.joints import Joint
 from auv_path_following.curves.outline import last_stretch
 from auv_path_following.curves.rows import (
     CORNER,
@@ -20,9 +21,6 @@ from auv_path_following.curves.rows import (
     Row,
 )
 from auv_path_following.curves.segment import Segment
-
-if TYPE_CHECKING:
-    from auv_path_following.curves.composite import Joint
 
 _WIDTHS = {CUBIC: CUBIC_WIDTH, FITTED: FITTED_WIDTH}
 _LOCK = threading.Lock()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Literal, NamedTuple, get_args
+from typing import Any, NamedTuple
 
 from auv_msgs_py.settings.schema import Auto, setting, settings
 from auv_msgs_py.values.pure import pure
@@ -19,19 +19,15 @@ from auv_path_following.curves.rows import (
     STRETCH,
     WIDEST,
 )
+from auv_path_following.curves.switching_modes import LISTED, MODES, OFF, ONLY_CORNERS, SwitchingMode
 from auv_path_following.guidance.acceptance import Cornering, JointCorner, acceptance_radius, reach
-
-SwitchingMode = Literal["off", "g0", "all"]
-OFF, ONLY_CORNERS, ALL_JOINTS = range(3)
 
 
 @settings
 class SwitchingConfig:
     """The circle of acceptance around a joint."""
 
-    mode: SwitchingMode = setting(
-        "g0", "joints with a circle of acceptance: off, g0 (corners only) or all", live=True
-    )
+    mode: SwitchingMode = setting("g0", f"joints with a circle of acceptance: {LISTED}", live=True)
     radius: Auto = setting(
         6.0,
         "radius Rk of the circles; 0 or auto: computed for each corner",
@@ -55,7 +51,7 @@ class Circles(NamedTuple):
     """The circles of acceptance of a path.
 
     Attributes:
-        mode: index of `SwitchingMode`.
+        mode: index in `MODES`.
         radius: Rk, m.
         computed: Rk is computed for each corner instead.
         cornering: how the vehicle turns, for a computed Rk.
@@ -77,7 +73,7 @@ def circles_of(config: SwitchingConfig, cornering: Cornering | None, lookahead: 
         cornering: how the vehicle turns, for an Rk of 0; None: an Rk of 0 is no circle.
         lookahead: Delta, m.
     """
-    mode = get_args(SwitchingMode).index(config.mode)
+    mode = MODES.index(config.mode)
     computed = cornering is not None and not config.radius > 0.0
     return Circles(mode, float(config.radius), computed, cornering or _NO_CORNERING, lookahead)
 

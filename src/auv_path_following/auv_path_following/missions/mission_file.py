@@ -15,7 +15,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files, vehicle
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.kinds.reverse import reversed_path
-from auv_path_following.guidance.switching import SwitchingMode
+from auv_path_following.curves.switching_modes import LISTED, SwitchingMode
 from auv_path_following.missions import bare_file, file_offers
 from auv_path_following.missions.geodesy import Origin
 from auv_path_following.missions.limits import LimitsConfig
@@ -44,7 +44,7 @@ _MOST_SUBPATHS = 100_000
 class MissionSwitching:
     """What the mission asks of the circles of acceptance, Eq. (44); the parameters decide the rest."""
 
-    mode: SwitchingMode | None = setting(None, "joints with a circle: off, g0 (corners only) or all")
+    mode: SwitchingMode | None = setting(None, f"joints with a circle: {LISTED}")
     radius: Auto | None = setting(
         None, "radius Rk of the circles; 0 or auto: computed for each corner", unit="m", ge=0.0, le=1000.0
     )

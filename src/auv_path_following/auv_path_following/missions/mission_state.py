@@ -2,27 +2,16 @@
 
 from __future__ import annotations
 
-import enum
 import math
 from typing import NamedTuple
 
+from auv_msgs_py.contract.mission_word import MissionState
 from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.values.pure import pure
 
-
-class State(enum.StrEnum):
-    """The words on the wire."""
-
-    IDLE = "idle"
-    RUNNING = "running"
-    HOLDING = "holding"
-    COMPLETE = "complete"
-    ABORTED = "aborted"
-
-
-#: The states as numbers, for pure steps: their places among the words.
-IDLE, RUNNING, HOLDING, COMPLETE, ABORTED = range(5)
-STATES = tuple(State)
+#: The states by number, as pure steps have them.
+STATES = tuple(MissionState)
+IDLE, RUNNING, HOLDING, COMPLETE, ABORTED = range(len(STATES))
 
 # Causes of a state, for pure steps.
 (

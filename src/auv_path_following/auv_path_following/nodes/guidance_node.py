@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.mission_word import MissionState
 from auv_msgs_py.node.run import run_nodes
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.types import NO_WATER
@@ -14,7 +15,6 @@ from auv_path_following.guidance.approach import ApproachWatch, agility_of
 from auv_path_following.guidance.guide import Measured
 from auv_path_following.guidance.path_follower import distance_to_go
 from auv_path_following.missions import mission_file
-from auv_path_following.missions.mission_state import State
 from auv_path_following.nodes.guidance_output import GuidanceMessages, whole_path
 from auv_path_following.nodes.mission_keeper import MissionKeeper
 from auv_path_following.nodes.navigation_input import Inputs, NavigationInput
@@ -82,7 +82,7 @@ class GuidanceNode(SuiteNode):
     def _publish(self) -> None:
         self._messages.publish()
         self.keeper.report.publish(self.keeper.state.mission)
-        self.keeper.report.answered(self.keeper.report.word is State.RUNNING)
+        self.keeper.report.answered(self.keeper.report.word is MissionState.RUNNING)
 
 
 def main(args: Sequence[str] | None = None) -> int:

@@ -10,7 +10,7 @@ from std_msgs.msg import String
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import PATH_FRAME, fill_pose, path_message, set_stamp
 from auv_msgs_py.contract.frames import flip_yaw
-from auv_msgs_py.contract.mission_word import PERIOD, TIMES
+from auv_msgs_py.contract.mission_word import PERIOD, TIMES, MissionState
 from auv_msgs_py.contract.wire import Float64, PoseStamped, Vector3Stamped
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_path_following.curves.composite import CompositePath
@@ -21,7 +21,6 @@ from auv_path_following.missions.mission_state import (
     STATES,
     MissionStatus,
     Reason,
-    State,
     words,
 )
 
@@ -56,7 +55,7 @@ class MissionReport:
         self._node = node
         self._publisher = node.advertise(topics.MISSION_STATE)
         self._lockstep = bool(node.parameters.lockstep)
-        self.word: State | None = None
+        self.word: MissionState | None = None
         self.reason = self._detail = ""
         self._published = 0.0
         if not self._lockstep:
@@ -72,10 +71,10 @@ class MissionReport:
         if word is self.word:
             return
         health = self._node.health
-        if word is State.HOLDING:
+        if word is MissionState.HOLDING:
             self._detail = health.last_refusal
         self.word, self.reason = word, words(mission.reason, self._detail)
-        stopped = word in (State.HOLDING, State.ABORTED)
+        stopped = word in (MissionState.HOLDING, MissionState.ABORTED)
         health.error("mission", "")
         health.error("mission", f"{word.value}: {self.reason}" if stopped else "", log=False)
         for _ in range(TIMES):
@@ -84,7 +83,7 @@ class MissionReport:
 
     def resumed(self, hold_after: float) -> None:
         """Publish that the mission held, if only a gap between two measurements shows it."""
-        if self.word is State.RUNNING:
+        if self.word is MissionState.RUNNING:
             self.publish(MissionStatus(HOLDING, Reason(NAVIGATION_LOST, 0.0, 0.0, hold_after)))
 
     def answered(self, running: bool) -> None:

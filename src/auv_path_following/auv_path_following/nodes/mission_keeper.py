@@ -9,6 +9,7 @@ from rclpy.parameter import Parameter
 from std_srvs.srv import Trigger
 
 from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.mission_word import MissionState
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.types import Current
 from auv_path_following.guidance.approach import Agility, empty_approach
@@ -26,7 +27,7 @@ from auv_path_following.guidance.guide import (
 from auv_path_following.missions import limits
 from auv_path_following.missions import mission_state as states
 from auv_path_following.missions.mission_file import Mission
-from auv_path_following.missions.mission_state import MissionStatus, Reason, State
+from auv_path_following.missions.mission_state import MissionStatus, Reason
 from auv_path_following.nodes.guidance_output import MissionReport
 
 
@@ -107,7 +108,7 @@ class MissionKeeper:
 
     def _on_abort(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self._become(states.aborted(self.state.mission, Reason(states.ABORT_CALLED)))
-        response.success, response.message = self.report.word is State.ABORTED, self.report.reason
+        response.success, response.message = self.report.word is MissionState.ABORTED, self.report.reason
         return response
 
     def _begin(self, by_request: bool) -> None:

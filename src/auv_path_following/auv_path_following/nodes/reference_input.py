@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import finite
 from auv_msgs_py.contract.frames import flip_yaw
-from auv_msgs_py.contract.mission_word import MissionWord
+from auv_msgs_py.contract.mission_word import MissionState, MissionWord
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.contract.wire import Float64
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.errors import MessageRefused
 from auv_msgs_py.values.types import Reference
 from auv_path_following.control.reference_watch import ReferenceWatch
-from auv_path_following.missions.mission_state import State
 
 if TYPE_CHECKING:
     from std_msgs.msg import String
@@ -48,7 +47,7 @@ class ReferenceInput:
         self._largest = dict(zip(REFERENCES, (6.5, 10.0, 10.0 * thrust_max), strict=True))
         self._watch = ReferenceWatch()
         self._missing = ""
-        self.mission = MissionWord(State)
+        self.mission = MissionWord()
         for topic in REFERENCES:
             node.listen(topic, self._on_reference(topic))
         node.listen(topics.MISSION_STATE, self._on_mission_state)
@@ -90,7 +89,8 @@ class ReferenceInput:
         now = time.monotonic()
         before = self.mission.at(now)
         refused = self.mission.hear(message.data, now)
-        starts = message.data == State.RUNNING and before not in (State.RUNNING, State.HOLDING)
+        was_under_way = before in (MissionState.RUNNING, MissionState.HOLDING)
+        starts = message.data == MissionState.RUNNING and not was_under_way
         if starts and not self._node.parameters.lockstep:
             self._starts()
         if refused is not None:

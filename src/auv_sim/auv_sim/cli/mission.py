@@ -9,6 +9,7 @@ from typing import Any
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
+from auv_path_following.curves.switching_modes import MODES
 from auv_sim.command_line import (
     Parser,
     Renamed,
@@ -70,7 +71,7 @@ def parser() -> argparse.ArgumentParser:
         f" file or one of: {shipped['seas']} (default: all is ideal)",
     )
     p.add_argument("--seed", type=whole, metavar="N", help="of all that is random in the sea (default 0)")
-    p.add_argument("--switching", choices=("off", "g0", "all"), help="joints with a circle of acceptance")
+    p.add_argument("--switching", choices=MODES, help="joints with a circle of acceptance")
     p.add_argument(
         "--speed",
         type=positive,

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from auv_path_following import config_files
+from auv_path_following.curves.switching_modes import MODES
 from auv_sim.command_line import Parser, command, finite
 
 VEHICLE, STILL = "remus100", (0.0, 0.0)
@@ -36,7 +37,7 @@ def parser() -> argparse.ArgumentParser:
         metavar=("VX", "VY"),
         help="current towards north and east, m/s",
     )
-    p.add_argument("--switching", choices=("off", "g0", "all"), help="joints with a circle of acceptance")
+    p.add_argument("--switching", choices=MODES, help="joints with a circle of acceptance")
     p.add_argument("--out", type=Path, metavar="PNG", help="the picture (default: plan-MISSION.png here)")
     p.add_argument("--export", type=Path, metavar="FILE", help="write the path for a chart: .geojson or .kml")
     p.add_argument("--quiet", action="store_true", help="print nothing but a refusal, draw only with --out")

@@ -12,7 +12,8 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from auv_path_following.curves.composite import CompositePath, Joint
+from auv_path_following.curves.composite import CompositePath
+from auv_path_following.curves.joints import Joint
 from auv_sim.flight.flown_share import CORNER_RADIUS, Stretch, flown_share, listed, percent
 from auv_sim.flight.least_share import LEAST_SHARE
 from auv_sim.flight.run_record import Column, Run

@@ -19,11 +19,10 @@ from std_srvs.srv import Trigger
 from auv_msgs_py.contract import qos, topics
 from auv_msgs_py.contract.claim import Claim
 from auv_msgs_py.contract.conversions import finite, stamp_of
-from auv_msgs_py.contract.mission_word import PERIOD, MissionWord
+from auv_msgs_py.contract.mission_word import PERIOD, MissionState, MissionWord
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.node.graph_look import GraphLook
 from auv_msgs_py.values.errors import MessageRefused
-from auv_path_following.missions.mission_state import State
 
 #: A path that has no more than this left is flown to its end, m.
 _ARRIVED = 1e-3
@@ -49,7 +48,7 @@ class Monitor:
         self.stamp = 0
         #: Metres of path left; infinite before the first `distance_to_go`.
         self.to_go = math.inf
-        self._word = MissionWord(State)
+        self._word = MissionWord()
         self._completed_at: float | None = None
         self.odometry_seen = False
         self._start = self.node.create_client(Trigger, topics.START_SERVICE)
@@ -91,7 +90,7 @@ class Monitor:
         now = time.monotonic()
         with contextlib.suppress(MessageRefused):
             self._word.hear(message.data, now)
-            if message.data != State.COMPLETE:
+            if message.data != MissionState.COMPLETE:
                 self._completed_at = None
             elif self._completed_at is None:
                 self._completed_at = now

@@ -19,13 +19,12 @@ from auv_msgs_py.contract.conversions import (
     finite,
     set_stamp,
 )
-from auv_msgs_py.contract.mission_word import MissionWord
+from auv_msgs_py.contract.mission_word import MissionState, MissionWord
 from auv_msgs_py.contract.wire import Clock, Float64, Odometry, TwistWithCovarianceStamped, Vector3Stamped
 from auv_msgs_py.node.run import run_nodes
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.types import STOP, Command
 from auv_path_following import vehicle
-from auv_path_following.missions.mission_state import State
 from auv_sim.nodes.held_commands import HeldCommands
 from auv_sim.nodes.lockstep import Lockstep
 from auv_sim.nodes.pacing import Pacer
@@ -34,7 +33,7 @@ from auv_sim.vehicle import sea
 from auv_sim.vehicle.simulated import SimulatedVehicle
 
 #: States of a mission in which the vehicle, free running, obeys no command: it may have come late.
-_OVER = (State.HOLDING, State.COMPLETE, State.ABORTED)
+_OVER = (MissionState.HOLDING, MissionState.COMPLETE, MissionState.ABORTED)
 
 
 class RemusPlantNode(SuiteNode):
@@ -52,7 +51,7 @@ class RemusPlantNode(SuiteNode):
         )
         self.steps = 0
         self.mission_running = False
-        self._mission = MissionWord(State)
+        self._mission = MissionWord()
         self.command = STOP
         self._released = not p.hold_until_running
         self._commands = HeldCommands(self.vehicle.rudder.max_angle, self.vehicle.thrust_max)
@@ -149,7 +148,7 @@ class RemusPlantNode(SuiteNode):
 
     def _on_mission_state(self, message: String) -> None:
         refused = self._mission.hear(message.data, time.monotonic())
-        self.mission_running = message.data == State.RUNNING
+        self.mission_running = message.data == MissionState.RUNNING
         self._released = self._released or self.mission_running
         if self._lockstep is not None:
             self._lockstep.on_mission_state()

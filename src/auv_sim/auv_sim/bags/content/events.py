@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.mission_word import MissionState
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.content.recorded_mission import RecordedMission
 from auv_sim.bags.reading.load import messages_of
@@ -18,6 +19,8 @@ from auv_sim.bags.reading.recording import Bag
 from auv_sim.flight.metrics import under_way
 
 _LEVELS = {0: "OK", 1: "WARN", 2: "ERROR", 3: "STALE"}
+#: Level of a mission's state, as of `_LEVELS`; 0 for the others.
+_STATE_LEVELS: dict[str, int] = {MissionState.HOLDING: 1, MissionState.ABORTED: 2}
 _LOG_WARNING = 30
 _LOG_NAMES = {30: "WARN", 40: "ERROR", 50: "FATAL"}
 #: Interruptions of a saturation shorter than this do not make two of it, s.
@@ -68,7 +71,7 @@ def _states(bag: Bag) -> list[Event]:
         with contextlib.suppress(ConfigurationError):
             for word, same in groupby(messages_of(topic), key=lambda item: str(item[1].data)):
                 at = next(same)[0]
-                events.append(Event(at * 1e-9, "state", word, {"holding": 1, "aborted": 2}.get(word, 0)))
+                events.append(Event(at * 1e-9, "state", word, _STATE_LEVELS.get(word, 0)))
     return events
 
 

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import nanoseconds, navigation_from, water_velocity_from
 from auv_msgs_py.contract.frames import FrameTable, flip_yaw
+from auv_msgs_py.contract.mission_word import MissionState
 from auv_msgs_py.contract.stamps import StampGuard, StampVerdict
 from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
 from auv_msgs_py.values.types import NO_WATER, WaterVelocity
@@ -236,14 +237,14 @@ def _running(bag: Bag, namespace: str | None, thrust: NDArray[np.float64]) -> li
         begins = resumes = guided = False
         if runs and not ran:
             before = words[place - 1] if 0 < place <= len(words) else ""
-            while place < len(words) and words[place] != "running":
+            while place < len(words) and words[place] != MissionState.RUNNING:
                 before = words[place]
                 place += 1
-            resumes = before == "holding"
+            resumes = before == MissionState.HOLDING
             begins = not resumes
             place += 1
         elif ran and not runs:
-            guided = place >= len(words) or words[place] == "complete"
+            guided = place >= len(words) or words[place] == MissionState.COMPLETE
         rows.append(_Phase(runs or guided, begins, resumes))
         ran = runs
     return rows

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from auv_msgs_py.contract.mission_word import MissionState
+
 
 def held_rows(log_ns: NDArray[np.int64], states: Sequence[tuple[int, Any]]) -> NDArray[np.float64]:
     """1 where the mission held at an odometry or since the one before, else 0; NaN without any state.
@@ -23,7 +25,7 @@ def held_rows(log_ns: NDArray[np.int64], states: Sequence[tuple[int, Any]]) -> N
     held = np.full(log_ns.size, 0.0 if states else np.nan)
     forever = np.iinfo(np.int64).max
     for (begin, message), (end, _) in itertools.pairwise([*states, (forever, None)]):
-        if message.data == "holding":
+        if message.data == MissionState.HOLDING:
             first, last = np.searchsorted(log_ns, (begin, end))
             held[first : last + 1] = 1.0
     return held

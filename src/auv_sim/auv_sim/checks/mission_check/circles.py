@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from auv_msgs_py.values.types import Current
-from auv_path_following.curves.composite import Joint
+from auv_path_following.curves.joints import Joint
 from auv_path_following.guidance.acceptance import acceptance_radius, corner_of, cornering_of
 from auv_path_following.guidance.switching import SwitchingConfig
 from auv_path_following.missions.mission_file import Mission

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from auv_msgs_py.contract import topics
-from auv_msgs_py.contract.mission_word import MissionWord
+from auv_msgs_py.contract.mission_word import MissionState, MissionWord
 from auv_msgs_py.values.errors import MessageRefused
 from auv_msgs_py.values.types import STOP, Command
-from auv_path_following.missions.mission_state import State
 from auv_sim.nodes.mavlink.mapping import CommandLimits
 
 #: States of the mission in which no command moves the vehicle, from any sender.
-_OVER = (State.HOLDING, State.COMPLETE, State.ABORTED)
+_OVER = (MissionState.HOLDING, MissionState.COMPLETE, MissionState.ABORTED)
 #: A command may miss the stop by rounding.
 _ROUNDING = 1e-9
 
@@ -30,7 +29,7 @@ class Commands:
         }
         self._timeout = timeout * 1e9
         self._newest: dict[str, tuple[float, int]] = {}
-        self._mission = MissionWord(State)
+        self._mission = MissionWord()
 
     def put(self, topic: str, value: float, now: int) -> bool:
         """Take in a command; whether a pair is complete: the autopilot sends the thrust last.
