@@ -19,8 +19,8 @@ ROOMS = (
     (
         "auv_path_following",
         (
-            "config_files", "registry", "vehicle", "curves", "navigation", "missions", "control", "guidance",
-            "parameters", "pilot", "nodes",
+            "config_files", "registry", "vertical_hull", "vehicle", "curves", "navigation", "missions",
+            "control", "guidance", "parameters", "pilot", "nodes",
         ),
     ),
 )  # fmt: skip
