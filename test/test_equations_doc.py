@@ -11,11 +11,12 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = (ROOT / "docs" / "equations.md").read_text(encoding="utf-8")
-IN_CODE, CONSEQUENCES = PAGE.split("## Consequences")
+PLANAR, SPATIAL = PAGE.split("## In three dimensions")
+IN_CODE, CONSEQUENCES = PLANAR.split("## Consequences")
 LAST = 48
 
 #: ``Eq. (12)`` and ``Eqs. (24), (25) and (31)``.
-_MENTION = re.compile(r"Eqs?\.((?:[\s,]|and|\(\d+\))+)")
+_MENTION = re.compile(r"Eqs?\.((?:[\s,]|and|to|\((?:3D-)?\d+\))+)")
 
 
 def rows(text: str, columns: int) -> list[tuple[str, ...]]:
@@ -30,6 +31,7 @@ def rows(text: str, columns: int) -> list[tuple[str, ...]]:
 
 SOURCES = rows(IN_CODE, 4)
 RESULTS = rows(CONSEQUENCES, 3)
+IN_SPACE = rows(SPATIAL, 4)
 
 
 @functools.cache
@@ -54,35 +56,47 @@ def found(path: Path, dotted: str) -> ast.FunctionDef | ast.ClassDef:
     return node
 
 
-def mentioned(path: Path, dotted: str) -> set[int]:
+def mentioned(path: Path, dotted: str) -> set[str]:
     """The equations named in the function or class, comments included, and in its module's docstring."""
     text, module = parsed(path)
     own = ast.get_source_segment(text, found(path, dotted)) or ""
     spoken = own + "\n" + (ast.get_docstring(module) or "")
-    numbers = re.findall(r"\((\d+)\)", " ".join(_MENTION.findall(spoken)))
-    return {int(number) for number in numbers}
+    return named(spoken)
 
 
-def number(cell: str) -> int:
-    return int(cell.strip("()"))
+def named(text: str) -> set[str]:
+    """The equations that a text mentions: ``Eqs. (24), (3D-6)`` gives 24 and 3D-6; of ``to``, all between."""
+    numbers: set[str] = set()
+    for group in _MENTION.findall(text):
+        for first, last in re.findall(r"\(((?:3D-)?\d+)\)(?:\s+to\s+\(((?:3D-)?\d+)\))?", group):
+            numbers.add(first)
+            if last:
+                space = "3D-" if first.startswith("3D-") else ""
+                begin, end = (int(each.removeprefix("3D-")) for each in (first, last))
+                numbers |= {f"{space}{n}" for n in range(begin, end + 1)}
+    return numbers
+
+
+def number(cell: str) -> str:
+    return cell.strip("()")
 
 
 def test_every_equation_stands_in_one_place_of_the_page() -> None:
     derivations = re.search(r"^Steps of the derivations.*", PAGE, re.MULTILINE)
     assert derivations is not None
     alone = [int(n) for n in re.findall(r"\((\d+)\)", derivations.group()) if int(n) <= LAST]
-    listed = [number(row[0]) for row in SOURCES + RESULTS] + alone
+    listed = [int(number(row[0])) for row in SOURCES + RESULTS] + alone
     assert sorted(listed) == list(range(1, LAST + 1))
 
 
-@pytest.mark.parametrize("row", SOURCES, ids=lambda row: row[0])
+@pytest.mark.parametrize("row", SOURCES + IN_SPACE, ids=lambda row: row[0])
 def test_the_source_exists_and_mentions_its_equation(row: tuple[str, ...]) -> None:
     file, dotted = row[2].split("::")
     path = ROOT / "src" / file.split("/")[0] / file
     assert number(row[0]) in mentioned(path, dotted), f"{row[2]} does not say `Eq. {row[0]}`"
 
 
-@pytest.mark.parametrize("row", SOURCES + RESULTS, ids=lambda row: row[0])
+@pytest.mark.parametrize("row", SOURCES + RESULTS + IN_SPACE, ids=lambda row: row[0])
 def test_the_test_exists(row: tuple[str, ...]) -> None:
     file, dotted = row[-1].split("::")
     assert dotted.startswith("test_")
@@ -96,8 +110,7 @@ def test_a_consequence_is_named_where_it_is_tested(row: tuple[str, ...]) -> None
 
 
 def test_no_equation_is_mentioned_in_the_code_that_the_page_does_not_know() -> None:
-    known = {number(row[0]) for row in SOURCES + RESULTS}
+    known = {number(row[0]) for row in SOURCES + RESULTS + IN_SPACE}
     for path in sorted((ROOT / "src").rglob("*.py")):
-        groups = _MENTION.findall(path.read_text(encoding="utf-8"))
-        numbers = {int(n) for n in re.findall(r"\((\d+)\)", " ".join(groups))}
+        numbers = named(path.read_text(encoding="utf-8"))
         assert numbers <= known, f"{path.relative_to(ROOT)} mentions {sorted(numbers - known)}"
