@@ -256,7 +256,7 @@ def test_the_sea_of_the_page_is_a_sea(tmp_path: Path) -> None:
 
 def test_the_first_mission_of_the_page_is_one(tmp_path: Path) -> None:
     page = (ROOT / "docs/missions.md").read_text(encoding="utf-8")
-    (block,) = re.findall(r"## A first one\n\n((?:    .*\n)+)", page)
+    (block,) = re.findall(r"## A first mission\n\n((?:    .*\n)+)", page)
     file = tmp_path / "first.yaml"
     file.write_text(re.sub(r"(?m)^    ", "", block), encoding="utf-8")
     assert mission_file.load(str(file)).path.length > 250.0
