@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import functools
 import re
 import subprocess
 import sys
@@ -55,32 +56,35 @@ SCRIPTS = sorted((ROOT / "scripts").glob("*.py"))
 TESTS = sorted((ROOT / "test").rglob("*.py"))
 
 
+@functools.cache
 def dotted(path: Path) -> str:
     """``.../src/auv_sim/auv_sim/vehicle/remus.py`` -> ``auv_sim.vehicle.remus``."""
     parts = path.relative_to(ROOT / "src").with_suffix("").parts[1:]
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
-def imports(path: Path) -> Iterator[str]:
+@functools.cache
+def imports(path: Path) -> tuple[str, ...]:
     """Every module named by an import, wherever it stands; `from a import b` gives ``a.b``."""
+    found: list[str] = []
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
+            found += (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
             assert node.level == 0, f"{path}: a relative import hides where it points"
-            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+            found += (f"{node.module}.{alias.name}" for alias in node.names)
+    return tuple(found)
 
 
 def may_use_ros(module: str) -> bool:
     return any(module == room or module.startswith(room + ".") for room in ROS_ROOMS)
 
 
-def sources(path: Path) -> set[str]:
+@functools.cache
+def sources(path: Path) -> frozenset[str]:
     """The modules of the suite that a module imports from."""
-    known = {dotted(other) for other in MODULES}
-    return {
-        found for name in imports(path) for found in (name, name.rpartition(".")[0]) if found in known
-    } - {dotted(path)}
+    named = {found for name in imports(path) for found in (name, name.rpartition(".")[0])}
+    return frozenset(named & {dotted(other) for other in MODULES} - {dotted(path)})
 
 
 def needing_ros() -> set[str]:

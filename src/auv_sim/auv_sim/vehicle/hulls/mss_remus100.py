@@ -16,6 +16,8 @@ from auv_sim.vehicle.hulls.remus_6dof import BodyInputs
 from auv_sim.vehicle.hulls.rigid_body import (
     Accelerations,
     BodyState,
+    Loads,
+    Vector,
     advanced,
     after_runge_kutta,
     body_slope,
@@ -156,13 +158,79 @@ def revolutions_for(thrust: float, speed: float) -> float:
 
 
 @pure
+def inertial_loads(hull: MssRemus100, state: BodyState) -> Loads:
+    """Return what the Coriolis terms of rigid body and added mass take from the equations of motion."""
+    u, v, w, p, q, r = state.ur, state.vr, state.wr, state.p, state.q, state.r
+    # The rigid body about its centre of gravity: m omega x v_g, moved to the origin.
+    gu, gv = u + q * ZG, v - p * ZG
+    fx, fy, fz = MASS * (q * w - r * gv), MASS * (r * gu - p * w), MASS * (p * gv - q * gu)
+    # Added mass. The published model leaves out its Munk moments in pitch and yaw.
+    sway, heave = hull.added_sway * v, hull.added_sway * w
+    roll, pitch, yaw = hull.added_roll * p, hull.added_pitch * q, hull.added_pitch * r
+    return (
+        -fx,
+        -fy + heave * p,
+        -fz - sway * p,
+        ZG * fy - (heave * v - sway * w + yaw * q - pitch * r),
+        -ZG * fx - (IX - IY) * r * p + yaw * p - roll * r,
+        -(IY - IX) * p * q - pitch * p + roll * q,
+    )
+
+
+@pure
+def damping_loads(hull: MssRemus100, state: BodyState, ground: Vector) -> Loads:
+    """Return the linear damping and the moments of the weight; the hull is neutrally buoyant.
+
+    In surge the published model has sqrt(u + v^2) for the speed over ground; it is kept.
+    """
+    down_x, down_y, _ = to_body(state.qw, state.qi, state.qj, state.qk, 0.0, 0.0, 1.0)
+    sway_mass = MASS + hull.added_sway
+    roll_mass = IX + MASS * ZG * ZG + hull.added_roll
+    pitch_mass = IY + MASS * ZG * ZG + hull.added_pitch
+    speed = math.sqrt(max(ground[0] + ground[1] * ground[1], 0.0))
+    return (
+        -(MASS + hull.added_surge) / 20.0 * math.exp(-3.0 * speed) * state.ur,
+        -sway_mass / 20.0 * state.vr,
+        -sway_mass / 20.0 * state.wr,
+        -roll_mass * 2.0 * 0.3 * math.sqrt(WEIGHT * ZG / roll_mass) * state.p - ZG * WEIGHT * down_y,
+        -pitch_mass * 2.0 * 0.8 * math.sqrt(WEIGHT * ZG / pitch_mass) * state.q + ZG * WEIGHT * down_x,
+        -(IY + hull.added_pitch) * state.r,
+    )
+
+
+@pure
+def flow_loads(state: BodyState) -> Loads:
+    """Return lift and drag of the body in its vertical plane, and the drag of the flow across it."""
+    u, v, w = state.ur, state.vr, state.wr
+    alpha = math.atan2(w, u)
+    dynamic = 0.5 * RHO * (u * u + v * v + w * w) * _AREA
+    lift = dynamic * _LIFT * alpha
+    drag = dynamic * (_DRAG + (_LIFT * alpha) ** 2 / (0.3 * math.pi * _ASPECT))
+    coefficient = cylinder_drag(math.sqrt(v * v + w * w))
+    side, turn = cross_flow(v, state.r, coefficient)
+    up, tip = cross_flow(w, state.q, coefficient)
+    X = lift * math.sin(alpha) - drag * math.cos(alpha)
+    return X, side, up - drag * math.sin(alpha) - lift * math.cos(alpha), 0.0, tip, turn
+
+
+@pure
+def fin_loads(state: BodyState, rudder: float, planes: float) -> Loads:
+    """Return what the fins at the stern give; positive planes put the bow down."""
+    u, v, w = state.ur, state.vr, state.wr
+    flow = 0.5 * RHO * _FIN_AREA
+    side = flow * (u * u + v * v) * _RUDDER_LIFT * rudder
+    up = -flow * (u * u + w * w) * _PLANE_LIFT * planes
+    return -side * rudder + up * planes, side, up, 0.0, A * up, -A * side
+
+
+@pure
 def mss_accelerations(
     hull: MssRemus100,
     state: BodyState,
     rudder: float,
     planes: float,
     revolutions: float,
-    ground: tuple[float, float, float],
+    ground: Vector,
 ) -> Accelerations:
     """Return the rates of (ur, vr, wr, p, q, r).
 
@@ -174,64 +242,25 @@ def mss_accelerations(
         revolutions: of the propeller, 1/s.
         ground: velocity over ground in body axes, m/s: damping ahead and propeller go by it.
     """
-    u, v, w, p, q, r = state.ur, state.vr, state.wr, state.p, state.q, state.r
-    down_x, down_y, _ = to_body(state.qw, state.qi, state.qj, state.qk, 0.0, 0.0, 1.0)
-    # Rigid body, C_RB of the centre of gravity moved to the origin: f = m omega x v_g, and its moment.
-    gu, gv = u + q * ZG, v - p * ZG
-    fx, fy, fz = MASS * (q * w - r * gv), MASS * (r * gu - p * w), MASS * (p * gv - q * gu)
-    X, Y, Z, K, M, N = -fx, -fy, -fz, ZG * fy, -(IX - IY) * r * p - ZG * fx, -(IY - IX) * p * q
-    # Added mass, without its Munk moment in pitch and yaw.
-    sway, heave = hull.added_sway * v, hull.added_sway * w
-    roll, pitch, yaw = hull.added_roll * p, hull.added_pitch * q, hull.added_pitch * r
-    Y, Z = Y + heave * p, Z - sway * p
-    K -= heave * v - sway * w + yaw * q - pitch * r
-    M, N = M + yaw * p - roll * r, N - pitch * p + roll * q
-    # Linear damping. In surge the published model has sqrt(u + v^2) for the speed over ground.
-    surge_mass, sway_mass = MASS + hull.added_surge, MASS + hull.added_sway
-    roll_mass = IX + MASS * ZG * ZG + hull.added_roll
-    pitch_mass = IY + MASS * ZG * ZG + hull.added_pitch
-    yaw_mass = IY + hull.added_pitch
-    X -= surge_mass / 20.0 * math.exp(-3.0 * math.sqrt(max(ground[0] + ground[1] * ground[1], 0.0))) * u
-    Y, Z = Y - sway_mass / 20.0 * v, Z - sway_mass / 20.0 * w
-    K -= roll_mass * 2.0 * 0.3 * math.sqrt(WEIGHT * ZG / roll_mass) * p
-    M -= pitch_mass * 2.0 * 0.8 * math.sqrt(WEIGHT * ZG / pitch_mass) * q
-    N -= yaw_mass * r
-    # Restoring moments: the hull is neutrally buoyant.
-    K, M = K - ZG * WEIGHT * down_y, M + ZG * WEIGHT * down_x
-    # Lift and drag of the body in its vertical plane.
-    alpha = math.atan2(w, u)
-    dynamic = 0.5 * RHO * (u * u + v * v + w * w) * _AREA
-    lift = dynamic * _LIFT * alpha
-    drag = dynamic * (_DRAG + (_LIFT * alpha) ** 2 / (0.3 * math.pi * _ASPECT))
-    X += -drag * math.cos(alpha) + lift * math.sin(alpha)
-    Z += -drag * math.sin(alpha) - lift * math.cos(alpha)
-    # Cross-flow.
-    coefficient = cylinder_drag(math.sqrt(v * v + w * w))
-    side, turn = cross_flow(v, r, coefficient)
-    up, tip = cross_flow(w, q, coefficient)
-    Y, N, Z, M = Y + side, N + turn, Z + up, M + tip
-    # Fins at the stern, and the propeller.
-    flow = 0.5 * RHO * _FIN_AREA
-    rudder_force = flow * (u * u + v * v) * _RUDDER_LIFT * rudder
-    plane_force = -flow * (u * u + w * w) * _PLANE_LIFT * planes
-    X -= flow * (
-        (u * u + v * v) * _RUDDER_LIFT * rudder * rudder + (u * u + w * w) * _PLANE_LIFT * planes * planes
-    )
-    Y, N = Y + rudder_force, N - A * rudder_force
-    Z, M = Z + plane_force, M + A * plane_force
+    X1, Y1, Z1, K1, M1, N1 = inertial_loads(hull, state)
+    X2, Y2, Z2, K2, M2, N2 = damping_loads(hull, state, ground)
+    X3, Y3, Z3, _, M3, N3 = flow_loads(state)
+    X4, Y4, Z4, _, M4, N4 = fin_loads(state, rudder, planes)
     gx, gy, gz = ground
     thrust, torque = propeller_loads(revolutions, math.sqrt(gx * gx + gy * gy + gz * gz))
-    X, K = X + thrust, K + torque
+    X, Y, K, M = X1 + X2 + X3 + X4 + thrust, Y1 + Y2 + Y3 + Y4, K1 + K2 + torque, M1 + M2 + M3 + M4
     # The mass matrix couples surge with pitch and sway with roll, by m zg.
-    arm = MASS * ZG
+    arm, surge_mass, sway_mass = MASS * ZG, MASS + hull.added_surge, MASS + hull.added_sway
+    roll_mass = IX + MASS * ZG * ZG + hull.added_roll
+    pitch_mass = IY + MASS * ZG * ZG + hull.added_pitch
     across, along = surge_mass * pitch_mass - arm * arm, sway_mass * roll_mass - arm * arm
     return (
         (pitch_mass * X - arm * M) / across,
         (roll_mass * Y + arm * K) / along,
-        Z / sway_mass,
+        (Z1 + Z2 + Z3 + Z4) / sway_mass,
         (sway_mass * K + arm * Y) / along,
         (surge_mass * M - arm * X) / across,
-        N / yaw_mass,
+        (N1 + N2 + N3 + N4) / (IY + hull.added_pitch),
     )
 
 
@@ -242,7 +271,7 @@ def mss_slope(
     rudder: float,
     planes: float,
     thrust: float,
-    current: tuple[float, float, float],
+    current: Vector,
 ) -> BodyState:
     """Return the rates of the state; the propeller turns as fast as the thrust demands."""
     x, y, z = to_body(state.qw, state.qi, state.qj, state.qk, current[0], current[1], current[2])

@@ -19,6 +19,7 @@ from auv_sim.vehicle.hulls.rigid_body import (
     Accelerations,
     BodyState,
     Loads,
+    Vector,
     advanced,
     after_runge_kutta,
     body_slope,
@@ -29,7 +30,7 @@ from auv_sim.vehicle.hulls.rigid_body import (
 #: Rows of a 3 x 3 matrix, one after the other.
 Matrix = tuple[float, float, float, float, float, float, float, float, float]
 #: Rudder and stern planes during a step (rad), thrust (N), current Vx, Vy, Vz (m/s, NED).
-BodyInputs = tuple[Deflection, Deflection, float, tuple[float, float, float]]
+BodyInputs = tuple[Deflection, Deflection, float, Vector]
 
 
 class Remus6dof(NamedTuple):
@@ -153,7 +154,7 @@ def remus_slope(
     rudder: float,
     planes: float,
     thrust: float,
-    current: tuple[float, float, float],
+    current: Vector,
 ) -> BodyState:
     """Return the rates of the state at fixed fins, thrust and current."""
     return body_slope(state, remus_accelerations(hull, state, rudder, planes, thrust), current)

@@ -38,6 +38,8 @@ class Fins(NamedTuple):
 
 #: Forces X, Y, Z (N) and moments K, M, N (N m) about the origin of the body axes.
 Loads = tuple[float, float, float, float, float, float]
+#: Three components: of a velocity or a current.
+Vector = tuple[float, float, float]
 #: Rates of (ur, vr, wr, p, q, r).
 Accelerations = tuple[float, float, float, float, float, float]
 
