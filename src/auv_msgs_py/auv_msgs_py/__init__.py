@@ -13,7 +13,7 @@ def _check_pydantic() -> None:
     """End the process with one line where pydantic is older than the suite needs.
 
     Raises:
-        SystemExit: with exit code 2. An ImportError would bury the line under a traceback of every node.
+        SystemExit: with exit code 2. An ImportError would bury the line under the traceback of every node.
     """
     found = metadata.version("pydantic")
     if int(found.split(".")[0]) < _PYDANTIC:

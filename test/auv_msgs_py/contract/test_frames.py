@@ -44,7 +44,7 @@ def test_changing_frames_twice_changes_nothing(yaw, x, y):
 @settings(deadline=None)
 @given(_angle, st.floats(0.1, 5.0))
 def test_a_velocity_along_the_bow_is_so_in_both_frames(psi, speed):
-    """Turning the axes of a velocity and turning the yaw must tell the same story."""
+    """Turning the axes of a velocity and turning the yaw must agree."""
     east, north = speed * math.cos(flip_yaw(psi)), speed * math.sin(flip_yaw(psi))
     vx, vy = swap_axes(east, north)
     assert vx == pytest.approx(speed * math.cos(psi), abs=1e-12)

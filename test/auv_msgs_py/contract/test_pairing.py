@@ -25,7 +25,7 @@ def test_any_order_within_a_step_gives_the_same_tuples(steps):
 
 def test_missing_names_what_is_still_owed():
     pairing = Pairing(TOPICS, strict=True)
-    assert pairing.missing == ()  # nothing has come, so nobody owes anything
+    assert pairing.missing == ()  # before its first message a step lacks none
     pairing.put("water", 1)
     assert pairing.missing == ("odom", "current")
     assert "water" in pairing

@@ -24,7 +24,7 @@ def _are_read(bench: Bench, topic: Topic, name: str) -> bool:
 
 def test_every_endpoint_has_the_contracts_quality_of_service(bench: Bench) -> None:
     for make in ALL_NODES:
-        # Only a simulator whose navigation errs has a truth to tell.
+        # Only a simulator whose navigation has errors publishes the truth.
         bench.start(make, **({"sea": "rough"} if make is RemusPlantNode else {}))
     for topic in topics.CONTRACT:
         name = bench.node.resolve_topic_name(topic.name)
@@ -42,5 +42,5 @@ def test_every_endpoint_has_the_contracts_quality_of_service(bench: Bench) -> No
         bench.until(partial(_are_read, bench, topic, name))
         for info in bench.node.get_subscriptions_info_by_topic(name):
             if info.node_name in topic.subscribers:
-                wanted = ReliabilityPolicy.RELIABLE if topic.latched else ReliabilityPolicy.BEST_EFFORT
-                assert info.qos_profile.reliability is wanted, topic.name
+                expected = ReliabilityPolicy.RELIABLE if topic.latched else ReliabilityPolicy.BEST_EFFORT
+                assert info.qos_profile.reliability is expected, topic.name

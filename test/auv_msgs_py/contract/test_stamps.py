@@ -105,7 +105,7 @@ def test_two_clocks_may_drift_apart():
     assert set(timings(pairs)) == {StampTiming.PUNCTUAL}
 
 
-def test_a_lone_stamp_from_the_future_is_refused_and_a_clock_set_forward_is_believed():
+def test_a_lone_stamp_from_the_future_is_refused_and_a_clock_set_forward_is_accepted():
     assert timings([(10.0, 10.0), (10.1, 110.0), (10.2, 10.2)]) == [
         StampTiming.PUNCTUAL, StampTiming.EARLY, StampTiming.PUNCTUAL,
     ]  # fmt: skip

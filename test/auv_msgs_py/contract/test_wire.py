@@ -98,7 +98,7 @@ def test_bytes_and_values_are_those_of_rclpy(type_name: str) -> None:
 
 @pytest.mark.parametrize("type_name", [name for name in TYPES if not name.endswith("Clock")])
 def test_not_a_number_travels(type_name: str) -> None:
-    """No bottom lock is told by NaN."""
+    """NaN means no bottom lock."""
     message = qos.message_class(type_name)()
     for dotted, default in leaves(message).items():
         if isinstance(default, float):

@@ -51,8 +51,8 @@ def test_what_the_vehicle_cannot_bear_is_refused_in_flight_and_changes_nothing(
         "cruise: {thrust: 8, speed: 2}\nturning: {radius: 9.5}\n"
     )
     own = {"enabled": True, "max_rate": 0.3, "max_acceleration": 0.2, "max_jerk": 0.5}
-    told = {f"autopilot__reference__{name}": value for name, value in own.items()}
-    node = bench.start(HeadingAutopilotNode, vehicle=str(measured), **told)
+    given = {f"autopilot__reference__{name}": value for name, value in own.items()}
+    node = bench.start(HeadingAutopilotNode, vehicle=str(measured), **given)
     before, limits = node.parameters, node.autopilot.config.reference.limits
 
     name = "autopilot.reference.max_jerk"

@@ -1,4 +1,4 @@
-"""The base of every node over real DDS: light messages, lockstep's time, an executor that stops when told."""
+"""The base node over real DDS: light messages, lockstep's time, an executor that stops on request."""
 
 from __future__ import annotations
 

@@ -69,7 +69,7 @@ def test_two_blocks_for_one_node_are_refused(loaded, blocks, first, second):
     assert "\n" not in str(caught.value)
 
 
-def test_a_known_namespace_tells_vehicles_apart(loaded):
+def test_a_known_namespace_separates_vehicles(loaded):
     text = _blocks(two=4, one=3)
     assert loaded(text, namespace="/auv1")["pilot"].gains == Gains(k1=3.0)
     assert loaded(text, namespace="/auv2")["pilot"].gains == Gains(k1=4.0)
@@ -91,7 +91,7 @@ def test_what_is_for_every_namespace_is_for_the_root_too(loaded, pattern, namesp
 
 
 @pytest.mark.parametrize("pattern", ["/auv2/pilot", "/*/pilot", "/auv/1/pilot"])
-def test_gains_that_would_reach_nobody_are_refused(loaded, pattern):
+def test_gains_that_would_reach_no_node_are_refused(loaded, pattern):
     with pytest.raises(ConfigurationError) as caught:
         loaded(f"{pattern}: {{ros__parameters: {{gains.k1: 3}}}}\n", namespace="/fleet/auv1")
     said = f"{pattern}: found another namespace than /fleet/auv1, expected /**/pilot or /fleet/auv1/pilot"

@@ -10,10 +10,10 @@ from hypothesis import given
 from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
 
+from auv_msgs_py.settings.explanations import key_path
 from auv_msgs_py.settings.schema import (
     Pair,
     flattened,
-    key_path,
     leaves,
     nested,
     setting,

@@ -77,7 +77,7 @@ def test_not_a_number_is_read_and_then_refused(parsed, tmp_path):
         ("a: \x01\n", "found text that cannot be read"),
     ],
 )
-def test_what_is_not_yaml_is_told_with_line_and_column(parsed, tmp_path, text, said):
+def test_what_is_not_yaml_is_reported_with_line_and_column(parsed, tmp_path, text, said):
     with pytest.raises(ConfigurationError) as caught:
         parsed(text)
     message = str(caught.value)
@@ -98,7 +98,7 @@ def test_files_that_cannot_be_read(tmp_path):
 
 
 @pytest.mark.parametrize("text", ["", "# nothing but this\n", "~\n"])
-def test_an_empty_file_is_told_so(parsed, tmp_path, text):
+def test_an_empty_file_is_reported(parsed, tmp_path, text):
     assert parsed(text) is None
     with pytest.raises(ConfigurationError, match="found an empty file, expected a mapping"):
         yaml_file.load(tmp_path / "f.yaml", Sample)

@@ -1,9 +1,9 @@
-"""What a launcher or a simulator takes for itself in a graph, and which of two claims gives way. ROS-free.
+"""What a launcher or a simulator claims in a graph, and which of two claims gives way. ROS-free.
 
 Each publishes its claim on `/graph_claims` (latched) before anything else, and again as `held` once it has
-looked and found no other. One that looks gives way to one that holds. Of two that look at the same moment, or
-that both hold because they found each other too late, the earlier one stays. So both sides decide alike,
-whichever sees the other first, and at most one of them flies.
+looked at the graph and found no other. One that looks gives way to one that holds. Of two that look at the
+same moment, or that both hold because they found each other too late, the earlier one stays. So both sides
+decide alike, whichever sees the other first, and at most one of them flies.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import json
 
 from auv_msgs_py.contract.topics import MAVLINK_DRIVER, PLANT, full_name
 
-#: No claim is longer than this, bytes of JSON: a longer text is none.
+#: Longest claim, characters of JSON; a longer text is no claim.
 _LONGEST = 4000
 
 
@@ -24,10 +24,10 @@ class Claim:
     Attributes:
         holder: full name of the node that makes it.
         namespace: of the nodes.
-        names: node names that no other may have in this namespace.
+        names: node names that are reserved in this namespace.
         clock: whether /clock is published.
         held: False while the claimant still looks.
-        process: for people, where it runs.
+        process: process and host, for messages.
         since, token: wall time of the claim (ns), and a unique text for two of the same time. `GraphLook`
             fills in these and `process`.
     """
@@ -42,11 +42,11 @@ class Claim:
     token: str = ""
 
     def encode(self) -> str:
-        """The claim as JSON."""
+        """Return the claim as JSON."""
         return json.dumps(dataclasses.asdict(self))
 
     def contested(self, other: Claim) -> str:
-        """What both claim; empty if there is room for both."""
+        """Return what both claim; empty where they do not conflict."""
         if self.token == other.token:
             return ""
         if self.clock and other.clock:
@@ -55,14 +55,14 @@ class Claim:
         return f"{common[0]} in {self.namespace}" if common else ""
 
     def gives_way_to(self, other: Claim) -> bool:
-        """Whether this claim is the one that has to go, given that something is contested."""
+        """Return whether this claim gives way; something is contested."""
         if self.held != other.held:
             return other.held
         return (other.since, other.token) < (self.since, self.token)
 
 
 def of_simulator(namespace: str, name: str) -> Claim:
-    """The claim of a simulator started by hand: the clock, and the vehicle's place in its namespace."""
+    """Return the claim of a simulator started by hand: the clock and the vehicle's place in its namespace."""
     return Claim(
         holder=full_name(namespace, name), namespace=namespace, names=(PLANT, MAVLINK_DRIVER), clock=True
     )

@@ -1,4 +1,4 @@
-"""Messages to the suite's types and back; frames are resolved here and nowhere behind."""
+"""Convert messages to the suite's types and back; frames are resolved only here."""
 
 from __future__ import annotations
 
@@ -25,17 +25,17 @@ PATH_FRAME = "path_frd"
 _BILLION = 1_000_000_000
 #: The largest second that builtin_interfaces/msg/Time can hold.
 _LAST_SECOND = 2**31 - 1
-#: Twice around the Earth: a coordinate beyond is no position, and its square must not overflow, m.
+#: Largest coordinate of a position, m: more than twice around the Earth, and its square does not overflow.
 _FARTHEST = 1e8
 
 
 def nanoseconds(stamp: Time) -> int:
-    """Return a stamp as one number, unchecked: for records. What is flown with goes through `stamp_of`."""
+    """Return a stamp in ns, unchecked: for records. Flight code uses `stamp_of`."""
     return int(stamp.sec) * _BILLION + int(stamp.nanosec)
 
 
 def stamp_of(stamp: Time, topic: str) -> int:
-    """Return the stamp of a message that came on `topic`, ns.
+    """Return the stamp of a message on `topic`, ns.
 
     Raises:
         MessageRefused: a negative time, a second beyond int32, or a nanosecond part of a second or more.
@@ -52,10 +52,11 @@ def set_stamp(stamp: Time, ns: int) -> None:
 
 
 def navigation_from(message: Odometry, frames: FrameTable, topic: str) -> Navigation:
-    """Pose and yaw rate, NED.
+    """Return pose and yaw rate, NED.
 
     Raises:
-        MessageRefused: unknown frames, a value that is not finite, no place on Earth, or no unit quaternion.
+        MessageRefused: unknown frames, a value that is not finite, a coordinate beyond `_FARTHEST`, or a
+            quaternion without unit norm.
     """
     convention = frames.of_pose(topic, message.header.frame_id, message.child_frame_id)
     pose = message.pose.pose
@@ -75,7 +76,7 @@ def navigation_from(message: Odometry, frames: FrameTable, topic: str) -> Naviga
 
 
 def water_velocity_from(message: TwistWithCovarianceStamped, frames: FrameTable, topic: str) -> WaterVelocity:
-    """(ur, vr), FRD.
+    """Return (ur, vr), FRD, m/s.
 
     Raises:
         MessageRefused: an unknown frame or a value that is not finite.
@@ -88,7 +89,7 @@ def water_velocity_from(message: TwistWithCovarianceStamped, frames: FrameTable,
 
 
 def current_from(message: Vector3Stamped, topic: str) -> Current:
-    """The current, NED.
+    """Return the current, NED, m/s.
 
     Raises:
         MessageRefused: not in `map`, or a value that is not finite.
@@ -101,7 +102,7 @@ def current_from(message: Vector3Stamped, topic: str) -> Current:
 
 
 def finite(value: float, topic: str) -> float:
-    """A Float64's value.
+    """Return the value of a Float64 message.
 
     Raises:
         MessageRefused: it is not finite.
@@ -112,14 +113,14 @@ def finite(value: float, topic: str) -> float:
 
 
 def fill_current(message: Vector3Stamped, current: Current, ns: int) -> None:
-    """The current in `map` (ENU)."""
+    """Write the current (NED, m/s) as a vector in `map` (ENU)."""
     set_stamp(message.header.stamp, ns)
     message.header.frame_id = MAP
     message.vector.x, message.vector.y = swap_axes(current.Vx, current.Vy)
 
 
 def fill_odometry(message: Odometry, navigation: Navigation, u: float, v: float, ns: int) -> None:
-    """An odometry in the frames that its frame_id names; u, v over ground in FRD, m/s."""
+    """Write an odometry in the frames that its frame_id names; u, v: velocity over ground, FRD, m/s."""
     set_stamp(message.header.stamp, ns)
     pose, twist = message.pose.pose, message.twist.twist
     twist.linear.x = u
@@ -133,7 +134,7 @@ def fill_odometry(message: Odometry, navigation: Navigation, u: float, v: float,
 
 
 def fill_water_velocity(message: TwistWithCovarianceStamped, water: WaterVelocity, ns: int) -> None:
-    """(ur, vr) in the body frame that its frame_id names."""
+    """Write (ur, vr) in the body frame that its frame_id names."""
     set_stamp(message.header.stamp, ns)
     linear = message.twist.twist.linear
     linear.x = water.ur
@@ -141,7 +142,7 @@ def fill_water_velocity(message: TwistWithCovarianceStamped, water: WaterVelocit
 
 
 def fill_pose(message: PoseStamped, x: float, y: float, psi: float, ns: int) -> None:
-    """A pose in `map` (ENU) from NED values."""
+    """Write a pose (NED, m, rad) in `map` (ENU)."""
     set_stamp(message.header.stamp, ns)
     message.header.frame_id = MAP
     message.pose.position.x, message.pose.position.y = swap_axes(x, y)
@@ -150,7 +151,7 @@ def fill_pose(message: PoseStamped, x: float, y: float, psi: float, ns: int) -> 
 
 
 def path_message(points: Any, ns: int) -> Path:
-    """nav_msgs/Path in `map` from rows of (x, y, chi_p), NED."""
+    """Return nav_msgs/Path in `map` (ENU) from rows of (x, y, chi_p), NED."""
     message = Path()
     message.header.frame_id = MAP
     set_stamp(message.header.stamp, ns)

@@ -1,4 +1,4 @@
-"""The only place where a frame is changed, and where a frame's name is understood. ROS-free.
+"""The only place where frames are converted and frame ids interpreted. ROS-free.
 
 On the wire: ENU world and FLU body (REP-103), or NED and FRD if the message's frame ids say so.
 Inside the suite: NED and FRD, psi clockwise from north. The functions work on numbers and arrays.
@@ -40,7 +40,7 @@ def quaternion_of_yaw(yaw: float) -> tuple[float, float]:
 
 @pure
 def heading_over_the_wire(psi: float) -> float:
-    """Return a heading after its way over the wire in an odometry: the same but for its last bits."""
+    """Return a heading as an odometry carries it: equal but for its last bits."""
     z, w = quaternion_of_yaw(flip_yaw(psi))
     # As `yaw_of_quaternion`, which serves arrays too and therefore does not compile.
     yaw: float = flip_yaw(math.atan2(2.0 * (w * z), 1.0 - 2.0 * (z * z)))
@@ -48,7 +48,7 @@ def heading_over_the_wire(psi: float) -> float:
 
 
 class Convention(enum.Enum):
-    """Which way the axes of a pair of frames point."""
+    """Direction of the axes of a pair of world and body frames."""
 
     ENU_FLU = "ENU/FLU"
     NED_FRD = "NED/FRD"
@@ -56,7 +56,7 @@ class Convention(enum.Enum):
 
 @settings
 class FrameIds:
-    """The frame ids a vehicle may use; the name decides, never a guess."""
+    """Accepted frame ids; the name alone decides on the convention."""
 
     enu_world: list[str] = setting(factory=lambda: ["map", "odom"], doc="world frames that are ENU")
     ned_world: list[str] = setting(factory=lambda: ["map_ned", "odom_ned"], doc="world frames that are NED")
@@ -64,7 +64,7 @@ class FrameIds:
     frd_body: list[str] = setting(factory=lambda: ["base_link_frd"], doc="body frames that are FRD")
 
 
-#: Largest number of cached ids: a publisher that prefixes each message differently must not fill memory.
+#: Most cached ids: a publisher with a new prefix in each message must not fill the memory.
 _CACHED = 64
 
 
@@ -84,10 +84,10 @@ class FrameTable:
         self._known_body: dict[str, Convention] = {}
 
     def of_pose(self, topic: str, world: str, body: str) -> Convention:
-        """The convention of an odometry.
+        """Return the convention of an odometry.
 
         Raises:
-            MessageRefused: an unknown frame id, or a pair that contradicts itself; both names are told.
+            MessageRefused: an unknown frame id, or a pair of different conventions; names both.
         """
         known = self._known.get((world, body))
         if known is not None:
@@ -105,7 +105,7 @@ class FrameTable:
         return of_world
 
     def of_body(self, topic: str, body: str) -> Convention:
-        """The convention of a body-frame message.
+        """Return the convention of a body-frame message.
 
         Raises:
             MessageRefused: an unknown frame id.

@@ -45,7 +45,7 @@ class MissionWord:
         self._once: tuple[str, float] | None = None
 
     def hear(self, word: str, now: float) -> MessageRefused | None:
-        """Take in a message.
+        """Take a message.
 
         Args:
             word: what the message holds.

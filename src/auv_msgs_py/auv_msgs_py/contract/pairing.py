@@ -1,25 +1,25 @@
-"""Which messages belong together. ROS-free.
+"""Pair the messages that belong to one step. ROS-free.
 
 Why pairing cannot go wrong in lockstep
 ---------------------------------------
-DDS keeps the order of one topic, not across topics, and a Float64 has no stamp. Pairing therefore rests
-on counting, and counting is made safe by four rules:
+DDS keeps the order within a topic, not across topics, and a Float64 has no stamp. Pairing therefore counts
+messages. Four rules make counting safe:
 
 1. The simulator publishes the odometry of step k+1 only after *both* commands for step k have arrived.
 2. A node publishes its outputs for step k only once it holds *all* of its inputs for step k, and it
    publishes each output exactly once.
-3. Nobody publishes before every reader of his topics is matched (`lockstep_gate`), and all readers are
+3. A node publishes only after every reader of its topics is matched (`lockstep_gate`), and all readers are
    reliable, so nothing is lost and nothing comes twice.
-4. Whether the mission runs is told by the thrust itself (0 or not), never by the order in which
-   `mission_state` and the other topics happen to arrive.
+4. The thrust (0 or not) says whether the mission runs, never the order in which `mission_state` and the
+   other topics arrive.
 
 Suppose every node has answered steps 0..k-1 (true for k = 0). After the odometry of step k no message of
 step k+1 exists until both commands of step k were received (1). These were published after the autopilot
 held all of its inputs of step k (2), those by guidance after it held its own (2), and so on. So when a
 message of step k+1 is published every slot has been filled and emptied for step k: at most one message of
 each topic is under way at any time, and the n-th message of a topic is the one of step n. A slot that is
-filled twice, or two stamps that differ, is a proof that a rule was broken (a foreign publisher on the
-topic, say); it raises instead of flying on.
+filled twice, or two stamps that differ, proves that a rule was broken (by a foreign publisher on the topic,
+for example): `put` raises, and the flight ends.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Pairing:
 
     Args:
         topics: the topics to wait for; the first is the trigger.
-        strict: lockstep: a slot filled twice or unequal stamps raise. Otherwise the newest message wins.
+        strict: in lockstep a slot filled twice and unequal stamps raise. Otherwise the newest message counts.
     """
 
     def __init__(self, topics: tuple[str, ...], strict: bool) -> None:
@@ -52,7 +52,7 @@ class Pairing:
             stamp: nanoseconds, for a message that has one.
 
         Returns:
-            Whether every slot is filled now; fetch them with `take`.
+            Whether every slot is filled; `take` returns the values.
 
         Raises:
             LockstepBroken: strict only: the slot is full, or the stamps differ.
@@ -70,7 +70,7 @@ class Pairing:
         return len(self._slots) == len(self.topics)
 
     def take(self) -> tuple[Any, ...]:
-        """The values in the order of `topics`, None for an empty slot; all slots are empty afterwards."""
+        """Return the values in the order of `topics`, None for an empty slot, and empty all slots."""
         values = tuple(self._slots.get(topic) for topic in self.topics)
         self.clear()
         return values
@@ -82,7 +82,7 @@ class Pairing:
 
     @property
     def missing(self) -> tuple[str, ...]:
-        """The topics still waited for; none when nothing has come yet (then nobody owes anything)."""
+        """Topics that the current step lacks; none before its first message."""
         if not self._slots:
             return ()
         return tuple(topic for topic in self.topics if topic not in self._slots)

@@ -11,22 +11,22 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPo
 from auv_msgs_py.contract.topics import Topic
 
 DEPTH = 10
-#: A recorder must never be outrun.
+#: Depth of a recorder's queues: it must not lose a message.
 RECORDER_DEPTH = 1000
 
 
 def offered(topic: Topic) -> QoSProfile:
-    """What a publisher offers: reliable; a latched topic is transient local and keeps its newest message.
+    """Return a publisher's profile: reliable; a latched topic is transient local with a depth of 1.
 
-    With more a late reader is given the oldest of them first, which is what `ros2 topic echo --once` prints.
+    With a larger depth a late reader receives the oldest message first: `ros2 topic echo --once` prints that.
     """
     return _profile(ReliabilityPolicy.RELIABLE, topic.latched, 1 if topic.latched else DEPTH)
 
 
 def requested(topic: Topic, reliable: bool, depth: int = DEPTH) -> QoSProfile:
-    """What a subscriber asks for: best effort unless `reliable`; latched topics both reliable and kept."""
-    wanted = ReliabilityPolicy.RELIABLE if reliable or topic.latched else ReliabilityPolicy.BEST_EFFORT
-    return _profile(wanted, topic.latched, depth)
+    """Return a subscriber's profile: best effort unless `reliable`; latched topics reliable and latched."""
+    reliability = ReliabilityPolicy.RELIABLE if reliable or topic.latched else ReliabilityPolicy.BEST_EFFORT
+    return _profile(reliability, topic.latched, depth)
 
 
 def _profile(reliability: ReliabilityPolicy, latched: bool, depth: int) -> QoSProfile:

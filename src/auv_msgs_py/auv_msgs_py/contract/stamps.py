@@ -1,4 +1,4 @@
-"""From stamps to dt: what is new, what is old, and what is a new beginning. ROS-free."""
+"""From stamps to dt: accept new stamps, refuse old ones, find restarts. ROS-free."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ class StampVerdict(enum.Enum):
 
 
 class Tick(NamedTuple):
-    """The verdict and, for an accepted stamp, the seconds since the last one (0 on the first)."""
+    """Verdict and, for an accepted stamp, the time since the last one, s (0 for the first)."""
 
     verdict: StampVerdict
     dt: float
 
 
 class StampGuard:
-    """Judges the stamps of one topic.
+    """Judge the stamps of one topic.
 
-    A stamp not newer than the last is refused: a message that was overtaken or sent twice. A second old
-    stamp that continues the refused one shows that time itself went back (a reset, a looped bag): start anew.
+    A stamp that is not newer than the last is refused: its message was overtaken or sent twice. A second old
+    stamp that continues the refused one shows that time went back (a reset, a looped bag): a restart.
 
     Args:
-        ordered: lockstep: nothing is ever overtaken, so the first older stamp already means a restart.
+        ordered: in lockstep no message is overtaken, so the first older stamp means a restart.
     """
 
     def __init__(self, ordered: bool = False) -> None:
@@ -37,16 +37,16 @@ class StampGuard:
         self.reset()
 
     def reset(self) -> None:
-        """The next stamp is a first one."""
+        """Forget all stamps; the next one is the first."""
         self._last: int | None = None
         self._refused: int | None = None
 
     def is_old(self, stamp: int) -> bool:
-        """Whether a stamp is not newer than the last accepted one."""
+        """Return whether a stamp is not newer than the last accepted one."""
         return self._last is not None and stamp <= self._last
 
     def judge(self, stamp: int) -> Tick:
-        """Take in a stamp, nanoseconds."""
+        """Judge a stamp, ns."""
         if self._last is None:
             self._last = stamp
             return Tick(StampVerdict.ACCEPT, 0.0)
@@ -64,7 +64,7 @@ class StampGuard:
 
 
 class StampTiming(enum.Enum):
-    """How a stamp stands to the clock."""
+    """Age of a stamp compared with that of earlier messages."""
 
     PUNCTUAL = "punctual"
     LATE = "late"
@@ -73,15 +73,15 @@ class StampTiming(enum.Enum):
 
 
 class Punctuality:
-    """Compares stamps with the clock of the one who receives them, without trusting that the two agree.
+    """Compare stamps with the receiver's clock, which may differ from the sender's by a constant.
 
-    The most punctual message so far is the measure of all others, so a vehicle whose clock is wrong can be
-    flown, and one whose messages begin to come late is noticed. A lone stamp from the future is refused; a
+    The age of the most punctual message so far is the measure of all others. So a vehicle with a wrong clock
+    can be flown, and messages that begin to come late are found. A single stamp from the future is refused; a
     second one that continues it shows that the sender's clock was set forward, and is the new measure.
 
     Args:
-        bound: this much later (or earlier) than the measure is too much, s.
-        forget: how fast the measure may rise, s for each second: two clocks never run equally fast.
+        bound: largest deviation from the measure, later or earlier, s.
+        forget: largest rise of the measure, s per s: two clocks never run equally fast.
     """
 
     def __init__(self, bound: float, forget: float = 1e-3) -> None:
@@ -90,13 +90,13 @@ class Punctuality:
         self.reset()
 
     def reset(self) -> None:
-        """The next stamp is the measure."""
+        """Forget the measure; the next stamp sets it."""
         self._measure: float | None = None
         self._at = 0.0
         self._early: int | None = None
 
     def judge(self, now: float, stamp: int) -> StampTiming:
-        """Take in a stamp (ns) received at `now` (s); a clock that shows 0 is not set yet."""
+        """Judge a stamp (ns) received at `now` (s); a clock that shows 0 is not set yet."""
         if now <= 0.0:
             return StampTiming.PUNCTUAL
         age = now - stamp * 1e-9

@@ -1,4 +1,4 @@
-"""The one table of topics: name, type, who publishes, who subscribes, which QoS. Names are relative."""
+"""The one table of topics: name, type, publisher, subscribers, QoS. Names are relative."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ AUTOPILOT = "heading_autopilot"
 RECORDER = "recorder"
 #: The node of `scripts/mission.py`.
 LAUNCHER = "mission_launcher"
-#: Takes the simulator's place in front of a real vehicle.
+#: Replaces the simulator on a real vehicle.
 MAVLINK_DRIVER = "mavlink_driver"
 
 
@@ -23,8 +23,8 @@ def full_name(namespace: str, name: str) -> str:
 class Topic(NamedTuple):
     """One row of the wire contract.
 
-    `subscribers` are the suite's own nodes that take part in the control chain; anybody else may listen.
-    `latched` topics are transient local on both sides.
+    `subscribers` are the suite's nodes of the control chain; any other node may subscribe too. `latched`
+    topics are transient local on both sides.
     """
 
     name: str
@@ -41,8 +41,8 @@ WATER_VELOCITY = Topic(
 )
 RUDDER_STATE = Topic("rudder_state", "std_msgs/msg/Float64", PLANT)
 TRUE_CURRENT = Topic("true_current", "geometry_msgs/msg/Vector3Stamped", PLANT)
-#: Extension of the contract: from a simulator whose navigation errs. It stands outside `PER_STEP`, for
-#: without a sea it never comes; with one it comes once a step, which `RECORDING_LEAD` has room for.
+#: Extension of the contract: true state from a simulator whose navigation has errors. It is not in
+#: `PER_STEP`: without a sea it is never published; with one it comes once a step, within `RECORDING_LEAD`.
 TRUE_ODOM = Topic("true_odom", "nav_msgs/msg/Odometry", PLANT)
 CURRENT_ESTIMATE = Topic("current_estimate", "geometry_msgs/msg/Vector3Stamped", OBSERVER, (GUIDANCE,))
 DESIRED_YAW = Topic("desired_yaw", "std_msgs/msg/Float64", GUIDANCE, (AUTOPILOT,))
@@ -57,17 +57,17 @@ MISSION_STATE = Topic("mission_state", "std_msgs/msg/String", GUIDANCE, (AUTOPIL
 RUDDER_CMD = Topic("rudder_cmd", "std_msgs/msg/Float64", AUTOPILOT, (PLANT,))
 THRUST_CMD = Topic("thrust_cmd", "std_msgs/msg/Float64", AUTOPILOT, (PLANT,))
 DIAGNOSTICS = Topic("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", "every node")
-#: Extension of the contract, lockstep only: how many steps the recorder has in full, so that the simulator
-#: never outruns it.
+#: Extension of the contract, lockstep only: number of steps that the recorder has in full; the simulator
+#: keeps within `RECORDING_LEAD` of it.
 RECORDED_STEPS = Topic("recorded_steps", "std_msgs/msg/UInt64", RECORDER, (PLANT,))
-#: Extension of the contract: what each launcher and simulator takes for itself, see `claim`. Absolute,
-#: because a domain has one /clock.
+#: Extension of the contract: what each launcher and simulator claims, see `claim`. Absolute, because a domain
+#: has one /clock.
 GRAPH_CLAIMS = Topic("/graph_claims", "std_msgs/msg/String", "every launcher and simulator", latched=True)
-#: Extension of the contract, lockstep only: how many steps the simulator has sent. The recorder fetches them
-#: at once, so that no step waits for a clock.
+#: Extension of the contract, lockstep only: number of steps that the simulator has sent. The recorder fetches
+#: them at once, so that no step waits for a timer.
 RECORD_REQUEST = Topic("record_request", "std_msgs/msg/UInt64", PLANT, (RECORDER,))
 
-#: Published once per odometry while the mission runs: every one of them has one message a step.
+#: Topics with one message per odometry while the mission runs.
 PER_STEP = (
     ODOM, WATER_VELOCITY, RUDDER_STATE, TRUE_CURRENT, CURRENT_ESTIMATE, DESIRED_YAW, DESIRED_YAW_RATE,
     DESIRED_THRUST, VIRTUAL_POINT, PATH_PARAMETER, PATH_ERROR, DISTANCE_TO_GO, RUDDER_CMD, THRUST_CMD,
@@ -83,13 +83,12 @@ RESET_SERVICE = "reset"
 #: The simulator's first stamp: zero reads as "unset" in ROS 2.
 FIRST_STAMP_NS = 1_000_000_000
 
-#: Lockstep: how many steps the simulator may be ahead of what the recorder has in full. A reader's transport
-#: queue holds 512 messages, and there are at most 16 a step: within this lead nothing can overflow, however
-#: long the recorder is starved of processor time. (A reliable writer could not help: it keeps its last 10
-#: messages.)
+#: Lockstep: largest lead of the simulator over the recorder, steps. A reader's transport queue holds 512
+#: messages, and a step has at most 16: within this lead no queue overflows, however long the recorder gets no
+#: processor time. (A reliable writer would not help: it keeps only its last 10 messages.)
 RECORDING_LEAD = 30
-#: How often the recorder reports how far it is, steps.
+#: Interval between the recorder's reports, steps.
 RECORDING_REPORT = 8
-#: How often the simulator asks the recorder to fetch, steps: a third of the lead, so that the report is
-#: back before the lead is used up.
+#: Interval between the simulator's requests to the recorder, steps: a third of the lead, so that the report
+#: is back before the lead is used up.
 RECORDING_REQUEST = 10

@@ -1,4 +1,4 @@
-"""The look at the graph that a launcher or a simulator takes before it publishes anything."""
+"""Look at the graph for conflicts before a launcher or simulator publishes anything."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from auv_msgs_py.contract.claim import Claim
 from auv_msgs_py.node.transport import generated_decoder
 from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
 
-#: How long a look takes, s of wall time: discovery on one machine takes 0.1 to 0.2 s. A process that was
-#: killed announces itself no more, so a participant that is new does not see it.
+#: Duration of a look, s of wall time: discovery on one machine takes 0.1 to 0.2 s. A process that was killed
+#: no longer announces itself, so a new participant does not see it.
 LOOK = 0.5
-#: What rclpy calls a node of which only an endpoint has been discovered so far.
+#: Name that rclpy gives to a node of which only an endpoint has been discovered.
 _UNKNOWN = "_NODE_NAME_UNKNOWN_"
-#: More claims than this are not kept: no graph has so many vehicles.
+#: Most claims that are kept.
 _MOST = 1000
 
 
 class GraphTaken(ConfigurationError):
-    """What was about to be published is published already; nothing of it has been touched."""
+    """What was about to be published is published already; the running nodes were not touched."""
 
 
 class GraphLook:
@@ -37,9 +37,9 @@ class GraphLook:
 
     Args:
         node: whose publisher and subscription are used; spin it.
-        claim: what the process is going to publish; `process`, `since` and `token` are filled in here.
+        claim: what the process will publish; `process`, `since` and `token` are filled in here.
         own: full names of nodes of this process that are in the graph and publish /clock.
-        length: of the look, s of wall time.
+        length: duration of the look, s of wall time.
     """
 
     def __init__(self, node: Node, claim: Claim, own: tuple[str, ...] = (), length: float = LOOK) -> None:
@@ -67,13 +67,13 @@ class GraphLook:
                 self._others[other.token] = other
 
     def ended(self, ready: bool = True) -> bool:
-        """Whether the look is over and nothing was found; from then on the claim is held.
+        """Return whether the look is over without a conflict; from then on the claim is held.
 
         Args:
-            ready: whether what is going to publish has loaded; until then looking on costs nothing.
+            ready: whether the nodes have loaded; until then a longer look costs no time.
 
         Raises:
-            GraphTaken: something was found.
+            GraphTaken: a conflict was found.
         """
         if self.claim.held:
             return True
@@ -86,10 +86,10 @@ class GraphLook:
         return over
 
     def check(self) -> None:
-        """Compare with the claims that are known by now.
+        """Compare with the claims received so far.
 
         Raises:
-            GraphTaken: another has what this one claims, and stays.
+            GraphTaken: another claim conflicts with this one, and stays.
         """
         for other in self._others.values():
             contested = self.claim.contested(other)
@@ -97,7 +97,7 @@ class GraphLook:
                 self._refuse(f"{contested} taken by {other.holder} ({other.process})")
 
     def _check_graph(self, over: bool) -> None:
-        """Look for what has no claim: nodes started one by one, simulators of others."""
+        """Look for conflicts with nodes without a claim: nodes started one by one, foreign simulators."""
         names = Counter(
             topics.full_name(namespace, name)
             for name, namespace in self._node.get_node_names_and_namespaces()

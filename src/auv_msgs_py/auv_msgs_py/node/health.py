@@ -1,4 +1,4 @@
-"""What a node tells about itself in /diagnostics."""
+"""A node's report about itself in /diagnostics."""
 
 from __future__ import annotations
 
@@ -16,27 +16,55 @@ from auv_msgs_py.contract import qos, topics
 from auv_msgs_py.values.errors import MessageRefused
 
 _OK, _WARN, _ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
-#: How long a refused message keeps the status at WARN, s of wall time.
+#: Time for which a refused message keeps the status at WARN, s of wall time.
 _MEMORY = 5.0
-#: What may differ from one refusal to the next of its kind.
+#: Numbers in a refusal, which may differ within a kind.
 _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?")
-#: News are told at once, or when so much has passed since the last report, s of wall time.
-_NEWS = 0.1
+#: Shortest time between two reports of changes, s of wall time.
+_SHORTEST = 0.1
 
 #: Longest text of a report, characters.
 _LONGEST = 1000
 
 
-class Health:
-    """Counts what was refused; publishes a status twice a second of wall time, and news at once.
+class Refusals:
+    """Counts of refused messages by topic, and the latest of them."""
 
-    Wall time, because a health report must also come when the ROS clock stands still.
+    def __init__(self) -> None:
+        self.counts: Counter[str] = Counter()
+        self._kinds: set[tuple[str, str]] = set()
+        self._last = ""
+        self._last_at = float("-inf")
+
+    def add(self, error: MessageRefused) -> bool:
+        """Count a refusal; return whether it is the first of its kind.
+
+        Refusals on one topic that expected the same, whatever the numbers, are of one kind.
+        """
+        self.counts[error.topic] += 1
+        self._last, self._last_at = str(error), time.monotonic()
+        kind = error.topic, _NUMBER.sub("#", error.expected)
+        is_first = kind not in self._kinds
+        self._kinds.add(kind)
+        return is_first
+
+    @property
+    def latest(self) -> str:
+        """The latest refusal, for `_MEMORY` s; empty otherwise."""
+        return self._last if time.monotonic() - self._last_at < _MEMORY else ""
+
+
+class Health:
+    """Publish a status every `period` s of wall time, and changes at once.
+
+    Wall time, because a report must also come when the ROS clock stands still.
 
     Args:
         node: the node that reports.
-        values: called for each report; further key-value pairs.
-        waiting_for: called for each report; topics a step waits for ("" if none).
+        values: called for each report; returns further key-value pairs.
+        waiting_for: called for each report; returns the topics that a step waits for ("" if none).
         look: called before each regular report, to set conditions.
+        period: of regular reports, s of wall time.
     """
 
     #: Key of the latest refusal in a report.
@@ -54,10 +82,9 @@ class Health:
         self._values = values
         self._waiting_for = waiting_for
         self._look = look
-        self.refused: Counter[str] = Counter()
-        self._kinds: set[tuple[str, str]] = set()
-        self._last_refusal = ""
-        self._last_refusal_at = float("-inf")
+        self.refusals = Refusals()
+        #: Count of refused messages by topic.
+        self.refused = self.refusals.counts
         self._reported_at = float("-inf")
         self._condition: dict[str, tuple[bytes, str]] = {}
         self._publisher = node.create_publisher(
@@ -65,27 +92,14 @@ class Health:
         )
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = node.create_timer(period, self._report, clock=steady)
-        self._kept_back = node.create_timer(_NEWS, self._tell_kept_back, clock=steady)
-        self._kept_back.cancel()
-
-    @property
-    def last_refusal(self) -> str:
-        """What was refused lately; empty when nothing was."""
-        return self._last_refusal if time.monotonic() - self._last_refusal_at < _MEMORY else ""
+        self._held_back = node.create_timer(_SHORTEST, self._publish_held_back, clock=steady)
+        self._held_back.cancel()
 
     def refuse(self, error: MessageRefused) -> None:
-        """Count a refused message; its kind is logged once, its number is in every report.
-
-        Of one kind are refusals on one topic that expected the same, whatever the numbers.
-        """
-        self.refused[error.topic] += 1
-        text = str(error)
-        kind = error.topic, _NUMBER.sub("#", error.expected)
-        if kind not in self._kinds:
-            self._kinds.add(kind)
-            self._node.get_logger().error(f"refused: {text}")
-        self._last_refusal, self._last_refusal_at = text, time.monotonic()
-        self._news()
+        """Count a refused message; the first of its kind is logged, the count is in every report."""
+        if self.refusals.add(error):
+            self._node.get_logger().error(f"refused: {error}")
+        self._publish_soon()
 
     def expect(self, name: str, text: str) -> None:
         """Set a condition at WARN that is normal at the start: it is in every report, but not in the log."""
@@ -96,7 +110,7 @@ class Health:
         self._set(name, _WARN, text)
 
     def error(self, name: str, text: str, log: bool = True) -> None:
-        """As `warn`, one level higher; `log`: False where the caller has his own words for the log."""
+        """Set or clear a condition as `warn` does, one level higher; log it if `log`."""
         self._set(name, _ERROR, text, log)
 
     def _set(self, name: str, level: bytes, text: str, log: bool = True) -> None:
@@ -108,21 +122,21 @@ class Health:
             return
         self._condition[name] = (level, text)
         if known is not None:
-            self._news()
+            self._publish_soon()
             return
         if log:
             self._node.get_logger().warning(text)
         self.publish()
 
-    def _news(self) -> None:
-        """What has changed, but not more often than anybody can read; a new condition is never kept back."""
-        if time.monotonic() - self._reported_at > _NEWS:
+    def _publish_soon(self) -> None:
+        """Publish a change, at most once in `_SHORTEST` s; a new condition is published at once by `_set`."""
+        if time.monotonic() - self._reported_at > _SHORTEST:
             self.publish()
-        elif self._kept_back.is_canceled():
-            self._kept_back.reset()
+        elif self._held_back.is_canceled():
+            self._held_back.reset()
 
-    def _tell_kept_back(self) -> None:
-        self._kept_back.cancel()
+    def _publish_held_back(self) -> None:
+        self._held_back.cancel()
         self.publish()
 
     def _report(self) -> None:
@@ -133,7 +147,7 @@ class Health:
         """Send one report."""
         level, message = _OK, "ok"
         self._reported_at = time.monotonic()
-        refusal = self.last_refusal
+        refusal = self.refusals.latest
         if refusal:
             level, message = _WARN, f"refused: {refusal}"
         for condition_level, text in self._condition.values():
@@ -143,7 +157,7 @@ class Health:
         if refusal:
             values[self.REFUSED] = refusal
         values |= {f"condition {name}": text for name, (_, text) in self._condition.items()}
-        values |= {f"refused {topic}": count for topic, count in self.refused.items()}
+        values |= {f"refused {topic}": count for topic, count in self.refusals.counts.items()}
         status = DiagnosticStatus(
             level=level,
             name=self._node.get_fully_qualified_name(),

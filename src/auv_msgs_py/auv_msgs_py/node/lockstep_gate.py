@@ -1,15 +1,21 @@
-"""Nobody publishes in lockstep before all of his readers are matched."""
+"""In lockstep a node publishes only after all readers of its topics are matched."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
+from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSCompatibility, qos_check_compatible
 
 from auv_msgs_py.contract import qos, topics
 from auv_msgs_py.contract.topics import Topic
+from auv_msgs_py.values.errors import LockstepBroken
 
 _READS = " to subscribe to "
+#: Period at which a kept answer looks at the gate, s of wall time.
+_RETRY = 0.005
 
 
 class LockstepGate:
@@ -33,7 +39,7 @@ class LockstepGate:
         self._open = False
 
     def waiting_for(self) -> str:
-        """Who is missing, for people; empty when the gate is open."""
+        """Return which reader is missing, as a text; empty when the gate is open."""
         if self._open:
             return ""
         for topic, publisher in self._publishers.items():
@@ -45,7 +51,7 @@ class LockstepGate:
 
     @staticmethod
     def lacks_reader(text: str) -> bool:
-        """Whether a `waiting_for` is about a reader that is not there, not about a message."""
+        """Return whether a `waiting_for` is about a missing reader, not about a message."""
         return _READS in text
 
     def _missing(self, topic: Topic, publisher: Publisher) -> str:
@@ -64,3 +70,52 @@ class LockstepGate:
         if needed - present:
             return ", ".join(sorted(needed - present))
         return "" if publisher.get_subscription_count() >= compatible else "a reader"
+
+
+class LockstepAnswers:
+    """Keep a node's answer until its gate is open; afterwards, and without a gate, publish at once.
+
+    Args:
+        node: the node that answers; its timer looks at the gate.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._gate: LockstepGate | None = None
+        self._kept: Callable[[], None] | None = None
+
+    def wait_for(self, gate: LockstepGate) -> None:
+        """Keep answers until this gate is open."""
+        self._gate = gate
+
+    def waiting_for(self) -> str:
+        """Return which reader is missing, as a text; empty when all are matched."""
+        return self._gate.waiting_for() if self._gate is not None else ""
+
+    def answer(self, publish: Callable[[], None]) -> None:
+        """Publish now, or as soon as the gate is open.
+
+        Raises:
+            LockstepBroken: an earlier answer is still kept: one step is under way at a time.
+        """
+        if self._gate is None:
+            publish()
+        elif not self._gate.waiting_for():
+            self._gate = None
+            publish()
+        elif self._kept is None:
+            self._kept = publish
+            steady = Clock(clock_type=ClockType.STEADY_TIME)
+            self._retry = self._node.create_timer(_RETRY, self._answer_kept, clock=steady)
+        else:
+            raise LockstepBroken(
+                f"{self._node.get_name()}: a second answer while {self._gate.waiting_for()} is awaited"
+            )
+
+    def _answer_kept(self) -> None:
+        if self._kept is None or (self._gate is not None and self._gate.waiting_for()):
+            return
+        self._gate = None
+        publish, self._kept = self._kept, None
+        self._node.destroy_timer(self._retry)
+        publish()

@@ -1,4 +1,4 @@
-"""Settings classes as ROS parameters: described, ranged, read-only unless live, changed all or none."""
+"""Settings classes as ROS parameters: with description and range, read-only unless live, changed as one."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ def declare(
     Args:
         node: the node.
         cls: its settings class; every leaf has a default.
-        on_change: called with the new settings after parameters marked `live` were changed.
+        on_change: called with the new settings after a change of parameters marked `live`.
         validate: called with new settings before they are accepted; a `ConfigurationError` refuses them.
-        arguments: the node's ROS arguments. Names that only a block for several nodes (``/**``) brings and
-            that this node does not have are ignored.
+        arguments: the node's ROS arguments. Names that only a block for several nodes (``/**``) sets and that
+            this node does not have are ignored.
 
     Returns:
         The settings with the node's overrides applied.
@@ -44,25 +44,28 @@ def declare(
         ConfigurationError: an override is unknown, of the wrong type or out of range.
     """
     _check_names(node, {leaf.name for leaf in leaves(cls)}, arguments)
-    flat: dict[str, Any] = {}
-    overrides = parameter_overrides(node)
-    for leaf in leaves(cls):
-        override = overrides.get(leaf.name)
-        if isinstance(leaf.default, float) and override is not None and type(override.value) is int:
-            # `-p radius:=6` is meant as 6.0
-            overrides[leaf.name] = Parameter(leaf.name, value=float(override.value))
-        elif leaf.auto and override is not None and override.value == "auto":
-            overrides[leaf.name] = Parameter(leaf.name, value=0.0)
-        try:
-            flat[leaf.name] = node.declare_parameter(leaf.name, leaf.default, _descriptor(leaf)).value
-        except (InvalidParameterTypeException, InvalidParameterValueException):
-            found = override.value if override is not None else leaf.default
-            raise ConfigurationError(
-                f"{node.get_name()}: parameter {leaf.name}", repr(found), _expectation(leaf)
-            ) from None
+    flat = {leaf.name: _declared(node, leaf) for leaf in leaves(cls)}
     current = validated(cls, nested(flat), f"{node.get_name()}: parameter")
     _accept_changes(node, cls, current, on_change, validate)
     return current
+
+
+def _declared(node: Node, leaf: SettingInfo) -> Any:
+    """Declare one parameter and return its value."""
+    overrides = parameter_overrides(node)
+    override = overrides.get(leaf.name)
+    if isinstance(leaf.default, float) and override is not None and type(override.value) is int:
+        # `-p radius:=6` means 6.0
+        overrides[leaf.name] = Parameter(leaf.name, value=float(override.value))
+    elif leaf.auto and override is not None and override.value == "auto":
+        overrides[leaf.name] = Parameter(leaf.name, value=0.0)
+    try:
+        return node.declare_parameter(leaf.name, leaf.default, _descriptor(leaf)).value
+    except (InvalidParameterTypeException, InvalidParameterValueException):
+        found = override.value if override is not None else leaf.default
+        raise ConfigurationError(
+            f"{node.get_name()}: parameter {leaf.name}", repr(found), _expectation(leaf)
+        ) from None
 
 
 def _check_names(node: Node, known: set[str], arguments: Sequence[str]) -> None:
@@ -90,22 +93,22 @@ def _accept_changes(
     pending: list[T] = [current]
 
     def check(parameters: list[Parameter]) -> SetParametersResult:
-        # Registered last, hence asked first: rclpy's own callback would switch the clock at once, and a node
-        # whose time jumps by decades takes every later odometry for an old one.
+        # Registered last, hence called first: rclpy's own callback would switch the clock at once, and a node
+        # whose time jumps by decades refuses every later odometry as old.
         for parameter in parameters:
             if parameter.name == _SIM_TIME and parameter.value != node.get_parameter(_SIM_TIME).value:
                 found = f"{node.get_name()}: parameter {_SIM_TIME}: found {parameter.value} at run time"
                 return SetParametersResult(successful=False, reason=f"{found}, expected it at the start only")
-        # Always from what is set now: an earlier change may have been refused by somebody else.
+        # Always from the values set now: another callback may have refused an earlier change.
         flat = {name: node.get_parameter(name).value for name in names}
         flat |= {parameter.name: parameter.value for parameter in parameters if parameter.name in names}
         try:
-            wanted = validated(cls, nested(flat), f"{node.get_name()}: parameter")
+            proposed = validated(cls, nested(flat), f"{node.get_name()}: parameter")
             if validate is not None:
-                validate(wanted)
+                validate(proposed)
         except ConfigurationError as error:
             return SetParametersResult(successful=False, reason=str(error))
-        pending[0] = wanted
+        pending[0] = proposed
         return SetParametersResult(successful=True)
 
     def apply(parameters: list[Parameter]) -> None:

@@ -1,4 +1,4 @@
-"""What a process brings for ROS, read and completed without ROS: its arguments and its environment."""
+"""A process's ROS arguments, read without ROS."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def parameter_files(arguments: Sequence[str]) -> list[Path]:
 
 
 def check_parameter_files(arguments: Sequence[str]) -> None:
-    """Read the parameter files that ROS arguments name, before ROS does so less kindly.
+    """Read the parameter files that ROS arguments name: ROS would report an error in many lines.
 
     Raises:
         ConfigurationError: one of them is missing or is not YAML.
@@ -53,7 +53,7 @@ def shared_names(arguments: Sequence[str], node: str) -> set[str]:
 
 
 def _blocks(data: Any) -> list[tuple[str, dict[str, Any]]]:
-    """Pattern and dotted parameters of each block; whatever is not shaped so is left to others."""
+    """Return pattern and dotted parameters of each well-formed block; other checks report the rest."""
     found = []
     for pattern, body in data.items() if isinstance(data, dict) else ():
         parameters = body.get("ros__parameters") if isinstance(body, dict) else None

@@ -29,12 +29,12 @@ except ImportError:  # an rclpy without it: slower, otherwise the same
 
 #: Exit code for input that cannot be used; 1 is for everything else that went wrong.
 EXIT_BAD_INPUT = 2
-#: How long nodes may go on after a stop was requested, s of wall time.
+#: Longest time that nodes may continue after a stop was requested, s of wall time.
 _GRACE = 5.0
 
 
 class StopRequest:
-    """SIGINT and SIGTERM set a flag; ROS stays up, so that what is under way can be finished."""
+    """SIGINT and SIGTERM set a flag; ROS stays up, so that work under way can be finished."""
 
     def __init__(self) -> None:
         self.requested = False
@@ -43,7 +43,7 @@ class StopRequest:
         }
 
     def withdraw(self) -> None:
-        """Give the signals back to who had them."""
+        """Restore the previous signal handlers."""
         for number, handler in self._before.items():
             signal.signal(number, handler)
 
@@ -52,7 +52,7 @@ class StopRequest:
 
 
 def spin(nodes: Sequence[SuiteNode], stop: StopRequest) -> int:
-    """Run nodes in this thread until a signal, a fault, or until one has finished; returns the exit code."""
+    """Run nodes in this thread until a signal, a fault, or until one has finished; return the exit code."""
     executor = EventsExecutor()
     for node in nodes:
         executor.add_node(node)
@@ -70,11 +70,11 @@ def spin(nodes: Sequence[SuiteNode], stop: StopRequest) -> int:
 
 
 def _spin_some(executor: Any, nodes: Sequence[SuiteNode]) -> None:
-    """Handle everything that comes within a tenth of a second, or until a node asks for attention.
+    """Handle everything that comes within 0.1 s, or until a node interrupts.
 
     EventsExecutor.spin() and spin_once(None) deliver nothing in rclpy 7.1. spin_once() with a time returns
-    after every single message, which costs as much again as handling it; waiting for a future with a time
-    stays in C++ and lets Python see a signal soon enough.
+    after every message, which costs as much again as handling it; waiting for a future with a time stays in
+    C++ and lets Python handle a signal within 0.1 s.
     """
     attention = Future()
 
@@ -88,13 +88,13 @@ def _spin_some(executor: Any, nodes: Sequence[SuiteNode]) -> None:
 
 
 def _look_around(nodes: Sequence[SuiteNode], stop: StopRequest) -> Iterator[Node]:
-    """Look at the graph for simulators that were started by hand, while nothing has been published yet.
+    """Look at the graph on behalf of simulators started by hand, before anything is published.
 
-    Returns:
+    Yields:
         The nodes that hold their claims.
 
     Raises:
-        GraphTaken: there is another.
+        GraphTaken: there is another simulator.
     """
     for node in nodes:
         claim = node.claim()
@@ -112,7 +112,7 @@ def _look_around(nodes: Sequence[SuiteNode], stop: StopRequest) -> Iterator[Node
 
 
 def run_nodes(factories: Sequence[Callable[[], SuiteNode]], args: Sequence[str] | None = None) -> int:
-    """The body of every executable: make the nodes, run them, leave nothing behind.
+    """Make nodes, run them and clean up: the body of every executable.
 
     Returns:
         0 after a signal or when a node has finished, 1 after a fault, 2 for input that cannot be used.

@@ -1,4 +1,4 @@
-"""The gate at which a launcher's nodes wait, outside the graph, until it has looked around. ROS-free."""
+"""The gate at which a launcher's nodes wait, outside the graph, until the launcher has looked. ROS-free."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ def is_gated() -> bool:
 
 
 def pass_gate(is_stopped: Callable[[], bool]) -> bool:
-    """Wait until the gate is open; without a launcher it is.
+    """Wait until the gate is open; without a launcher it is open.
 
     Args:
         is_stopped: whether a signal has asked this process to end.
 
     Returns:
-        Whether the nodes are to be made; not when the launcher has gone or `is_stopped`.
+        Whether to make the nodes: False when the launcher has ended or `is_stopped`.
     """
     if not is_gated():
         return True

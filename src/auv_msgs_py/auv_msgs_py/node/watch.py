@@ -1,28 +1,32 @@
-"""What a node notices about its surroundings without looking into a message. ROS-free."""
+"""Watch message rates, the clock and foreign publishers, without looking into a message. ROS-free."""
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
+from typing import Any
+
+from auv_msgs_py.contract import topics
 
 
 class RateWatch:
-    """Finds topics on which far more comes than any vehicle sends.
+    """Find topics on which messages come faster than any vehicle sends them.
 
     Args:
-        highest: rate that is still believed, Hz of ROS time.
+        highest: largest plausible rate, Hz of ROS time.
     """
 
-    #: Rates are taken over at least so much time, s.
+    #: Shortest time over which rates are taken, s.
     window = 0.2
 
     def __init__(self, highest: float) -> None:
         self.highest = highest
         self.counts: Counter[str] = Counter()
         self._at: float | None = None
-        self._told = ""
+        self._warning = ""
 
     def floods(self, now: float) -> dict[str, float] | None:
-        """The rates (Hz) that are too high, by topic; None while too little time has passed to say."""
+        """Return the rates that are too high (Hz) by topic; None until `window` has passed."""
         if self._at is not None and 0.0 <= now - self._at < self.window:
             return None
         before, self._at = self._at, now
@@ -32,20 +36,20 @@ class RateWatch:
         rates = {topic: count / (now - before) for topic, count in counts.items()}
         return {topic: rate for topic, rate in rates.items() if rate > self.highest}
 
-    def told(self, now: float) -> str:
-        """The same for people; empty when nothing floods."""
+    def warning(self, now: float) -> str:
+        """Return the rates that are too high as a text; empty when none is."""
         rates = self.floods(now)
         if rates is not None:
             text = ", ".join(f"{name} comes at {rate:.0f} Hz" for name, rate in rates.items())
-            self._told = f"{text}: more than {self.highest:g} Hz" if text else ""
-        return self._told
+            self._warning = f"{text}: more than {self.highest:g} Hz" if text else ""
+        return self._warning
 
 
 class ClockWatch:
-    """Finds that simulated time stands still, by a clock that does not.
+    """Find that simulated time stands still, by a steady clock.
 
     Args:
-        bound: standing still for longer than this is told, s.
+        bound: longest standstill that is not reported, s.
     """
 
     def __init__(self, bound: float = 2.0) -> None:
@@ -54,7 +58,24 @@ class ClockWatch:
         self._since: float | None = None
 
     def stands_still(self, now: float, steady: float) -> bool:
-        """Take in ROS time and steady time, s; a clock that was never set does not stand still."""
+        """Take ROS time and steady time, s; a clock that was never set does not stand still."""
         if now != self._now or self._since is None:
             self._now, self._since = now, steady
         return self._now > 0.0 and steady - self._since > self.bound
+
+
+def second_publishers(node: Any, names: Sequence[str]) -> str:
+    """Return which of these topics several nodes publish, as a text: the contract has one publisher for each.
+
+    Args:
+        node: rclpy's, for its view of the graph.
+        names: of the topics, relative.
+    """
+    found = []
+    for name in names:
+        if node.count_publishers(name) > 1:
+            infos = node.get_publishers_info_by_topic(node.resolve_topic_name(name))
+            nodes = sorted({topics.full_name(info.node_namespace, info.node_name) for info in infos})
+            if len(nodes) > 1:
+                found.append(f"{name} is published by {', '.join(nodes)}")
+    return "; ".join(found)

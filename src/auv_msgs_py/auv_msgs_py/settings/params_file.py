@@ -18,7 +18,7 @@ from auv_msgs_py.settings import yaml_file
 from auv_msgs_py.settings.schema import flattened, leaves, nested, validated
 from auv_msgs_py.values.errors import ConfigurationError, joined, printable
 
-#: Every ROS node's own parameters, by the beginning of their names; the process that starts a node sets them.
+#: Prefixes of the parameters that every ROS node has; the process that starts a node sets them.
 BUILT_IN = ("use_sim_time", "start_type_description_service", "qos_overrides")
 
 
@@ -33,17 +33,17 @@ def load(
     Args:
         path: the YAML file.
         classes: node name -> settings class that holds all of its parameters.
-        namespace: that of the nodes, where it is known: blocks for another one are passed over, as a node
-            does. Where it is not, a block counts whatever its namespace.
-        notices: gets a line for names of a block for all nodes that none of these nodes has.
+        namespace: of the nodes; blocks for another one are passed over, as a node does. If None, blocks
+            count whatever their namespace.
+        notices: receives a line for names in a block for all nodes that none of these nodes has.
 
     Returns:
-        node name -> settings object; nodes the file does not mention have their defaults. A block for
-        ``/**`` is for all of them, and each takes from it what it has.
+        node name -> settings object; a node that the file does not mention has its defaults. A block for
+        ``/**`` is for all nodes; each takes the parameters that it has.
 
     Raises:
-        ConfigurationError: naming file and key, what was found and what was expected; also for two blocks
-            for one node, and for blocks of which none is for this namespace.
+        ConfigurationError: a value does not fit, a node has two blocks, or no block of a node is for this
+            namespace; names file and key, what was found and what was expected.
     """
     data = yaml_file.parse(path)
     if not isinstance(data, dict):
@@ -53,47 +53,34 @@ def load(
     passed_over: dict[str, str] = {}
     for key, body in data.items():
         pattern = str(key)
-        name = pattern.rpartition("/")[2]
-        told = _told(path, pattern, body, classes)
+        name = _node_of(pattern)
+        block = _block(path, pattern, body, classes)
         if namespace is not None and not _covers(pattern, namespace):
             if name in classes:
-                validated(classes[name], nested(told), f"{path}: {pattern}")
+                validated(classes[name], nested(block), f"{path}: {pattern}")
             passed_over[name] = pattern
             continue
         if name in taken:
             found = f"a second block for {name}, after {taken[name]}"
             raise ConfigurationError(f"{path}: {pattern}", found, "one block for each node")
         taken[name] = pattern
-        if name in classes:
-            values[name] |= told
-            continue
-        parts = {node: {k: v for k, v in told.items() if _has(cls, k)} for node, cls in classes.items()}
-        for node, part in parts.items():
-            values[node] |= part
-        ignored = told.keys() - set().union(*parts.values())
+        ignored = _add(values, name, block, classes)
         if ignored and notices is not None:
             listed = ", ".join(sorted(ignored))
             notices.append(printable(f"{path}: {pattern}: no node here has {listed}: ignored"))
     for name in passed_over.keys() - taken.keys():
-        here = "/".join(["", *_parts(namespace or "")])
-        found, expected = f"another namespace than {here or '/'}", f"/**/{name} or {here}/{name}"
-        raise ConfigurationError(f"{path}: {passed_over[name]}", found, expected)
-    loaded: dict[str, Any] = {}
-    errors: list[ConfigurationError] = []
-    for name, cls in classes.items():
-        try:
-            loaded[name] = validated(cls, nested(values[name]), f"{path}: {name}")
-        except ConfigurationError as error:
-            errors.append(error)
-    if errors:
-        raise joined(errors, str(path))
-    return loaded
+        raise _other_namespace(f"{path}: {passed_over[name]}", name, namespace or "")
+    return _all_validated(path, classes, values)
 
 
-def _told(path: Path, pattern: str, body: Any, classes: Mapping[str, type[Any]]) -> dict[str, Any]:
-    """What one block says, with dotted names."""
-    name = pattern.rpartition("/")[2]
-    if name not in classes and not is_shared(pattern):
+def _node_of(pattern: str) -> str:
+    """``/**/heading_autopilot`` -> ``heading_autopilot``."""
+    return pattern.rpartition("/")[2]
+
+
+def _block(path: Path, pattern: str, body: Any, classes: Mapping[str, type[Any]]) -> dict[str, Any]:
+    """Return the parameters of one block, with dotted names."""
+    if _node_of(pattern) not in classes and not is_shared(pattern):
         known = ", ".join(f"/**/{known}" for known in classes)
         raise ConfigurationError(f"{path}: {pattern}", "an unknown node", f"one of {known}")
     if not isinstance(body, dict) or set(body) != {"ros__parameters"}:
@@ -108,13 +95,47 @@ def _told(path: Path, pattern: str, body: Any, classes: Mapping[str, type[Any]])
     }
 
 
+def _add(
+    values: dict[str, dict[str, Any]], name: str, block: dict[str, Any], classes: Mapping[str, type[Any]]
+) -> set[str]:
+    """Add a block to the values of its node, or of all nodes; return the names that none of them has."""
+    if name in classes:
+        values[name] |= block
+        return set()
+    parts = {node: {k: v for k, v in block.items() if _has(cls, k)} for node, cls in classes.items()}
+    for node, part in parts.items():
+        values[node] |= part
+    return block.keys() - set().union(*parts.values())
+
+
+def _other_namespace(where: str, name: str, namespace: str) -> ConfigurationError:
+    here = "/".join(["", *_parts(namespace)])
+    return ConfigurationError(where, f"another namespace than {here or '/'}", f"/**/{name} or {here}/{name}")
+
+
+def _all_validated(
+    path: Path, classes: Mapping[str, type[Any]], values: Mapping[str, dict[str, Any]]
+) -> dict[str, Any]:
+    """Build the settings of every node; one error names all that is wrong."""
+    loaded: dict[str, Any] = {}
+    errors: list[ConfigurationError] = []
+    for name, cls in classes.items():
+        try:
+            loaded[name] = validated(cls, nested(values[name]), f"{path}: {name}")
+        except ConfigurationError as error:
+            errors.append(error)
+    if errors:
+        raise joined(errors, str(path))
+    return loaded
+
+
 def is_shared(pattern: str) -> bool:
-    """Whether a block is for several nodes (``/**``) and names none."""
-    return pattern.rpartition("/")[2] in ("*", "**")
+    """Return whether a block is for all nodes (``/**``) and names none."""
+    return _node_of(pattern) in ("*", "**")
 
 
 def _has(cls: type[Any], name: str) -> bool:
-    """Whether a settings class has a parameter, or a group, of this name, or one above it."""
+    """Return whether a settings class has a parameter or group of this name, or a group above it."""
     return any(
         f"{leaf.name}.".startswith(f"{name}.") or name.startswith(f"{leaf.name}.") for leaf in leaves(cls)
     )
@@ -125,9 +146,9 @@ def _parts(name: str) -> list[str]:
 
 
 def _covers(pattern: str, namespace: str) -> bool:
-    """Whether a block is for nodes of a namespace: ``*`` stands for one part of it, ``**`` for any number.
+    """Return whether a block is for nodes of a namespace: ``*`` matches one part of it, ``**`` any number.
 
-    A name alone is a node's in any namespace.
+    A name without slashes matches a node of any namespace.
     """
     *parts, name = _parts(pattern)
     if not parts:
@@ -138,7 +159,7 @@ def _covers(pattern: str, namespace: str) -> bool:
 
 
 def undotted(parameters: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    """Flatten nested parameters to dotted names: ROS takes `a.b: 1` and `a: {b: 1}` alike."""
+    """Flatten nested parameters to dotted names: for ROS `a.b: 1` and `a: {b: 1}` are the same."""
     flat: dict[str, Any] = {}
     for key, value in parameters.items():
         if isinstance(value, dict):
@@ -149,7 +170,7 @@ def undotted(parameters: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
 
 
 def as_ros(configurations: Mapping[str, Any]) -> dict[str, Any]:
-    """Settings objects as the contents of a parameter file: every value spelled out."""
+    """Return settings objects as the contents of a parameter file, every value spelled out."""
     return {
         f"/**/{name}": {"ros__parameters": {key: _plain(value) for key, value in flattened(cfg).items()}}
         for name, cfg in configurations.items()

@@ -14,7 +14,7 @@ _LONGEST = 100
 
 
 class NotWritten(SuiteError, OSError):
-    """A file that could not be written, e.g. because the disk is full; nothing of it is left behind."""
+    """A file could not be written, e.g. because the disk is full; no part of it is left behind."""
 
     def __str__(self) -> str:
         return printable(f"{self.filename} cannot be written ({self.strerror})")
@@ -22,14 +22,14 @@ class NotWritten(SuiteError, OSError):
 
 @contextlib.contextmanager
 def replacing(target: Path) -> Iterator[Path]:
-    """Write a file beside its place; it takes that place when it is whole and on the disk.
+    """Write a file beside its target; it replaces the target once it is whole and on the disk.
 
     Yields:
         The path to write to. A target that exists and is not a regular file (``/dev/stdout``) is written
         directly.
 
     Raises:
-        NotWritten: it cannot be written; what stood there is as it was.
+        NotWritten: it cannot be written; the target is unchanged.
     """
     place = Path(os.path.realpath(target))
     direct = place.exists() and not place.is_file()

@@ -1,7 +1,7 @@
 """Validated, frozen, self-describing settings.
 
-A settings class is the only place where a default, a unit, a range and a description live. YAML files
-and ROS parameters are read through it (`yaml_file`, `params_file`, `params`) and only override it.
+A settings class is the only place of a default, a unit, a range and a description. YAML files and ROS
+parameters are read through it (`yaml_file`, `params_file`, `params`) and only override it.
 
     @settings
     class NismConfig:
@@ -20,14 +20,15 @@ import pydantic
 from pydantic import ConfigDict, Field
 from pydantic.dataclasses import dataclass as _pydantic_dataclass
 
-from auv_msgs_py.values.errors import ConfigurationError, joined
+from auv_msgs_py.settings.explanations import readable
+from auv_msgs_py.values.errors import ConfigurationError
 
 T = TypeVar("T")
 
 #: A pair of numbers in a file, e.g. ``[north, east]`` in metres.
 Pair = tuple[float, float]
 
-#: A number for which a file may say `auto`: 0, which has the value computed.
+#: A number for which a file may say `auto`: 0, which means that the value is computed.
 _AUTO = pydantic.BeforeValidator(lambda value: 0.0 if value == "auto" else value)
 Auto = Annotated[float, _AUTO]
 
@@ -47,11 +48,11 @@ def setting(
     live: bool = False,
     factory: Any = None,
 ) -> Any:
-    """One field of a settings class.
+    """Declare one field of a settings class.
 
     Args:
-        default: the only place where this default stands; leave out for a required key.
-        doc: one line for people, shown by `ros2 param describe`.
+        default: the default, given only here; leave out for a required key.
+        doc: one line of description, shown by `ros2 param describe`.
         unit: SI unit, empty for a pure number.
         gt, ge, lt, le: bounds, also offered as the ROS parameter's range.
         live: whether it is safe to change while the vehicle moves.
@@ -96,88 +97,12 @@ def validated(cls: type[T], data: object, where: str) -> T:
     try:
         return pydantic.TypeAdapter(cls).validate_json(text)
     except pydantic.ValidationError as error:
-        raise _readable(error, where) from None
-
-
-def _readable(error: pydantic.ValidationError, where: str) -> ConfigurationError:
-    errors = error.errors(include_url=False)
-    # A misspelt key is missing under one name and unknown under another: first what stands in the file.
-    errors.sort(key=lambda item: item["type"] in _ABSENT)
-    found = []
-    for item in errors:
-        place = key_path(item["loc"])
-        found.append(ConfigurationError(f"{where}: {place}" if place else where, *_explain(dict(item))))
-    return joined(found, where)
-
-
-def key_path(location: tuple[int | str, ...]) -> str:
-    """`("segments", 2, "line")` -> ``segments[2].line``; pydantic's own tags are left out."""
-    text = ""
-    for part in location:
-        if isinstance(part, int):
-            text += f"[{part}]"
-        elif "[" not in part and "(" not in part:
-            text += f".{part}" if text else part
-    return text
-
-
-_ABSENT = ("missing", "missing_keyword_only_argument", "missing_argument")
-_UNKNOWN = ("unexpected_keyword_argument", "extra_forbidden")
-
-
-def _explain(item: dict[str, Any]) -> tuple[str, str]:
-    kind = item["type"]
-    context: dict[str, Any] = item.get("ctx", {})
-    found = "an empty value" if item.get("input") is None else repr(item["input"])
-    if len(found) > 60:
-        found = found[:57] + "..."
-    match kind:
-        case _ if kind in _ABSENT:
-            is_item = bool(item["loc"]) and isinstance(item["loc"][-1], int)
-            return "nothing", "one more item" if is_item else "this key (it has no default)"
-        case _ if kind in _UNKNOWN:
-            return "an unknown key", "only the documented keys (is it misspelt?)"
-        case "finite_number":
-            return found, "a finite number"
-        case "greater_than":
-            return found, f"a number greater than {context['gt']:g}"
-        case "greater_than_equal":
-            return found, f"a number of at least {context['ge']:g}"
-        case "less_than":
-            return found, f"a number less than {context['lt']:g}"
-        case "less_than_equal":
-            return found, f"a number of at most {context['le']:g}"
-        case "literal_error":
-            allowed = str(context["expected"])
-            return found, f"one of {allowed}" if " or " in allowed else allowed
-        case "unfit":
-            # Raised by a class's own check of keys that must fit together.
-            return str(context["found"]), str(context["expected"])
-        case "float_type" | "float_parsing":
-            return found, "a number"
-        case "int_type" | "int_from_float":
-            return found, "a whole number"
-        case "string_type":
-            return found, "a text"
-        case "bool_type":
-            return found, "true or false"
-        case "too_short":
-            return found, f"at least {context['min_length']} item(s)"
-        case "too_long":
-            return found, f"at most {context['max_length']} item(s)"
-        case "dataclass_type" | "dict_type" | "model_type":
-            return found, "a mapping of keys to values"
-        case "list_type" | "tuple_type":
-            return found, "a list"
-        case "value_error":
-            return found, str(context.get("error", item["msg"]))
-        case _:
-            return found, str(item["msg"])
+        raise readable(error, where) from None
 
 
 @dataclasses.dataclass(frozen=True)
 class SettingInfo:
-    """One leaf of a settings class, flattened: ``nism.k1`` with everything known about it."""
+    """One leaf of a settings class, flattened: ``nism.k1`` with its default, unit, range and description."""
 
     name: str
     default: Any
@@ -190,10 +115,10 @@ class SettingInfo:
 
 
 def leaves(cls: type[Any], prefix: str = "") -> list[SettingInfo]:
-    """Every plain field of a settings class, nested classes flattened with dots.
+    """List every plain field of a settings class, nested classes flattened with dots.
 
     Raises:
-        TypeError: when a field has no default (a ROS parameter must have one).
+        TypeError: a field has no default (a ROS parameter must have one).
     """
     found: list[SettingInfo] = []
     for name, info in cls.__pydantic_fields__.items():
@@ -225,8 +150,8 @@ def leaves(cls: type[Any], prefix: str = "") -> list[SettingInfo]:
 def nested(flat: Mapping[str, Any]) -> dict[str, Any]:
     """`{"nism.k1": 0.8}` -> ``{"nism": {"k1": 0.8}}``.
 
-    Where one name is both a value and a group, the value stays and what lies below it keeps its dots, for
-    `validated` to refuse: the one or the other is a key that the class does not have.
+    Where one name is both a value and a group, the value stays and the names below it keep their dots:
+    `validated` refuses them, because the class has only one of the two.
     """
     tree: dict[str, Any] = {}
     for name, value in flat.items():
@@ -243,7 +168,7 @@ def nested(flat: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def flattened(instance: Any, prefix: str = "") -> dict[str, Any]:
-    """The values of a settings object with dotted names: the inverse of `nested`."""
+    """Return the values of a settings object with dotted names: the inverse of `nested`."""
     flat: dict[str, Any] = {}
     for field in dataclasses.fields(instance):
         value = getattr(instance, field.name)

@@ -1,4 +1,4 @@
-"""Open files that other people and programs wrote: regular files only, and never more of one than a limit."""
+"""Open files of other programs: regular files only, and no more of one than a limit."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import BinaryIO
 
 from auv_msgs_py.values.errors import ConfigurationError
 
-#: Largest text file that is read, bytes. As empty JSON lists, this many bytes take 350 MB of memory.
+#: Largest text file that is read, bytes. This many bytes of empty JSON lists take 350 MB of memory.
 MOST_BYTES = 16_000_000
 
 _KINDS = (
@@ -67,7 +67,7 @@ def read_bytes(path: Path, expected: str, most: int = MOST_BYTES) -> bytes:
         most: largest size accepted, bytes.
 
     Raises:
-        ConfigurationError: as `opened`; also a Git LFS pointer in the place of the file.
+        ConfigurationError: as `opened`; also where the file is a Git LFS pointer.
     """
     with opened(path, expected, most) as stream:
         try:
@@ -97,22 +97,22 @@ def read_text(path: Path, expected: str, most: int = MOST_BYTES) -> str:
 
 
 def exists(path: Path) -> bool:
-    """Whether anything is there; False for a name that no file can have (too long, a NUL in it)."""
+    """Return whether the path exists; False for a name that no file can have (too long, a NUL in it)."""
     return os.path.exists(path)  # noqa: PTH110 - Path.exists() raises for such names
 
 
 def is_file(path: Path) -> bool:
-    """Whether a regular file is there; False for a name that no file can have."""
+    """Return whether the path is a regular file; False for a name that no file can have."""
     return os.path.isfile(path)  # noqa: PTH113 - Path.is_file() raises for such names
 
 
 def is_directory(path: Path) -> bool:
-    """Whether a directory is there; False for a name that no directory can have."""
+    """Return whether the path is a directory; False for a name that no directory can have."""
     return os.path.isdir(path)  # noqa: PTH112 - Path.is_dir() raises for such names
 
 
 def from_home(name: str) -> Path:
-    """The path that a name stands for, with a leading ``~`` as the home directory where there is one."""
+    """Return a name as a path, a leading ``~`` replaced by the home directory where there is one."""
     try:
         return Path(name).expanduser()
     except RuntimeError:  # no HOME and no such user

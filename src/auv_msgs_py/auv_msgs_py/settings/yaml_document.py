@@ -1,4 +1,4 @@
-"""Build plain Python objects from untrusted YAML, within bounds on depth, size and what aliases expand to."""
+"""Build plain Python objects from untrusted YAML, within bounds on depth, size and expanded aliases."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from yaml.events import (
     StreamEndEvent,
 )
 
-#: Lists and mappings inside each other.
+#: Deepest nesting of lists and mappings.
 MOST_DEPTH = 64
-#: Values in a document, each alias counted as what it stands for; a text counts once for each 64 characters.
+#: Most values in a document, aliases expanded; a text counts once for each 64 characters.
 MOST_NODES = 200_000
 _MOST_DIGITS = 40
 _CHARACTERS = 64
@@ -28,7 +28,7 @@ _PARSER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _CORE = "tag:yaml.org,2002:"
 _NULL = ("", "~", "null", "Null", "NULL")
 _BOOL = {"true": True, "True": True, "TRUE": True, "false": False, "False": False, "FALSE": False}
-#: Whole numbers of YAML 1.2 in decimal; a leading zero means eight to one parser and ten to another: text.
+#: Whole numbers of YAML 1.2 in decimal. With a leading zero it is text: parsers disagree on octal.
 _INT = re.compile(r"[-+]?(?:0|[1-9][0-9]*)")
 FLOAT = re.compile(
     r"^[-+]?(?:(?:[0-9]+\.[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?|[0-9]+[eE][-+]?[0-9]+"
@@ -152,7 +152,7 @@ class _Builder:
 
 
 def _resolved(event: ScalarEvent) -> Any:
-    """A plain scalar: what it looks like."""
+    """Return the value of a plain scalar by its form."""
     text = event.value
     if text in _NULL:
         return None

@@ -19,14 +19,14 @@ MOST_BYTES = 4_000_000
 
 
 class _Dumper(yaml.SafeDumper):
-    """Puts text in quotes that either version of YAML would read as something else."""
+    """Dumper that quotes text which YAML 1.1 or 1.2 would read as something else."""
 
 
 _Dumper.add_implicit_resolver("tag:yaml.org,2002:float", yaml_document.FLOAT, "-+0123456789.")
 
 
 def parse(path: Path) -> Any:
-    """The file as plain Python objects.
+    """Read a file as plain Python objects.
 
     Raises:
         ConfigurationError: the file is missing, not readable, too large, not text or not YAML, with line and
@@ -36,11 +36,11 @@ def parse(path: Path) -> Any:
 
 
 def parse_text(text: str, where: str) -> Any:
-    """YAML from elsewhere than a file as plain Python objects.
+    """Read YAML text as plain Python objects.
 
     Args:
         text: the YAML.
-        where: its place, for the error.
+        where: its origin, for the error.
 
     Raises:
         ConfigurationError: it is not YAML, with line and column.
@@ -73,7 +73,7 @@ def checked(data: Any, path: Path, cls: type[T]) -> T:
 
 
 def dump(data: Any, path: Path) -> None:
-    """Write plain objects as YAML that both this module and ROS 2's parameter parser read back alike.
+    """Write plain objects as YAML that this module and ROS 2's parameter parser read alike.
 
     Raises:
         NotWritten: the file cannot be written.

@@ -11,5 +11,5 @@ TWO_PI = 2.0 * math.pi
 
 @pure
 def wrap(angle: float) -> float:
-    """The same angle in [-pi, pi), rad. Works on NumPy arrays as well."""
+    """Return an angle (rad) wrapped to [-pi, pi); NumPy arrays too."""
     return (angle + math.pi) % TWO_PI - math.pi

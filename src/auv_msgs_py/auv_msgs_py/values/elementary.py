@@ -1,4 +1,4 @@
-"""Lets one formula serve a single number (with `math`, fast) and a NumPy array (vectorised)."""
+"""Elementary functions for one formula on numbers (`math`, fast) and NumPy arrays (vectorised)."""
 
 from __future__ import annotations
 
@@ -19,5 +19,5 @@ _ARRAY: Any = SimpleNamespace(
 
 
 def functions_of(value: Any) -> Any:
-    """The elementary functions that fit `value`: NumPy's for an array, `math`'s for a number."""
+    """Return the elementary functions that fit `value`: NumPy's for an array, `math`'s for a number."""
     return _ARRAY if isinstance(value, np.ndarray) else _SCALAR

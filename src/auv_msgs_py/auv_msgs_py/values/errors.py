@@ -1,4 +1,4 @@
-"""The errors that a person is meant to read: always one line, always with the place."""
+"""Errors for the user: one line each, with the place, what was found and what was expected."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class ConfigurationError(SuiteError):
 
     Args:
         where: the file and key (``mission.yaml: segments[2].line.length``), or the option.
-        found: what stood there.
+        found: what is there.
         expected: what would have been accepted.
     """
 
@@ -58,11 +58,11 @@ class ConfigurationError(SuiteError):
 
 
 def joined(errors: Sequence[ConfigurationError], file: str) -> ConfigurationError:
-    """One error for all that is wrong with a file: the first, with the others behind it.
+    """Return one error for everything that is wrong with a file: the first error, followed by the others.
 
     Args:
         errors: at least one.
-        file: what their places begin with; the others are named without it.
+        file: common beginning of their places; only the first keeps it.
     """
     first, *others = errors
     listed = [
@@ -75,10 +75,10 @@ def joined(errors: Sequence[ConfigurationError], file: str) -> ConfigurationErro
 
 
 class MessageRefused(SuiteError):
-    """A message that must not be used; nodes count it and name it in /diagnostics.
+    """A message that must not be used; nodes count it and report it in /diagnostics.
 
     Args:
-        topic: topic the message came on.
+        topic: topic of the message.
         found: what was wrong with it.
         expected: what would have been accepted.
     """

@@ -1,10 +1,10 @@
-"""Laws as pure functions, and their settings as numbers: Python that a compiler takes over unchanged.
+"""Laws as pure functions, and their settings as numbers: Python that a compiler accepts unchanged.
 
 A law is `step(config, state, inputs, dt) -> (state, output)` over named tuples of numbers. Nodes, the closed
-loop and a replay call it as it stands. A compiler that is installed compiles the same source; it finds
-all functions of a law, helpers included, in `PURE`.
+loop and a replay call it directly. A compiler, where one is installed, compiles the same source; `PURE` lists
+all functions of the laws, helpers included.
 
-A step may write into a ring, a table or a counter that it was given, and changes nothing else.
+A step may write into a ring, a table or a counter that it receives, and changes nothing else.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Step = Callable[[Any, Any, Any, float], tuple[Any, Any]]
 
 
 class Dispatched(NamedTuple):
-    """A step that is chosen by the type of its configuration."""
+    """A step, chosen by the type of the configuration, and the steps that it chooses from."""
 
     step: Step
     steps: Mapping[type[Any], Step]
@@ -29,7 +29,7 @@ class Dispatched(NamedTuple):
 
 #: All pure functions, in the order of their definition.
 PURE: list[Callable[..., Any]] = []
-#: All chosen steps.
+#: All steps made by `dispatched`.
 DISPATCHED: list[Dispatched] = []
 
 
@@ -48,13 +48,13 @@ def bounded(value: float, limit: float) -> float:
 def squared(x: float) -> float:
     """Return x ** 2, in compiled code to the same last bit.
 
-    Python's power is not always x * x, which compilers make of it; at sea that grows to centimetres.
+    Python's power is not always x * x, which compilers substitute; over a flight that grows to centimetres.
     """
     return x**2
 
 
 def modulus(z: complex) -> float:
-    """Return abs(z), in compiled code to the same last bit: it is not always that of `math.hypot`."""
+    """Return abs(z), in compiled code to the same last bit: `math.hypot` may differ in it."""
     return abs(z)
 
 

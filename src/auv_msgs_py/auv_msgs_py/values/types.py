@@ -1,4 +1,4 @@
-"""The immutable values that pass between laws: all NED / FRD, SI units, radians.
+"""Immutable values that pass between laws: NED and FRD, SI units, radians.
 
 The paper's notation: x north, y east, psi clockwise from north, body x forward and y starboard.
 Named tuples, because they are made many thousand times a second.
@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 
 class Navigation(NamedTuple):
-    """Where the vehicle is: x, y in metres (north, east), psi in rad, r = d psi/dt in rad/s."""
+    """Pose and yaw rate: x, y in m (north, east), psi in rad, r = d psi/dt in rad/s."""
 
     x: float
     y: float
@@ -33,7 +33,7 @@ class Current(NamedTuple):
 
 
 class Reference(NamedTuple):
-    """What guidance asks for: psi_d (rad), r_d (its feed-forward rate, rad/s) and thrust XT (N).
+    """Reference from guidance: psi_d (rad), r_d (its feed-forward rate, rad/s) and thrust XT (N).
 
     Thrust is greater than 0 exactly while the mission is running, so one value says both.
     """
@@ -44,7 +44,7 @@ class Reference(NamedTuple):
 
 
 class Command(NamedTuple):
-    """What the vehicle is told: rudder angle delta (rad, positive to port) and thrust XT (N)."""
+    """Command to the vehicle: rudder angle delta (rad, positive to port) and thrust XT (N)."""
 
     rudder: float
     thrust: float
@@ -52,5 +52,5 @@ class Command(NamedTuple):
 
 STOP = Command(0.0, 0.0)
 NO_CURRENT = Current(0.0, 0.0)
-#: In the place of a velocity through the water that is not known.
+#: Placeholder where the velocity through the water is unknown.
 NO_WATER = WaterVelocity(0.0, 0.0)

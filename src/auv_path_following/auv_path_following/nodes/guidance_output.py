@@ -72,7 +72,7 @@ class MissionReport:
             return
         health = self._node.health
         if word is MissionState.HOLDING:
-            self._detail = health.last_refusal
+            self._detail = health.refusals.latest
         self.word, self.reason = word, words(mission.reason, self._detail)
         stopped = word in (MissionState.HOLDING, MissionState.ABORTED)
         health.error("mission", "")
