@@ -19,7 +19,7 @@ from auv_path_following.missions import mission_file
 from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.closed_loop import Scenario
 from auv_sim.sim_parameters import CRUISE, SUITE
-from auv_sim.studies.paper.paper_flights import changed
+from auv_sim.studies.settings_changes import changed
 from auv_sim.vehicle import sea
 from auv_sim.vehicle.remus import PlantState
 from hulls import STABLE, drawn
@@ -64,7 +64,7 @@ class Flight:
         }
         for name, value in self.gains.items():
             part, _, rest = name.partition(".")
-            configs[part] = changed(configs[part], {rest: value})
+            configs[part] = changed(configs[part], {rest: value}, name)
         x, y, chi = path.start_pose
         ahead, aside, turned, surge = self.start
         x += ahead * math.cos(chi) - aside * math.sin(chi)

@@ -39,12 +39,13 @@ ROS_ROOMS = (
     "auv_sim.checks.benchmark",
     "auv_sim.checks.faults",
     "auv_sim.checks.soak",
-    "auv_sim.checks.vehicle_check.listener",
-    "auv_sim.checks.vehicle_check.self_test",
+    "auv_sim.checks.vehicle_check.live",
     "auv_sim.cli",
     "auv_sim.launch",
     "auv_sim.nodes",
     "auv_sim.studies.campaign.campaign_replay",
+    "auv_sim.studies.campaign.campaign_session",
+    "auv_sim.studies.gallery_session",
 )
 #: A room with more modules than this needs rooms of its own inside.
 MOST_MODULES = 12

@@ -16,11 +16,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from rich.table import Table
 
 from auv_msgs_py.values.errors import ConfigurationError, MessageRefused, SuiteError
-from auv_sim import command_line, terminal
-from auv_sim.views import doc_pages
+from auv_sim import command_line
+from auv_sim.cli import plan
 
 ROOT = Path(__file__).resolve().parents[2]
 #: Script -> the module whose `main` it starts.
@@ -217,20 +216,6 @@ def test_every_command_makes_its_directory_first(
     assert "expected a directory that can be made" in err and err.count("\n") == 1
 
 
-def test_a_page_is_renewed_between_its_marks(tmp_path: Path) -> None:
-    page = tmp_path / "page.md"
-    begin, end = doc_pages.marks("table")
-    page.write_text(f"before\n{begin}\nold\n{end}\nbehind\n", encoding="utf-8")
-    doc_pages.renew(page, "table", "new")
-    assert page.read_text(encoding="utf-8") == f"before\n{begin}\nnew\n{end}\nbehind\n"
-    with pytest.raises(
-        ConfigurationError, match=r"--page: found .*, expected a page with <!-- figures: begin"
-    ):
-        doc_pages.check(page, "figures")
-    with pytest.raises(ConfigurationError, match="--page: found "):
-        doc_pages.check(tmp_path / "none.md", "table")
-
-
 def test_a_printed_command_is_the_same_after_the_shell_has_read_it() -> None:
     words = {
         "out": Path("my runs/$HOME"),
@@ -246,53 +231,11 @@ def test_a_printed_command_is_the_same_after_the_shell_has_read_it() -> None:
     ]  # fmt: skip
 
 
-def test_what_was_written_and_what_comes_next_are_told_as_they_are(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    out = terminal.console()
-    terminal.wrote(out, Path("runs/leg [/m] [bold]") / "bag", "every topic [m/s]")
-    terminal.go_on(out, "Look [red]further", "python3 scripts/bag.py report 'runs/leg [/m]'")
-    assert capsys.readouterr().out == (
-        "  runs/leg [/m] [bold]/bag  every topic [m/s]\n"
-        "\nLook [red]further:  python3 scripts/bag.py report 'runs/leg [/m]'\n"
-    )
-
-
-def test_a_command_goes_on_when_its_reader_has_gone() -> None:
-    code = (
-        "import sys\n"
-        "from auv_sim.terminal import console, progress_bar\n"
-        "c = console()\n"
-        "for k in range(2000): c.print('x' * 100)\n"
-        "with progress_bar(c) as bar: bar.advance(bar.add_task('fly', total=1))\n"
-        "print('still here', file=sys.stderr)\n"
-    )
-    process = subprocess.Popen(
-        [sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
-    assert process.stdout is not None and process.stderr is not None
-    process.stdout.close()
-    assert process.stderr.read() == "still here\n"
-    assert process.wait() == 0
-
-
-def test_text_from_a_file_cannot_steer_the_terminal(capsys: pytest.CaptureFixture[str]) -> None:
-    evil = "a\x1b]0;title\x07b\x1b[2J"
-    console = terminal.console(force_terminal=True)
-    console.print(f"[red]{evil}[/red]\nsecond")
-    table = Table()
-    table.add_column(evil)
-    console.print(table)
-    command_line.say(f"{evil}\nsecond")
-    shown = capsys.readouterr().out
-    assert "\x1b]" not in shown and "\x1b[2J" not in shown and "\x07" not in shown
-    assert shown.count("a\\x1b]0;title") == 3
-    assert "\x1b[31m" in shown  # rich's own colour
-
-
-def test_text_from_recordings_is_printed_in_one_place() -> None:
-    for folder in ("bags", "mission"):
-        for path in sorted((ROOT / "src" / "auv_sim" / "auv_sim" / folder).glob("*.py")):
-            for line in path.read_text(encoding="utf-8").splitlines():
-                plain = re.match(r"\s*print\(", line) and "json.dumps" not in line
-                assert not plain, f"{path.name}: {line.strip()}: say() shows it as it is safe"
+def test_only_options_that_differ_from_their_defaults_are_repeated() -> None:
+    parser = plan.parser()
+    options = parser.parse_args(["box", "--current", "0", "0", "--params", "robust", "--vehicle", "remus100"])
+    assert command_line.not_default(parser, options) == {"mission": "box", "params": "robust"}
+    options = parser.parse_args(["box", "--quiet", "--current", "0", "0.1"])
+    assert command_line.not_default(parser, options) == {
+        "mission": "box", "current": [0.0, 0.1], "quiet": True,
+    }  # fmt: skip

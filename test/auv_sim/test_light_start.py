@@ -26,10 +26,15 @@ def imported(code: str) -> set[str]:
     [
         "auv_sim.cli.bag",
         "auv_sim.cli.benchmark",
+        "auv_sim.cli.campaign",
+        "auv_sim.cli.check_vehicle",
         "auv_sim.cli.fault_matrix",
+        "auv_sim.cli.gallery",
         "auv_sim.cli.mission",
-        "auv_sim.cli.soak",
         "auv_sim.cli.plan",
+        "auv_sim.cli.reproduce_paper",
+        "auv_sim.cli.sea_trials",
+        "auv_sim.cli.soak",
     ],
 )
 def test_help_needs_no_library(module: str) -> None:

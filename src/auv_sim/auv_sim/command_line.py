@@ -11,7 +11,7 @@ import shlex
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import NoReturn, ParamSpec
+from typing import Any, NoReturn, ParamSpec
 
 from auv_msgs_py.node.log_directory import ensure_log_directory
 from auv_msgs_py.values.errors import (
@@ -181,6 +181,19 @@ def to_type(script: str, *words: object, **options: object) -> str:
             values = value if isinstance(value, (tuple, list)) else () if value is True else (value,)
             line += [f"--{name.replace('_', '-')}", *map(str, values)]
     return shlex.join(line)
+
+
+def not_default(parser: argparse.ArgumentParser, options: argparse.Namespace) -> dict[str, Any]:
+    """Return the options that differ from their defaults, in the parser's order, as `to_type` takes them."""
+
+    def plain(value: Any) -> Any:
+        return tuple(value) if isinstance(value, list) else value  # what several words were parsed into
+
+    return {
+        name: value
+        for name, value in vars(options).items()  # argparse fills them in the parser's order
+        if plain(value) != plain(parser.get_default(name))
+    }
 
 
 def discard_output() -> None:

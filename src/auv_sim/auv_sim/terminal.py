@@ -11,6 +11,7 @@ from rich.console import Console, ConsoleOptions, RenderableType
 from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.segment import Segment
+from rich.table import Table
 
 from auv_msgs_py.values.errors import printable_lines
 from auv_sim.command_line import discard_output
@@ -38,6 +39,25 @@ def console(quiet: bool = False, **options: Any) -> Console:
     free = not sys.stdout.isatty() and "COLUMNS" not in os.environ
     options = {"width": 140 if free else None, "highlight": False} | options
     return SafeConsole(quiet=quiet, **options)
+
+
+def headed_table(
+    title: str, texts: Iterable[str], numbers: Iterable[str] = (), **number_column: Any
+) -> Table:
+    """Return an empty table.
+
+    Args:
+        title: above it, at the left.
+        texts: headings of the first columns.
+        numbers: headings of the columns behind them, which are aligned to the right.
+        number_column: further options of `rich.table.Table.add_column` for those.
+    """
+    table = Table(title=title, title_justify="left")
+    for heading in texts:
+        table.add_column(heading)
+    for heading in numbers:
+        table.add_column(heading, justify="right", **number_column)
+    return table
 
 
 def wrote(console: Console, path: object, what: str) -> None:

@@ -16,10 +16,11 @@ import pytest
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.cli import campaign
 from auv_sim.flight.batch import engine
-from auv_sim.studies.campaign import campaign_pictures, runner
+from auv_sim.studies.campaign import runner
 from auv_sim.studies.campaign.campaign_plan import StudyPlan
+from auv_sim.studies.campaign.evaluation import campaign_pictures
+from auv_sim.studies.campaign.evaluation.summary import summarise
 from auv_sim.studies.campaign.store import RESULTS, Store
-from auv_sim.studies.campaign.summary import summarise
 
 STUDY = """\
 version: 1

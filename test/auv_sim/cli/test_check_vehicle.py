@@ -16,9 +16,10 @@ from rosgraph_msgs.msg import Clock
 from auv_msgs_py.node.graph_look import GraphTaken
 from auv_path_following import vehicle
 from auv_sim.checks.vehicle_check.items.all_items import check
-from auv_sim.checks.vehicle_check.listener import VehicleListener
+from auv_sim.checks.vehicle_check.live.listener import VehicleListener
+from auv_sim.checks.vehicle_check.live.self_test import find_all
+from auv_sim.checks.vehicle_check.live.small_test import SmallTest
 from auv_sim.checks.vehicle_check.planted import PLANTED
-from auv_sim.checks.vehicle_check.self_test import find_all
 from auv_sim.cli.check_vehicle import main
 from auv_sim.launch.vehicle_driver import free_port
 from auv_sim.nodes.plant_node import RemusPlantNode
@@ -49,7 +50,8 @@ def test_the_simulator_passes(domain: int) -> None:
         )  # fmt: skip
         clock = Parameter("use_sim_time", value=True)
         node = rclpy.create_node("check_vehicle", parameter_overrides=[clock])
-        listener = VehicleListener(node, "/auv", REMUS)
+        listener = VehicleListener(node, "/auv", hears_commands=False)
+        small_test = SmallTest(listener, REMUS)
         executor = SingleThreadedExecutor()
         for each in (plant, node):
             executor.add_node(each)
@@ -62,12 +64,12 @@ def test_the_simulator_passes(domain: int) -> None:
 
         until(lambda: listener.recording.odom and listener.recording.water and listener.now() > 1.0)
         begin = listener.now()
-        while listener.tick():
-            until(listener.due)
+        while small_test.tick():
+            until(small_test.is_due)
         verdicts = check(listener.finish(begin, sim_time=True), REMUS)
         # How fast commands come through is this machine's affair at ten times real time.
         assert [v for v in verdicts if v.mistake is not None and "dead time" not in v.item] == []
-        assert listener.cut_short == ""
+        assert small_test.cut_short == ""
         plant.destroy_node()
         node.destroy_node()
     finally:
@@ -115,7 +117,7 @@ def test_bad_input_is_one_line_and_moves_nothing(
     assert "\n" not in told
 
 
-def test_it_does_not_take_the_rudder_from_somebody_else(
+def test_it_does_not_take_the_rudder_from_another_node(
     command_line: CommandLine, spawn: Callable[..., object], domain: int, capsys: pytest.CaptureFixture[str]
 ) -> None:
     spawn(command_line("auv_path_following.nodes.heading_autopilot_node", "--ros-args", "-r", "__ns:=/auv"))

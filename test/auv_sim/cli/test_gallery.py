@@ -18,6 +18,7 @@ from auv_sim.cli import mission as mission_command
 from auv_sim.flight.run_record import Run
 from auv_sim.launch import mission_plan
 from auv_sim.launch.options import Options
+from auv_sim.studies import gallery_session
 from auv_sim.views import doc_pages
 from conftest import children_of
 
@@ -49,21 +50,21 @@ class Launcher:
 @pytest.fixture
 def launcher(monkeypatch: pytest.MonkeyPatch) -> Launcher:
     played = Launcher()
-    monkeypatch.setattr(gallery, "launch", played)
-    monkeypatch.setattr(gallery, "KINDS", ("linear",))
+    monkeypatch.setattr(gallery_session, "launch", played)
+    monkeypatch.setattr(gallery_session, "KINDS", ("linear",))
     path = mission_file.load("course_linear").path
     s = np.linspace(0.0, path.n, 400)
     points = [path.evaluate(min(int(value), path.n - 1), value - min(int(value), path.n - 1)) for value in s]
     columns = {"t": 600.0 * s / path.n, "s": s, "psi": 0.0 * s, "ye": 0.0 * s}
     columns |= {name: np.array([getattr(p, name) for p in points]) for name in ("x", "y")}
-    monkeypatch.setattr(gallery, "load", lambda _: Run.from_columns(columns))
+    monkeypatch.setattr(gallery_session, "load", lambda _: Run.from_columns(columns))
     return played
 
 
 @pytest.fixture
 def asked(tmp_path: Path) -> list[str]:
     page = tmp_path / "page.md"
-    begin, end = doc_pages.marks(gallery.PART)
+    begin, end = doc_pages.marks(gallery_session.PART)
     page.write_text(f"before\n{begin}\nold\n{end}\nbehind\n", encoding="utf-8")
     places = {"--page": page, "--images": tmp_path / "images", "--runs": tmp_path / "runs"}
     return [str(word) for pair in places.items() for word in pair]

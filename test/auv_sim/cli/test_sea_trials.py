@@ -15,10 +15,9 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_sim.cli import mission as mission_command
 from auv_sim.cli import sea_trials
-from auv_sim.cli.sea_trials import Job
 from auv_sim.launch import mission_plan
 from auv_sim.launch.options import Options
-from auv_sim.studies import noise_study
+from auv_sim.studies import noise_study, sea_trials_session
 from auv_sim.vehicle import sea
 from auv_sim.views import doc_pages
 
@@ -27,7 +26,9 @@ CommandLine = Callable[..., list[str]]
 
 def test_the_default_mission_in_the_rough_sea_keeps_within_its_bound() -> None:
     """One of the seeds of docs/sea.md, in full."""
-    trial = sea_trials.fly(Job("paper_composite", "remus100", "robust", "rough", 27))
+    trial = sea_trials_session.fly(
+        sea_trials_session.TrialJob("paper_composite", "remus100", "robust", "rough", 27)
+    )
     assert trial.completed
     assert trial.largest_distance <= 2.5
     assert 0.5 < trial.navigation_error < 3.0
@@ -35,7 +36,7 @@ def test_the_default_mission_in_the_rough_sea_keeps_within_its_bound() -> None:
 
 def test_the_command_flies_and_tells(short_mission: Path, tmp_path: Path, command_line: CommandLine) -> None:
     page = tmp_path / "page.md"
-    begin, end = doc_pages.marks(sea_trials.PART)
+    begin, end = doc_pages.marks(sea_trials_session.PART)
     page.write_text(f"before\n{begin}\nold\n{end}\nbehind\n", encoding="utf-8")
     out = tmp_path / "out"
     asked = [

@@ -6,9 +6,7 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from auv_sim.command_line import Parser, command, positive, ros_domain, target
-
-SPEED = 4.0
+from auv_sim.command_line import Parser, command, not_default, positive, ros_domain, target
 
 
 def parser() -> argparse.ArgumentParser:
@@ -27,7 +25,7 @@ def parser() -> argparse.ArgumentParser:
         help="no rows: fly for S seconds of wall time beside a node that publishes nonsense on every topic",
     )  # fmt: skip
     p.add_argument("--list", action="store_true", help="print the names of all rows")
-    p.add_argument("--speed", type=positive, default=SPEED, metavar="N", help="of the simulator (default 4)")
+    p.add_argument("--speed", type=positive, default=4.0, metavar="N", help="of the simulator (default 4)")
     p.add_argument("--json", type=target, metavar="FILE", help="write the results there")
     p.add_argument("--out", type=Path, metavar="DIR", help="keep logs and bag there (default: thrown away)")
     p.add_argument("--domain", type=ros_domain, help="ROS domain (default: one of its own)")
@@ -37,10 +35,11 @@ def parser() -> argparse.ArgumentParser:
 @command("fault matrix")
 def main(argv: Sequence[str] | None = None) -> int:
     """Returns 0 when all rows are as expected, 1 when one is not, 2 for bad input, 130 when interrupted."""
-    arguments = parser().parse_args(argv)
+    p = parser()
+    options = p.parse_args(argv)
     from auv_sim.checks.faults.fault_session import run
 
-    return run(arguments)
+    return run(options, not_default(p, options))
 
 
 if __name__ == "__main__":

@@ -8,9 +8,7 @@ from pathlib import Path
 
 from auv_path_following import config_files
 from auv_path_following.curves.switching_modes import MODES
-from auv_sim.command_line import Parser, command, finite
-
-VEHICLE, STILL = "remus100", (0.0, 0.0)
+from auv_sim.command_line import Parser, command, finite, not_default
 
 
 def parser() -> argparse.ArgumentParser:
@@ -24,7 +22,7 @@ def parser() -> argparse.ArgumentParser:
     )
     p.add_argument("mission", metavar="MISSION", help=f"file or one of: {shipped['missions']}")
     p.add_argument(
-        "--vehicle", default=VEHICLE, metavar="FILE", help=f"file or one of: {shipped['vehicles']}"
+        "--vehicle", default="remus100", metavar="FILE", help=f"file or one of: {shipped['vehicles']}"
     )
     p.add_argument(
         "--params", metavar="FILE", help=f"for its circles of acceptance: file or one of: {shipped['params']}"
@@ -33,7 +31,7 @@ def parser() -> argparse.ArgumentParser:
         "--current",
         nargs=2,
         type=finite,
-        default=STILL,
+        default=(0.0, 0.0),
         metavar=("VX", "VY"),
         help="current towards north and east, m/s",
     )
@@ -47,7 +45,8 @@ def parser() -> argparse.ArgumentParser:
 @command("plan")
 def main(argv: Sequence[str] | None = None) -> int:
     """Plan; returns the exit code: 0 flyable, 2 refused or bad input, 130 interrupted."""
-    options = parser().parse_args(argv)
+    p = parser()
+    options = p.parse_args(argv)
     from auv_sim.checks.mission_check.plan_session import plan
 
-    return plan(options)
+    return plan(options, not_default(p, options))

@@ -20,7 +20,7 @@ from auv_path_following.missions import mission_file
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.parameters import AutopilotParameters
 from auv_path_following.vehicle import Vehicle
-from auv_sim.checks.mission_check.flyable import Verdicts, check, refusal
+from auv_sim.checks.mission_check.flyable import Findings, check, refusal
 from auv_sim.flight.closed_loop import Scenario
 from auv_sim.launch.options import DRIVERS, Options
 from auv_sim.launch.vehicle_driver import configure_driver
@@ -46,7 +46,7 @@ class Plan:
     vehicle: Vehicle
     parameters: dict[str, Any]
     sources: dict[str, Path]
-    verdicts: Verdicts
+    verdicts: Findings
     controller_model: Vehicle
     emulator: tuple[str, ...] | None = None
 

@@ -15,7 +15,7 @@ from auv_sim.flight.batch import engine
 from auv_sim.flight.closed_loop import Scenario
 from auv_sim.launch import mission_plan
 from auv_sim.launch.options import Options
-from auv_sim.studies.paper.paper_flights import changed
+from auv_sim.studies.settings_changes import changed
 from auv_sim.studies.trials import Trial, judge
 from auv_sim.vehicle.actuator import RudderFlaws
 from auv_sim.vehicle.sea import Sea
@@ -47,7 +47,7 @@ GAINS = (
 RUDDERS = ("of the sea", "ideal")
 
 
-class Job(NamedTuple):
+class NoiseJob(NamedTuple):
     """One flight."""
 
     mission: str
@@ -70,7 +70,7 @@ def fly(mission: str, vehicle: str, sea: str, run: Runner) -> Study:
         ConfigurationError: a file that cannot be used.
     """
     jobs = [
-        Job(mission, vehicle, sea, gains, rudder, level)
+        NoiseJob(mission, vehicle, sea, gains, rudder, level)
         for gains in GAINS
         for rudder in RUDDERS
         for level in LEVELS
@@ -80,12 +80,12 @@ def fly(mission: str, vehicle: str, sea: str, run: Runner) -> Study:
     return {(job.gains.label, job.rudder, job.level): trial for job, trial in zip(jobs, trials, strict=True)}
 
 
-def _fly(job: Job) -> Trial:
+def _fly(job: NoiseJob) -> Trial:
     scenario = _scenario(job)
     return judge(engine.track(scenario), scenario.path, job.gains.params, SEED)
 
 
-def _scenario(job: Job) -> Scenario:
+def _scenario(job: NoiseJob) -> Scenario:
     options = Options(
         mission=job.mission, vehicle=job.vehicle, params=job.gains.params, sea=job.sea, seed=SEED
     )
@@ -94,7 +94,7 @@ def _scenario(job: Job) -> Scenario:
     sea = with_noise(scenario.sea, job.level)
     if job.rudder == "ideal":
         sea = dataclasses.replace(sea, rudder=RudderFlaws())
-    autopilot = changed(scenario.autopilot, job.gains.changes)
+    autopilot = changed(scenario.autopilot, job.gains.changes, job.gains.label)
     return dataclasses.replace(scenario, sea=sea, autopilot=autopilot)
 
 
@@ -107,7 +107,7 @@ def with_noise(sea: Sea, level: float) -> Sea:
         "water_track.noise.white": sensors.water_track.noise.white,
         "bottom_track.noise.white": sensors.bottom_track.noise.white,
     }
-    return changed(sea, {f"sensors.{name}": level * white for name, white in noises.items()})
+    return changed(sea, {f"sensors.{name}": level * white for name, white in noises.items()}, sea.name)
 
 
 def draw(study: Study, png: Path) -> None:

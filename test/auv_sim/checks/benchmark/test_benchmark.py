@@ -20,9 +20,9 @@ from auv_msgs_py.contract import topics
 from auv_sim.checks.benchmark import against, contender, figures_page, sheets
 from auv_sim.checks.benchmark.measures import graph_speed, law_speed, start_up
 from auv_sim.checks.benchmark.measures.children import BenchmarkFailed
-from auv_sim.checks.benchmark.measures.rig import Setup, Timing, free_running, lockstep
+from auv_sim.checks.benchmark.measures.rig import LockstepTiming, Setup, free_running, lockstep
 from auv_sim.checks.benchmark.measures.stopwatch import BLOCK
-from auv_sim.checks.benchmark.measures.usage import Memory, Usage
+from auv_sim.checks.benchmark.measures.usage import MemoryUse, Usage
 from auv_sim.checks.benchmark.scale import QUICK
 from auv_sim.cli.benchmark import main
 from auv_sim.views import doc_pages
@@ -91,12 +91,12 @@ def test_the_suite_is_compared_with_its_own_floor(
 ) -> None:
     """A suite that takes one and a half times its floor, a plain floor twice as slow as the other."""
 
-    def timed(setup: Setup) -> Timing:
+    def timed(setup: Setup) -> LockstepTiming:
         step = 400e-6 * (2.0 if setup.plain else 1.0 if setup.floor else 1.5)
         names = ["composed"] if setup.composed else sorted(NODES)
         names += [topics.RECORDER] * (setup.recorded and not setup.composed)
-        usage, memory = Usage(1e-4, 4.0), Memory(2**26, 2**25)
-        return Timing((step, step), dict.fromkeys(names, usage), dict.fromkeys(names, memory))
+        usage, memory = Usage(1e-4, 4.0), MemoryUse(2**26, 2**25)
+        return LockstepTiming((step, step), dict.fromkeys(names, usage), dict.fromkeys(names, memory))
 
     monkeypatch.setattr(graph_speed, "lockstep", timed)
     assert main(["--quick", "--only", "lockstep"]) == 0

@@ -8,7 +8,9 @@ import math
 import os
 import tempfile
 import time
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from rich.console import Console
 from rich.table import Table
@@ -17,7 +19,6 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.checks.faults.expectations import REPRESENTATIVE, TABLE, Expectation, chosen
-from auv_sim.cli.fault_matrix import SPEED
 from auv_sim.command_line import (
     EXIT_DONE,
     EXIT_FAILED,
@@ -29,8 +30,16 @@ from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, progress_bar
 
 
-def run(arguments: argparse.Namespace) -> int:
-    """Fly what the command line asks for; returns the exit code."""
+def run(arguments: argparse.Namespace, not_default: Mapping[str, Any]) -> int:
+    """Fly what the command line asks for.
+
+    Args:
+        arguments: the command line's options.
+        not_default: those of them that differ from their defaults.
+
+    Returns:
+        The exit code.
+    """
     if arguments.list:
         print("\n".join(row.name for row in TABLE))
         return EXIT_DONE
@@ -54,8 +63,7 @@ def run(arguments: argparse.Namespace) -> int:
         record = {"speed": arguments.speed, "good": good, "rows": [as_data(result) for result in results]}
         write_text(arguments.json, json.dumps(record, indent=2) + "\n")
     if not arguments.full and not arguments.rows:
-        speed = arguments.speed if arguments.speed != SPEED else None
-        again = to_type("fault_matrix.py", full=True, speed=speed)
+        again = to_type("fault_matrix.py", full=True, speed=not_default.get("speed"))
         go_on(console, f"All {len(TABLE)} rows", again)
     return EXIT_DONE if good == len(results) == len(rows) else EXIT_FAILED
 
@@ -70,15 +78,15 @@ def _rows(arguments: argparse.Namespace) -> list[Expectation]:
 
 
 def _run(rows: list[Expectation], directory: Path, speed: float, console: Console) -> list:  # type: ignore[type-arg]
-    from auv_sim.checks.faults.matrix import Matrix, Result  # rclpy, only when it is needed
+    from auv_sim.checks.faults.matrix import Matrix, RowResult  # rclpy, only when it is needed
     from auv_sim.checks.faults.simulator_restart import kill_simulator
 
     begin = time.monotonic()
-    results: list[Result] = []
+    results: list[RowResult] = []
     with progress_bar(console, disable=not console.is_terminal) as bar:
         task = bar.add_task("spoiling", total=len(rows))
 
-        def tell(result: Result) -> None:
+        def tell(result: RowResult) -> None:
             bar.update(task, advance=1, description=result.row.name)
             if not result.good:
                 console.print(f"{result.row.name}: {'; '.join(result.wrong)}", style="red", highlight=False)

@@ -16,7 +16,7 @@ from auv_path_following.missions import mission_file
 from auv_sim.bags.bag_repair import repair
 from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.checks.faults.expectations import Expectation
-from auv_sim.checks.faults.spoiled_graph import PATIENCE, Flight, GraphFailed, Nodes, says
+from auv_sim.checks.faults.spoiled_graph import PATIENCE, GraphFailed, Nodes, SpoiledFlight, says
 from auv_sim.vehicle.remus import PlantState
 
 #: What a busy machine may add to every bound, s of wall time.
@@ -45,7 +45,7 @@ figure_of_eight: {centre: [0, 0], radius: 20, separation: 60}
 
 
 @dataclass
-class Result:
+class RowResult:
     """What happened in one row.
 
     Attributes:
@@ -76,7 +76,7 @@ class Matrix:
     """
 
     def __init__(
-        self, directory: Path, speed: float, tell: Callable[[Result], None] = lambda _: None
+        self, directory: Path, speed: float, tell: Callable[[RowResult], None] = lambda _: None
     ) -> None:
         self.directory, self.speed, self.tell = directory, speed, tell
         directory.mkdir(parents=True, exist_ok=True)
@@ -85,10 +85,10 @@ class Matrix:
         self._start_pose = mission_file.load(str(mission)).path.start_pose
         self.bag = directory / "bag"
         self.nodes = Nodes(directory / "log", mission, {topics.RECORDER: {"directory": str(self.bag)}})
-        self.results: list[Result] = []
+        self.results: list[RowResult] = []
         self._machine = _MACHINE * speed
 
-    def run(self, rows: Sequence[Expectation]) -> list[Result]:
+    def run(self, rows: Sequence[Expectation]) -> list[RowResult]:
         """All rows but the simulator's; returns a result for each.
 
         Raises:
@@ -97,7 +97,7 @@ class Matrix:
         names = (topics.RECORDER, topics.OBSERVER, topics.AUTOPILOT, topics.GUIDANCE)
         for name in names:
             self.nodes.start(name)
-        self.flight = Flight(self.nodes, self.speed, self._start_pose)
+        self.flight = SpoiledFlight(self.nodes, self.speed, self._start_pose)
         try:
             self.flight.until(lambda: set(names) <= set(self.flight.said), "all nodes to report")
             for row in rows:
@@ -109,7 +109,7 @@ class Matrix:
         return self.results
 
     def _run(self, row: Expectation) -> None:
-        flight, result = self.flight, Result(row)
+        flight, result = self.flight, RowResult(row)
         if not self._quiet(row):
             result.wrong.append("the graph was not quiet before the fault")
         flight.farthest = 0.0
@@ -196,7 +196,7 @@ class Matrix:
         elif row.place != topics.RECORDER:
             self.nodes.start(row.place)
 
-    def _judge_fault(self, row: Expectation, result: Result) -> None:
+    def _judge_fault(self, row: Expectation, result: RowResult) -> None:
         """Noticed and safe in time?"""
         within = row.within if row.wall else row.within + self._machine
         if row.noticed_by and not result.noticed <= within:
@@ -209,7 +209,7 @@ class Matrix:
         if not row.safe and row.fault != "flood" and not math.isnan(result.safe):
             result.wrong.append(f"stopped after {result.safe:.2f} s, though it need not")
 
-    def _judge_outcome(self, row: Expectation, result: Result) -> None:
+    def _judge_outcome(self, row: Expectation, result: RowResult) -> None:
         """Does the mission go on, or has it ended?"""
         flight = self.flight
         if row.outcome == "aborts":
@@ -233,7 +233,7 @@ class Matrix:
         if flight.s < flight.farthest - _BACK:
             result.wrong.append(f"the path parameter went back from {flight.farthest:.2f} to {flight.s:.2f}")
 
-    def _judge_waiting(self, row: Expectation, result: Result) -> None:
+    def _judge_waiting(self, row: Expectation, result: RowResult) -> None:
         """A guidance that was started again knows nothing of a mission: the vehicle stays where it is."""
         flight = self.flight
         flight.until(lambda: flight.state == "idle" and self._reports(row.place), f"{row.name}: back")
@@ -261,7 +261,7 @@ class Matrix:
             last.wrong += [f"bag: {text}" for text in wrong]
 
 
-def as_data(result: Result) -> dict[str, object]:
+def as_data(result: RowResult) -> dict[str, object]:
     """For JSON: NaN becomes null."""
     seconds = {name: getattr(result, name) for name in ("noticed", "safe")}
     return {

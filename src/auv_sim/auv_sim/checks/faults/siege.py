@@ -14,7 +14,7 @@ from pathlib import Path
 from auv_msgs_py.contract import topics
 from auv_path_following.missions import mission_file
 from auv_sim.checks.faults.matrix import MISSION
-from auv_sim.checks.faults.spoiled_graph import Flight, Nodes
+from auv_sim.checks.faults.spoiled_graph import Nodes, SpoiledFlight
 from auv_sim.checks.soak.memory import resident
 
 #: Largest growth of a process after the warm-up, MB.
@@ -49,7 +49,7 @@ class Siege:
 class _Watch:
     """Looks at one flight while it is under attack."""
 
-    def __init__(self, flight: Flight, seconds: float) -> None:
+    def __init__(self, flight: SpoiledFlight, seconds: float) -> None:
         self.flight, self.found = flight, Siege()
         self._warm = time.monotonic() + max(_WARM * seconds, _WARM_AT_LEAST)
         self._base: dict[str, float] = {}
@@ -114,7 +114,7 @@ def besiege(directory: Path, speed: float, seconds: float, tell: Callable[[float
     nodes = Nodes(directory / "log", mission, {topics.RECORDER: {"directory": str(directory / "bag")}})
     for name in _NODES:
         nodes.start(name)
-    flight = Flight(nodes, speed, mission_file.load(str(mission)).path.start_pose)
+    flight = SpoiledFlight(nodes, speed, mission_file.load(str(mission)).path.start_pose)
     hostile = None
     try:
         flight.until(lambda: set(_NODES) <= set(flight.said), "all nodes to report")
@@ -140,7 +140,7 @@ def besiege(directory: Path, speed: float, seconds: float, tell: Callable[[float
         nodes.stop()
 
 
-def _judge(found: Siege, flight: Flight) -> None:
+def _judge(found: Siege, flight: SpoiledFlight) -> None:
     found.wrong += [f"{name} ended" for name in flight.nodes.crashed()]
     for name in (*_CHAIN, topics.PLANT):
         heard = {topic.name for topic in topics.CONTRACT if name in topic.subscribers}

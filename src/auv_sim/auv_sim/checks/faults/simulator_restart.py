@@ -11,11 +11,11 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from auv_msgs_py.contract import topics
 from auv_path_following.missions import mission_file
 from auv_sim.checks.faults.expectations import Expectation
-from auv_sim.checks.faults.matrix import MISSION, Result
-from auv_sim.checks.faults.spoiled_graph import Flight, GraphFailed, Nodes, says
+from auv_sim.checks.faults.matrix import MISSION, RowResult
+from auv_sim.checks.faults.spoiled_graph import GraphFailed, Nodes, SpoiledFlight, says
 
 
-def kill_simulator(row: Expectation, directory: Path, speed: float) -> Result:
+def kill_simulator(row: Expectation, directory: Path, speed: float) -> RowResult:
     """The simulator is killed and started again: time stands still, and begins anew."""
     directory.mkdir(parents=True, exist_ok=True)
     mission = directory / "mission.yaml"
@@ -26,8 +26,8 @@ def kill_simulator(row: Expectation, directory: Path, speed: float) -> Result:
     names = (topics.OBSERVER, topics.AUTOPILOT, topics.GUIDANCE, topics.PLANT)
     for name in names:
         nodes.start(name)
-    flight = Flight(nodes, speed, (x, y, psi), own_plant=False)
-    result = Result(row)
+    flight = SpoiledFlight(nodes, speed, (x, y, psi), own_plant=False)
+    result = RowResult(row)
     try:
         flight.until(lambda: set(names) <= set(flight.said), "all nodes to report")
         flight.call(topics.START_SERVICE)

@@ -148,7 +148,7 @@ class Nodes:
                 process.wait()
 
 
-class Flight:
+class SpoiledFlight:
     """The simulator, the relay and a listener in this process; time is the simulator's.
 
     Args:

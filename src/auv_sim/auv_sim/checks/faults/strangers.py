@@ -120,7 +120,7 @@ class Strangers(threading.Thread):
             each.close()
 
 
-class Result(NamedTuple):
+class StrangerCounts(NamedTuple):
     """What was counted.
 
     Attributes:
@@ -150,7 +150,7 @@ class Result(NamedTuple):
         )
 
 
-def measure(seconds: float, rate: float = 1000.0) -> Result:
+def measure(seconds: float, rate: float = 1000.0) -> StrangerCounts:
     """Start driver and emulated vehicle, count odometries for `seconds` without and with strangers.
 
     Raises:
@@ -168,7 +168,7 @@ def measure(seconds: float, rate: float = 1000.0) -> Result:
             children.stop()
 
 
-def _count(port: int, seconds: float, rate: float) -> Result:
+def _count(port: int, seconds: float, rate: float) -> StrangerCounts:
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     node = rclpy.create_node("strangers", namespace="/auv", use_global_arguments=False)
     executor = EventsExecutor()
@@ -207,7 +207,7 @@ def _count(port: int, seconds: float, rate: float) -> Result:
     finally:
         node.destroy_node()
         rclpy.try_shutdown()
-    return Result(calm / seconds, disturbed / seconds, strangers.sent, strangers.answered, misled)
+    return StrangerCounts(calm / seconds, disturbed / seconds, strangers.sent, strangers.answered, misled)
 
 
 @command("strangers")

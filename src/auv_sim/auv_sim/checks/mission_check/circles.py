@@ -13,7 +13,7 @@ from auv_path_following.guidance.acceptance import acceptance_radius, corner_of,
 from auv_path_following.guidance.switching import SwitchingConfig
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
-from auv_sim.checks.mission_check.finding import Level, Verdict, at
+from auv_sim.checks.mission_check.finding import Finding, Level, at
 
 #: Circles of more than so many look-aheads leave too much of the path out. One is the paper's bound; a little
 #: more is of use in a current.
@@ -27,7 +27,7 @@ def circles(
     lookahead: float,
     speed: float,
     current: Current,
-) -> Iterator[Verdict]:
+) -> Iterator[Finding]:
     """Judge the circles of acceptance.
 
     Args:
@@ -47,7 +47,7 @@ def circles(
 
 def _computed_circles(
     mission: Mission, vehicle: Vehicle, lookahead: float, speed: float, current: Current
-) -> Iterator[Verdict]:
+) -> Iterator[Finding]:
     """Legs that are too short for the circles at their ends, whose radii follow from hull and corner.
 
     They may be wider than the look-ahead: a turn that needs more way begins sooner.
@@ -67,7 +67,7 @@ def _computed_circles(
         if len(short) > 1:
             found += f" (likewise at {len(short) - 1} more)"
         place = f"joint {joint.index} {at(joint.x, joint.y)}"
-        yield Verdict(
+        yield Finding(
             "warning",
             place,
             found,
@@ -75,7 +75,7 @@ def _computed_circles(
         )
 
 
-def _given_circles(mission: Mission, switching: SwitchingConfig, lookahead: float) -> Iterator[Verdict]:
+def _given_circles(mission: Mission, switching: SwitchingConfig, lookahead: float) -> Iterator[Finding]:
     # One joint more than the path has once: where it repeats itself, the next lap's first.
     joints = [
         j for j in mission.path.joints[: mission.once + 1] if switching.mode == "all" or j.geometric == "G0"
@@ -85,7 +85,7 @@ def _given_circles(mission: Mission, switching: SwitchingConfig, lookahead: floa
     if switching.radius > lookahead:
         found = f"{switching.radius:g} m with a look-ahead of {lookahead:g} m"
         level: Level = "refused" if switching.radius > _FAR_TOO_WIDE * lookahead else "warning"
-        yield Verdict(level, "switching.radius", found, "at most the look-ahead, Rk <= Delta of Eq. (44)")
+        yield Finding(level, "switching.radius", found, "at most the look-ahead, Rk <= Delta of Eq. (44)")
     # Along the path: a circle counts on the last stretch of its subpath only, see `switching.reached`.
     gaps = -np.diff([mission.path.distance_to_go(j.index, 0.0) for j in joints])
     overlapping = np.flatnonzero(gaps < 2.0 * switching.radius)
@@ -95,7 +95,7 @@ def _given_circles(mission: Mission, switching: SwitchingConfig, lookahead: floa
         found = f"{gaps[k]:.1f} m apart with circles of acceptance of {switching.radius:g} m, which overlap"
         if overlapping.size > 1:
             found += f" (as do {overlapping.size - 1} more pairs)"
-        yield Verdict(
+        yield Finding(
             "warning",
             f"joints {one.index} and {other.index}",
             found,

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from auv_msgs_py.values.types import NO_CURRENT, Current
 from auv_path_following.curves.outline import look, polygon
 from auv_path_following.missions.mission_file import Mission
-from auv_sim.checks.mission_check.flyable import Verdicts
+from auv_sim.checks.mission_check.flyable import Findings
 from auv_sim.views.labels import arrow
 from auv_sim.views.plot_style import AREA, BLUE, GREEN, HALO, INK, MUTED, ORANGE, PATH, RED, save, style
 
@@ -25,7 +25,7 @@ _ERROR = 0.05
 
 
 def draw(
-    mission: Mission, verdicts: Verdicts, vehicle_name: str, png: Path, current: Current = NO_CURRENT
+    mission: Mission, verdicts: Findings, vehicle_name: str, png: Path, current: Current = NO_CURRENT
 ) -> None:
     """Draw the plan, 1200 x 1300 pixels.
 
@@ -46,7 +46,7 @@ def draw(
     save(figure, png)
 
 
-def _headline(figure: Figure, mission: Mission, verdicts: Verdicts, vehicle_name: str) -> None:
+def _headline(figure: Figure, mission: Mission, verdicts: Findings, vehicle_name: str) -> None:
     path = mission.path
     state, color = ("flyable", GREEN) if not verdicts.refusals else ("refused", RED)
     if not verdicts.refusals and verdicts.warnings:
@@ -137,7 +137,7 @@ def _ends(axes: Axes, mission: Mission) -> None:
     axes.plot(end.y, end.x, "s", color=INK, markersize=7, markeredgecolor="white", zorder=5, label="end")
 
 
-def _curvature(axes: Axes, mission: Mission, verdicts: Verdicts, vehicle_name: str) -> None:
+def _curvature(axes: Axes, mission: Mission, verdicts: Findings, vehicle_name: str) -> None:
     style(axes, "curvature (1/m)")
     axes.set_xlabel("distance along the path (m)", color=INK)
     distance, kappa, done = [], [], 0.0

@@ -9,7 +9,7 @@ Level = Literal["refused", "warning"]
 
 
 @dataclass(frozen=True)
-class Verdict:
+class Finding:
     """One thing to know before the vehicle is in the water.
 
     Attributes:

@@ -21,7 +21,7 @@ from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.mission_check.circles import circles
 from auv_sim.checks.mission_check.crossings import crossings
-from auv_sim.checks.mission_check.finding import Verdict, at
+from auv_sim.checks.mission_check.finding import Finding, at
 
 Array = npt.NDArray[np.float64]
 
@@ -33,7 +33,7 @@ _MOST_CROSSINGS = 100
 
 
 @dataclass(frozen=True)
-class Verdicts:
+class Findings:
     """All that `check` found.
 
     Attributes:
@@ -44,8 +44,8 @@ class Verdicts:
         duration: of the whole mission at that speed, in the current, s; infinite where it makes no way.
     """
 
-    refusals: tuple[Verdict, ...]
-    warnings: tuple[Verdict, ...]
+    refusals: tuple[Finding, ...]
+    warnings: tuple[Finding, ...]
     turn: SteadyTurn
     speed: float
     duration: float
@@ -58,7 +58,7 @@ def check(
     current: Current = NO_CURRENT,
     switching: SwitchingConfig | None = None,
     lookahead: float | None = None,
-) -> Verdicts:
+) -> Findings:
     """Judge a mission.
 
     Args:
@@ -87,10 +87,10 @@ def check(
     refusals, warnings = (
         tuple(verdict for verdict in found if verdict.level == level) for level in ("refused", "warning")
     )
-    return Verdicts(refusals, warnings, turn, speed, survey.duration, mission.notices)
+    return Findings(refusals, warnings, turn, speed, survey.duration, mission.notices)
 
 
-def refusal(mission: Mission, verdicts: Verdicts, advice: str) -> ConfigurationError:
+def refusal(mission: Mission, verdicts: Findings, advice: str) -> ConfigurationError:
     """The first refusal as an error of the mission's file, in one line.
 
     Args:
@@ -105,26 +105,26 @@ def refusal(mission: Mission, verdicts: Verdicts, advice: str) -> ConfigurationE
     )
 
 
-def _thrust(mission: Mission, vehicle: Vehicle) -> Iterator[Verdict]:
+def _thrust(mission: Mission, vehicle: Vehicle) -> Iterator[Finding]:
     if mission.thrust > vehicle.thrust_max * (1.0 + 1e-9):
         if mission.speed is not None:
             fastest = vehicle.speed_at(vehicle.thrust_max)
             limit = f"at most {fastest:.2f} m/s, all that {vehicle.name} reaches"
-            yield Verdict("refused", "speed", f"{mission.speed:g} m/s", limit)
+            yield Finding("refused", "speed", f"{mission.speed:g} m/s", limit)
         else:
             unit = vehicle.thrust_symbol
             limit = f"at most {vehicle.thrust_max:g} {unit}, all that {vehicle.name} has"
-            yield Verdict("refused", "thrust", f"{mission.thrust:g} {unit}", limit)
+            yield Finding("refused", "thrust", f"{mission.thrust:g} {unit}", limit)
 
 
-def _geofence(mission: Mission) -> Iterator[Verdict]:
+def _geofence(mission: Mission) -> Iterator[Finding]:
     if mission.geofence:
         x, y, s = mission.path.polyline(1.0)
         outside = [k for k in range(len(s)) if not inside(mission.geofence, float(x[k]), float(y[k]))]
         if outside:
             k = outside[0]
             found = f"{len(outside)} m of path outside the geofence, the first {at(x[k], y[k])}"
-            yield Verdict("refused", "geofence", found, "all of the path inside it")
+            yield Finding("refused", "geofence", found, "all of the path inside it")
 
 
 class _Survey:
@@ -159,7 +159,7 @@ class _Survey:
         kind = self._mission.path.segments[i].kind
         return f"subpath {i + 1} ({kind}) {at(p.x, p.y)}"
 
-    def way(self, current: Current) -> Iterator[Verdict]:
+    def way(self, current: Current) -> Iterator[Finding]:
         """A current across that no heading can cancel, or ahead that the vehicle cannot beat."""
         strength = math.hypot(*current)
         if strength == 0.0:
@@ -171,18 +171,18 @@ class _Survey:
         if abs(self._across[k]) >= limit:
             found = f"{against}, {abs(self._across[k]):.2f} m/s of it across the path {course}"
             expected = f"at most {limit:.2f} m/s across"
-            yield Verdict("refused", self._place(int(self._i[k]), float(self._t[k])), found, expected)
+            yield Finding("refused", self._place(int(self._i[k]), float(self._t[k])), found, expected)
             return
         k = int(np.argmin(self._ground))
         place = self._place(int(self._i[k]), float(self._t[k]))
         found = f"{against}, which leaves {self._ground[k]:.2f} m/s of way"
         found += f" on course {math.degrees(self._chi[k]) % 360.0:.0f} deg"
         if self._ground[k] <= 0.0:
-            yield Verdict("refused", place, found, "some way ahead everywhere")
+            yield Finding("refused", place, found, "some way ahead everywhere")
         elif self._ground[k] < _LITTLE_WAY * self._speed:
-            yield Verdict("warning", place, found, "more, or it will take long")
+            yield Finding("warning", place, found, "more, or it will take long")
 
-    def turns(self, turn: SteadyTurn, name: str) -> Iterator[Verdict]:
+    def turns(self, turn: SteadyTurn, name: str) -> Iterator[Finding]:
         """Curvature beyond the vehicle's.
 
         Over ground the path bends by kappa; through the water the track that keeps to it bends by
@@ -213,20 +213,20 @@ class _Survey:
             expected += ", and some more to steer with"
         if len(tight) > 1:
             expected += f" (likewise on {len(tight) - 1} more)"
-        yield Verdict("refused" if refused else "warning", self._place(i, t), found, expected)
+        yield Finding("refused" if refused else "warning", self._place(i, t), found, expected)
 
 
-def _corners(mission: Mission) -> Iterator[Verdict]:
+def _corners(mission: Mission) -> Iterator[Finding]:
     corners = [joint for joint in mission.path.joints[: mission.once] if joint.geometric == "G0"]
     if corners:
         sharpest = max(corners, key=lambda joint: abs(joint.angle_step))
         count = "a corner" if len(corners) == 1 else f"{len(corners)} corners, the sharpest one"
         found = f"{count} of {abs(math.degrees(sharpest.angle_step)):.0f} deg (G0)"
         place = f"joint {sharpest.index} {at(sharpest.x, sharpest.y)}"
-        yield Verdict("warning", place, found, "a smoothing, since no vehicle turns on the spot")
+        yield Finding("warning", place, found, "a smoothing, since no vehicle turns on the spot")
 
 
-def _crossings(mission: Mission) -> Iterator[Verdict]:
+def _crossings(mission: Mission) -> Iterator[Finding]:
     found = crossings(mission.path.segments[: mission.once], _MOST_CROSSINGS)
     if found:
         first = found[0]
@@ -234,7 +234,7 @@ def _crossings(mission: Mission) -> Iterator[Verdict]:
         if len(found) == _MOST_CROSSINGS:
             times = f"at least {times}"
         place = f"subpaths {first.first} and {first.second} {at(first.x, first.y)}"
-        yield Verdict(
+        yield Finding(
             "warning",
             place,
             f"a path that crosses itself {times}",

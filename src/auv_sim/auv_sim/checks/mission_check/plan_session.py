@@ -6,7 +6,9 @@ import argparse
 import math
 import sys
 from collections import Counter
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from rich import box
 from rich.console import Console
@@ -26,8 +28,7 @@ from auv_path_following.missions import mission_file
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.mission_check import chart, drawing
-from auv_sim.checks.mission_check.flyable import Verdicts, check, refusal
-from auv_sim.cli.plan import STILL, VEHICLE
+from auv_sim.checks.mission_check.flyable import Findings, check, refusal
 from auv_sim.command_line import EXIT_DONE, to_type
 from auv_sim.sim_parameters import SUITE
 from auv_sim.terminal import console as terminal
@@ -36,8 +37,23 @@ from auv_sim.terminal import go_on, wrote
 _ROWS = 40
 
 
-def plan(options: argparse.Namespace) -> int:
-    """Plan as the command line asks; returns the exit code."""
+#: Options of this command that `scripts/mission.py` has as well.
+_FLOWN_WITH = ("mission", "vehicle", "params", "current", "switching")
+
+
+def plan(options: argparse.Namespace, not_default: Mapping[str, Any]) -> int:
+    """Check, draw and export a mission.
+
+    Args:
+        options: the command line's.
+        not_default: those of them that differ from their defaults.
+
+    Returns:
+        The exit code.
+
+    Raises:
+        ConfigurationError: the mission is refused, or a file cannot be used.
+    """
     hull = vehicle.load(options.vehicle)
     mission = mission_file.load(options.mission, hull)
     guidance = _guidance(options, mission)
@@ -59,20 +75,9 @@ def plan(options: argparse.Namespace) -> int:
         wrote(console, options.export, "the path for a chart")
     if verdicts.refusals:
         raise refusal(mission, verdicts, "scripts/mission.py --force would fly it all the same")
-    go_on(console, "Fly it", _command(options))
+    same = {name: not_default[name] for name in _FLOWN_WITH if name in not_default}
+    go_on(console, "Fly it", to_type("mission.py", **same))
     return EXIT_DONE
-
-
-def _command(options: argparse.Namespace) -> str:
-    """What flies it as it was checked."""
-    return to_type(
-        "mission.py",
-        mission=options.mission,
-        vehicle=options.vehicle if options.vehicle != VEHICLE else None,
-        params=options.params,
-        current=options.current if tuple(options.current) != STILL else None,
-        switching=options.switching,
-    )
 
 
 def _guidance(options: argparse.Namespace, mission: Mission) -> PathFollowerConfig:
@@ -86,7 +91,7 @@ def _guidance(options: argparse.Namespace, mission: Mission) -> PathFollowerConf
     return guidance
 
 
-def _tell(console: Console, mission: Mission, hull: Vehicle, verdicts: Verdicts) -> None:
+def _tell(console: Console, mission: Mission, hull: Vehicle, verdicts: Findings) -> None:
     path = mission.path
     times = path.n // max(mission.once, 1)
     console.print(

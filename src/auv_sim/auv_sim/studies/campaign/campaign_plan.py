@@ -26,6 +26,7 @@ from auv_sim.sim_parameters import SUITE
 from auv_sim.studies.campaign import targets
 from auv_sim.studies.campaign.distributions import Value
 from auv_sim.studies.campaign.study_file import load_study
+from auv_sim.studies.settings_changes import changed, multiplied
 from auv_sim.vehicle import sea
 from auv_sim.vehicle.sea import Sea
 
@@ -162,14 +163,14 @@ class StudyPlan:
             if self.study.vary[name].factor:
                 if group not in configs:
                     raise ConfigurationError(f"{self.where}: vary.{name}", "factor", "a value of its own")
-                value = targets.multiplied(configs[group], rest, float(value), f"{self.where}: vary.{name}")
+                value = multiplied(configs[group], rest, float(value), f"{self.where}: vary.{name}")
             given[group][rest] = value
         for group, config in configs.items():
             if config is None and given[group]:
                 raise ConfigurationError(
                     f"{self.where}: vary", f"{group}.*, and no {group}", f"{group}: FILE"
                 )
-            configs[group] = targets.changed(config, given[group], f"{where}: {group}")
+            configs[group] = changed(config, given[group], f"{where}: {group}")
         return Scenario(
             path=mission.path,
             vehicle=configs["vehicle"],

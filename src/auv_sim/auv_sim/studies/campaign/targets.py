@@ -15,9 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any, TypeVar
 
-from auv_msgs_py.settings.schema import flattened, nested, validated
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import Current
 from auv_path_following.curves.composite import CompositePath
@@ -25,7 +23,6 @@ from auv_path_following.curves.segment import PathPoint
 from auv_sim.sim_parameters import CRUISE
 from auv_sim.vehicle.remus import PlantState
 
-T = TypeVar("T")
 #: Steps of the search for a place on a path.
 _HALVINGS = 60
 
@@ -92,31 +89,3 @@ def current(given: Mapping[str, float]) -> Current:
     return Current(
         given.get("north", 0.0) + speed * math.cos(course), given.get("east", 0.0) + speed * math.sin(course)
     )
-
-
-def changed(config: T, values: Mapping[str, Any], where: str) -> T:
-    """A settings object with dotted names replaced: ``{"nism.k1": 0.4}``.
-
-    Raises:
-        ConfigurationError: a name that it does not have, a value that it does not take.
-    """
-    if not values:
-        return config
-    return validated(type(config), nested(_written(config) | dict(values)), where)
-
-
-def multiplied(config: Any, name: str, factor: float, where: str) -> float:
-    """What a settings object has under a dotted name, times a factor.
-
-    Raises:
-        ConfigurationError: it has no number there.
-    """
-    value = _written(config).get(name)
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise ConfigurationError(where, f"no number under {name}", "the name of a number, to multiply")
-    return float(value * factor)
-
-
-def _written(config: Any) -> dict[str, Any]:
-    """As it would stand in a file, flat; what is not given there stays out."""
-    return {name: value for name, value in flattened(config).items() if value is not None}

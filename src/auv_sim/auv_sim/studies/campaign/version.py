@@ -19,6 +19,7 @@ _FLOWN_BY = (
     (auv_sim, "*parameters.py"),
     (auv_sim, "flight/**/*.py"),
     (auv_sim, "vehicle/*.py"),
+    (auv_sim, "studies/settings_changes.py"),
     *(
         (auv_sim, f"studies/campaign/{name}.py")
         for name in ("distributions", "campaign_plan", "study_file", "run_table", "targets")

@@ -7,7 +7,8 @@ import math
 from typing import Any
 
 from auv_path_following.missions import mission_file
-from auv_sim.studies.paper.paper_flights import MISSION, PLANT_NAMES, Flight
+from auv_sim.studies.paper.paper_flights import MISSION, PaperFlight
+from auv_sim.studies.paper.variants import PLANT_NAMES
 
 #: The paper's current of case 3, m/s, NED.
 CURRENT = (0.1, 0.2)
@@ -29,14 +30,14 @@ def beside(offset: float) -> tuple[float, float, float]:
     return x - offset * math.sin(chi), y + offset * math.cos(chi), chi
 
 
-def flights(step: float, time_limit: float = 1500.0) -> dict[str, Flight]:
+def flights(step: float, time_limit: float = 1500.0) -> dict[str, PaperFlight]:
     """Every flight of the reproduction.
 
     Args:
         step: time between odometries, s.
         time_limit: every flight ends here at the latest, s.
     """
-    found: list[Flight] = []
+    found: list[PaperFlight] = []
     aside = beside(OFFSET)
     for plant in PLANT_NAMES:
         for law, (params, controller) in LAWS.items():
@@ -46,10 +47,10 @@ def flights(step: float, time_limit: float = 1500.0) -> dict[str, Flight]:
                 "controller": controller,
                 "step": step,
             }
-            found.append(Flight(name=f"1-{law}-{plant}", switching="off", start=aside, **common))
+            found.append(PaperFlight(name=f"1-{law}-{plant}", switching="off", start=aside, **common))
             if law in ("nism", "robust") or plant != "table2":
-                found.append(Flight(name=f"2-{law}-{plant}", **common))
-        found.append(Flight(name=f"1-on-path-{plant}", plant=plant, switching="off", step=step))
+                found.append(PaperFlight(name=f"2-{law}-{plant}", **common))
+        found.append(PaperFlight(name=f"1-on-path-{plant}", plant=plant, switching="off", step=step))
     case_3: tuple[tuple[str, str | None, str, bool], ...] = (
         ("with", None, "paper", True),
         ("without", None, "paper", False),
@@ -59,7 +60,7 @@ def flights(step: float, time_limit: float = 1500.0) -> dict[str, Flight]:
     )
     for name, guidance, params, compensated in case_3:
         found.append(
-            Flight(
+            PaperFlight(
                 name=f"3-{name}",
                 params=params,
                 law=guidance,
@@ -68,15 +69,21 @@ def flights(step: float, time_limit: float = 1500.0) -> dict[str, Flight]:
                 step=step,
             )
         )
-    found.append(Flight(name="3-aside", start=aside, current=CURRENT, step=step))
+    found.append(PaperFlight(name="3-aside", start=aside, current=CURRENT, step=step))
     # What the paper leaves to others: Delta and kp by themselves.
     adaptive = {"guidance": {"ailos.adaptive.enabled": True}}
     rate = {"autopilot": {"nism.kp_from_rudder": True}}
-    found.append(Flight(name="4-lookahead", params="robust", changes=adaptive, current=CURRENT, step=step))
-    found.append(Flight(name="4-lookahead-aside", params="robust", changes=adaptive, start=aside, step=step))
-    found.append(Flight(name="4-fixed-aside", params="robust", start=aside, step=step))
+    found.append(
+        PaperFlight(name="4-lookahead", params="robust", changes=adaptive, current=CURRENT, step=step)
+    )
+    found.append(
+        PaperFlight(name="4-lookahead-aside", params="robust", changes=adaptive, start=aside, step=step)
+    )
+    found.append(PaperFlight(name="4-fixed-aside", params="robust", start=aside, step=step))
     for plant in PLANT_NAMES:
         found.append(
-            Flight(name=f"4-kp-{plant}", plant=plant, switching="off", start=aside, changes=rate, step=step)
+            PaperFlight(
+                name=f"4-kp-{plant}", plant=plant, switching="off", start=aside, changes=rate, step=step
+            )
         )
     return {flight.name: dataclasses.replace(flight, time_limit=time_limit) for flight in found}

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from auv_msgs_py.settings.result_files import write_text
-from auv_sim.studies.paper.claims.claim import FAILS, HOLDS, Claim
+from auv_sim.studies.paper.claims.paper_claim import FAILS, HOLDS, PaperClaim
 from auv_sim.studies.paper.closest_corner import Bound
 from auv_sim.studies.paper.figures import FIGURES
 
@@ -33,7 +33,11 @@ figure { margin: 1rem 0 } a { color: #0b5fa5 }
 
 
 def write(
-    file: Path, claims: Sequence[Claim], stems: Mapping[int, Path], corner: Mapping[str, Bound], facts: str
+    file: Path,
+    claims: Sequence[PaperClaim],
+    stems: Mapping[int, Path],
+    corner: Mapping[str, Bound],
+    facts: str,
 ) -> None:
     """Write the page.
 
@@ -74,7 +78,7 @@ def _badge(verdict: str) -> str:
     return f"<span class='verdict {kind}'>{html.escape(verdict)}</span>"
 
 
-def _overview(claims: Sequence[Claim]) -> str:
+def _overview(claims: Sequence[PaperClaim]) -> str:
     rows = "".join(
         f"<tr><td><a "
         f"href='#{c.key}'>{html.escape(c.claim)}</a></td><td>{html.escape(c.place)}</td><td>{_badge(c.verdict)}</td></tr>"
@@ -83,7 +87,7 @@ def _overview(claims: Sequence[Claim]) -> str:
     return f"<table><tr><th>claim</th><th>where</th><th>verdict</th></tr>{rows}</table>"
 
 
-def _claim(claim: Claim) -> str:
+def _claim(claim: PaperClaim) -> str:
     rows = "".join(
         f"<tr><td>{html.escape(n.what)}</td><td class='number'>{html.escape(n.text)}</td></tr>"
         for n in claim.numbers

@@ -16,7 +16,8 @@ from auv_path_following import vehicle
 from auv_sim.flight.run_record import Run
 from auv_sim.studies.paper.cases import CURRENT, beside
 from auv_sim.studies.paper.heading_loop import open_loop, phase_lag
-from auv_sim.studies.paper.paper_flights import PLANT_NAMES, PLANTS, Flight, fly
+from auv_sim.studies.paper.paper_flights import PaperFlight, fly
+from auv_sim.studies.paper.variants import PLANT_NAMES, PLANTS
 from auv_sim.views.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, RED, save, style
 
 #: Runs `work` on each item and shows how far it is: (what, work, items) -> results.
@@ -76,7 +77,7 @@ def draw_all(folder: Path, run: Runner) -> None:
     _gains(folder, run)
 
 
-def _settles(flight: Flight) -> float:
+def _settles(flight: PaperFlight) -> float:
     """Largest heading error (deg) in the last 15 s."""
     flown = fly(flight)
     late = flown.t - flown.t[0] > flight.time_limit - 15.0
@@ -95,7 +96,7 @@ def _map(file: Path, run: Runner) -> None:
                     x, y, _ = beside(offset)
                     start = (x, y, course + math.radians(heading))
                     flights.append(
-                        Flight(name="map", plant=plant, start=start, time_limit=_LOOK, **laws[law])
+                        PaperFlight(name="map", plant=plant, start=start, time_limit=_LOOK, **laws[law])
                     )
                     places.append((row, column, i, j))
     cycle = np.zeros((len(laws), len(PLANT_NAMES), len(HEADINGS), len(OFFSETS)))
@@ -159,7 +160,7 @@ def _gains(folder: Path, run: Runner) -> None:
             if gain.name == "nism.kp":
                 changes["nism.kp_from_rudder"] = False
             flights.append(
-                Flight(
+                PaperFlight(
                     name=gain.file,
                     params="robust",
                     start=start,

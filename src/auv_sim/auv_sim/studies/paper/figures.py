@@ -16,7 +16,7 @@ from auv_path_following.curves.composite import CompositePath
 from auv_sim.flight.run_record import Column, Run
 from auv_sim.studies.paper.cases import LAW_LABELS
 from auv_sim.studies.paper.claims import measures as m
-from auv_sim.studies.paper.paper_flights import PLANT_NAMES, PLANTS
+from auv_sim.studies.paper.variants import PLANT_NAMES, PLANTS
 from auv_sim.views.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, PATH, RED, save, style
 
 Runs = Mapping[str, Run]
@@ -28,7 +28,7 @@ _CSV_ROWS = 4000
 _THREE = ("nism", "pid", "smc")
 
 
-class Sheet:
+class FigureSheet:
     """One figure with its numbers.
 
     Args:
@@ -81,7 +81,7 @@ def _time(run: Run) -> Column:
 
 
 def _track(
-    sheet: Sheet, axes: Axes, path: CompositePath, plant: str, runs: Mapping[str, tuple[Run, str]]
+    sheet: FigureSheet, axes: Axes, path: CompositePath, plant: str, runs: Mapping[str, tuple[Run, str]]
 ) -> None:
     style(axes, "x, north (m)")
     axes.set_xlabel("y, east (m)", color=INK)
@@ -92,9 +92,9 @@ def _track(
     axes.set_aspect("equal", adjustable="datalim")
 
 
-def figure_5(runs: Runs, path: CompositePath) -> Sheet:
+def figure_5(runs: Runs, path: CompositePath) -> FigureSheet:
     """Tracks of case 1."""
-    sheet = Sheet(1, 3, (14.0, 4.2), share=False)
+    sheet = FigureSheet(1, 3, (14.0, 4.2), share=False)
     for axes, plant in zip(sheet.panels[0], PLANT_NAMES, strict=True):
         tracks = {f"{LAW_LABELS[k]}": (runs[f"1-{k}-{plant}"], COLORS[k]) for k in _THREE}
         _track(sheet, axes, path, plant, tracks)
@@ -105,9 +105,9 @@ def figure_5(runs: Runs, path: CompositePath) -> Sheet:
     return sheet
 
 
-def figure_6(runs: Runs, path: CompositePath) -> Sheet:
+def figure_6(runs: Runs, path: CompositePath) -> FigureSheet:
     """Errors of case 1, three plants beside each other."""
-    sheet = Sheet(3, 3, (14.0, 7.5), share=False)
+    sheet = FigureSheet(3, 3, (14.0, 7.5), share=False)
     for column, plant in enumerate(PLANT_NAMES):
         start, heading, cross = (sheet.panels[row][column] for row in range(3))
         for law, color in COLORS.items():
@@ -131,9 +131,9 @@ def figure_6(runs: Runs, path: CompositePath) -> Sheet:
     return sheet
 
 
-def figure_7(runs: Runs, path: CompositePath) -> Sheet:
+def figure_7(runs: Runs, path: CompositePath) -> FigureSheet:
     """Heading error with Nuud changed in the plant."""
-    sheet = Sheet(2, 1, (10.0, 5.6))
+    sheet = FigureSheet(2, 1, (10.0, 5.6))
     for axes, plant in zip((row[0] for row in sheet.panels), ("prestero", "mismatch"), strict=True):
         style(axes, "ψe (°)")
         axes.set_title(PLANTS[plant].label, color=INK, fontsize=10)
@@ -148,9 +148,9 @@ def figure_7(runs: Runs, path: CompositePath) -> Sheet:
     return sheet
 
 
-def figure_8(runs: Runs, path: CompositePath) -> Sheet:
+def figure_8(runs: Runs, path: CompositePath) -> FigureSheet:
     """Rudder and its rate, case 1."""
-    sheet = Sheet(2, 3, (14.0, 5.8))
+    sheet = FigureSheet(2, 3, (14.0, 5.8))
     for column, law in enumerate(_THREE):
         angle, speed = sheet.panels[0][column], sheet.panels[1][column]
         run = runs[f"1-{law}-prestero"]
@@ -167,9 +167,9 @@ def figure_8(runs: Runs, path: CompositePath) -> Sheet:
     return sheet
 
 
-def figure_9(runs: Runs, path: CompositePath) -> Sheet:
+def figure_9(runs: Runs, path: CompositePath) -> FigureSheet:
     """Tracks of case 2 at the corner."""
-    sheet = Sheet(1, 3, (14.0, 4.1), share=False)
+    sheet = FigureSheet(1, 3, (14.0, 4.1), share=False)
     corner = path.joints[0]
     for axes, plant in zip(sheet.panels[0], PLANT_NAMES, strict=True):
         _track(
@@ -190,9 +190,9 @@ def figure_9(runs: Runs, path: CompositePath) -> Sheet:
     return sheet
 
 
-def figure_10(runs: Runs, path: CompositePath) -> Sheet:
+def figure_10(runs: Runs, path: CompositePath) -> FigureSheet:
     """Distance to the path around the corner, case 2."""
-    sheet = Sheet(1, 3, (14.0, 4.0), share=False)
+    sheet = FigureSheet(1, 3, (14.0, 4.0), share=False)
     for axes, plant in zip(sheet.panels[0], PLANT_NAMES, strict=True):
         style(axes, "distance to the path (m)")
         for name, label, color in (
@@ -210,9 +210,9 @@ def figure_10(runs: Runs, path: CompositePath) -> Sheet:
     return sheet
 
 
-def figure_11(runs: Runs, path: CompositePath) -> Sheet:
+def figure_11(runs: Runs, path: CompositePath) -> FigureSheet:
     """Errors of case 3 with and without the observer."""
-    sheet = Sheet(2, 1, (10.0, 5.8))
+    sheet = FigureSheet(2, 1, (10.0, 5.8))
     for name, label, color in (
         ("3-without", "without the observer", RED),
         ("3-with", "with the observer", BLUE),
@@ -230,9 +230,9 @@ def figure_11(runs: Runs, path: CompositePath) -> Sheet:
     return sheet
 
 
-def figure_12(runs: Runs, path: CompositePath) -> Sheet:
+def figure_12(runs: Runs, path: CompositePath) -> FigureSheet:
     """The estimated current."""
-    sheet = Sheet(1, 2, (12.0, 4.0), share=False)
+    sheet = FigureSheet(1, 2, (12.0, 4.0), share=False)
     run = runs["3-with"]
     for axes, span, title in (
         (sheet.panels[0][0], 30.0, "first half minute"),
@@ -254,7 +254,7 @@ def figure_12(runs: Runs, path: CompositePath) -> Sheet:
 
 
 #: Number -> what it shows, and what draws it.
-FIGURES: dict[int, tuple[str, Callable[[Runs, CompositePath], Sheet]]] = {
+FIGURES: dict[int, tuple[str, Callable[[Runs, CompositePath], FigureSheet]]] = {
     5: ("Case 1: desired path and tracks", figure_5),
     6: ("Case 1: errors of the heading controllers", figure_6),
     7: ("Case 1: heading error with Nuud changed in the plant", figure_7),

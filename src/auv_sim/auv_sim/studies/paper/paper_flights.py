@@ -6,7 +6,7 @@ import dataclasses
 import functools
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import Any
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.settings import params_file
@@ -18,35 +18,15 @@ from auv_sim.flight import closed_loop
 from auv_sim.flight.closed_loop import Scenario
 from auv_sim.flight.run_record import Run
 from auv_sim.sim_parameters import CRUISE, SUITE
+from auv_sim.studies.paper.variants import PLANTS
+from auv_sim.studies.settings_changes import changed
 from auv_sim.vehicle.remus import PlantState
-
-T = TypeVar("T")
 
 MISSION = "paper_composite"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Plant:
-    """A hull that is flown, and the one that the controller believes in."""
-
-    label: str
-    hull: str
-    controller_model: str
-
-
-PLANTS: Mapping[str, Plant] = {
-    "prestero": Plant(label="Prestero", hull="remus100", controller_model="remus100"),
-    "mismatch": Plant(
-        label="Nuud -4.15 in the plant only", hull="remus100_mismatch", controller_model="remus100"
-    ),
-    "table2": Plant(label="Table 2 as printed", hull="remus100_table2", controller_model="remus100_table2"),
-}
-#: Where figures compare plants.
-PLANT_NAMES = tuple(PLANTS)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Flight:
+class PaperFlight:
     """One flight of the paper's path.
 
     Attributes:
@@ -88,13 +68,14 @@ class Flight:
         autopilot = parameters[topics.AUTOPILOT].autopilot
         switching = dataclasses.replace(guidance.switching, mode=self.switching)
         guidance = dataclasses.replace(guidance, switching=switching, compensate_current=self.compensated)
-        guidance = changed(guidance, {"approach.enabled": False})  # the paper's P waits at the path's start
+        # The paper's P waits at the path's start.
+        guidance = changed(guidance, {"approach.enabled": False}, self.name)
         if self.law is not None:
             guidance = dataclasses.replace(guidance, law=self.law)
         if self.controller is not None:
             autopilot = dataclasses.replace(autopilot, controller=self.controller)
-        guidance = changed(guidance, self.changes.get("guidance", {}))
-        autopilot = changed(autopilot, self.changes.get("autopilot", {}))
+        guidance = changed(guidance, self.changes.get("guidance", {}), self.name)
+        autopilot = changed(autopilot, self.changes.get("autopilot", {}), self.name)
         x, y, psi = self.start or mission.path.start_pose
         plant = PLANTS[self.plant]
         return Scenario(
@@ -112,15 +93,6 @@ class Flight:
         )
 
 
-def changed(config: T, values: Mapping[str, Any]) -> T:
-    """A settings object with dotted names replaced: ``{"nism.k1": 0.4}``."""
-    for name, value in values.items():
-        head, _, rest = name.partition(".")
-        new = changed(getattr(config, head), {rest: value}) if rest else value
-        config = dataclasses.replace(config, **{head: new})  # type: ignore[type-var]
-    return config
-
-
 @functools.cache
 def _mission() -> Any:
     return mission_file.load(MISSION)
@@ -136,6 +108,6 @@ def _vehicle(name: str) -> Vehicle:
     return vehicle.load(name)
 
 
-def fly(flight: Flight) -> Run:
+def fly(flight: PaperFlight) -> Run:
     """Fly it here and now."""
     return closed_loop.fly(flight.scenario())

@@ -14,7 +14,7 @@ from auv_path_following.control.autopilot import AutopilotConfig
 from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.navigation.current_observer import CurrentObserverConfig
 from auv_sim.studies.paper.claims import measures, theorems
-from auv_sim.studies.paper.claims.claim import FAILS, HOLDS, Claim, Number, verdict
+from auv_sim.studies.paper.claims.paper_claim import FAILS, HOLDS, Number, PaperClaim, verdict
 from auv_sim.studies.paper.heading_loop import linear_hull, phase_lag
 
 T = np.arange(0.0, 30.0, 0.05)
@@ -46,7 +46,7 @@ def test_verdicts():
 
 
 def test_a_number_that_is_never_reached_is_null_for_programs():
-    claim = Claim("k", "p", "c", "r", (Number("time", math.inf, "s"), Number("x", 1.0, "m", 1)), HOLDS)
+    claim = PaperClaim("k", "p", "c", "r", (Number("time", math.inf, "s"), Number("x", 1.0, "m", 1)), HOLDS)
     record = json.loads(json.dumps(claim.as_json(), allow_nan=False))
     assert [n["value"] for n in record["numbers"]] == [None, 1.0]
     assert [n.text for n in claim.numbers] == ["never", "1.0 m"]

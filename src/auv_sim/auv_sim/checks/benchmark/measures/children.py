@@ -19,7 +19,7 @@ class BenchmarkFailed(SuiteError):
     """Something that was to be measured did not run."""
 
 
-class Measured(Children):
+class MeasuredProcesses(Children):
     """Child processes in a ROS domain of their own.
 
     Args:
@@ -69,10 +69,10 @@ def interruptible() -> Iterator[StopRequest]:
 
 
 @contextmanager
-def processes(directory: Path) -> Iterator[Measured]:
+def processes(directory: Path) -> Iterator[MeasuredProcesses]:
     """Processes that are stopped at the end, whatever happens."""
     with interruptible() as stop:
-        children = Measured(directory, stop)
+        children = MeasuredProcesses(directory, stop)
         try:
             yield children
         finally:

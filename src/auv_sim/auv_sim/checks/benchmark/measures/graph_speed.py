@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from auv_sim.checks.benchmark.measures.children import BenchmarkFailed
-from auv_sim.checks.benchmark.measures.rig import Setup, Timing, free_running, lockstep
+from auv_sim.checks.benchmark.measures.rig import LockstepTiming, Setup, free_running, lockstep
 from auv_sim.checks.benchmark.measures.start_up import first_command
 from auv_sim.checks.benchmark.scale import Scale
 
@@ -38,7 +38,7 @@ def lockstep_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
     What else the machine does only adds, so of several runs the fastest says most about the program, and
     runs that are compared take turns.
     """
-    runs: dict[str, list[Timing]] = {}
+    runs: dict[str, list[LockstepTiming]] = {}
     for _ in range(scale.rounds):
         for name, setup in _setups(scale.steps):
             tick(f"lockstep, {name}")

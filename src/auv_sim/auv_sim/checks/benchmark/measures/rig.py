@@ -13,9 +13,9 @@ from pathlib import Path
 from typing import Any
 
 from auv_msgs_py.contract import topics
-from auv_sim.checks.benchmark.measures.children import BenchmarkFailed, Measured, processes
+from auv_sim.checks.benchmark.measures.children import BenchmarkFailed, MeasuredProcesses, processes
 from auv_sim.checks.benchmark.measures.stopwatch import BLOCK, MARK
-from auv_sim.checks.benchmark.measures.usage import Memory, Usage, memory
+from auv_sim.checks.benchmark.measures.usage import MemoryUse, Usage, memory
 from auv_sim.launch import mission_plan
 from auv_sim.launch.composed import NODES
 from auv_sim.launch.mission_plan import Plan
@@ -67,16 +67,16 @@ class Observed:
     told: dict[str, Any]
     seconds: float
     usage: dict[str, Usage]
-    memory: dict[str, Memory]
+    memory: dict[str, MemoryUse]
 
 
 @dataclass(frozen=True)
-class Timing:
+class LockstepTiming:
     """One lockstep run: seconds per step of each block of steps, and each process' share of a step."""
 
     blocks: tuple[float, ...]
     usage: dict[str, Usage]
-    memory: dict[str, Memory]
+    memory: dict[str, MemoryUse]
 
     @property
     def step(self) -> float:
@@ -89,14 +89,14 @@ class Timing:
         return sum(used.cpu for used in self.usage.values())
 
 
-def lockstep(setup: Setup) -> Timing:
+def lockstep(setup: Setup) -> LockstepTiming:
     """Run the graph or its floor for so many steps.
 
     Raises:
         BenchmarkFailed: it did not run.
     """
 
-    def start(directory: Path, children: Measured) -> set[str]:
+    def start(directory: Path, children: MeasuredProcesses) -> set[str]:
         names = [name for name in _GRAPH if setup.recorded or name != topics.RECORDER]
         if setup.floor:
             flags = {"--recorded": setup.recorded, "--plain": setup.plain}
@@ -113,7 +113,7 @@ def lockstep(setup: Setup) -> Timing:
     steps = seen.told["steps"]
     share = {name: Usage(used.cpu / steps, used.switches / steps) for name, used in seen.usage.items()}
     blocks = tuple((b - a) / BLOCK for a, b in itertools.pairwise(seen.told["readings"]))
-    return Timing(blocks, share, seen.memory)
+    return LockstepTiming(blocks, share, seen.memory)
 
 
 def free_running(rate: float, seconds: float) -> Observed:
@@ -123,7 +123,7 @@ def free_running(rate: float, seconds: float) -> Observed:
         BenchmarkFailed: it did not run.
     """
 
-    def start(directory: Path, children: Measured) -> set[str]:
+    def start(directory: Path, children: MeasuredProcesses) -> set[str]:
         resolved = mission_plan.make(Options(speed=1.0, quiet=True), directory)
         plant = dataclasses.replace(resolved.parameters[topics.PLANT], step=1.0 / rate)
         resolved = dataclasses.replace(resolved, parameters={**resolved.parameters, topics.PLANT: plant})
@@ -144,7 +144,7 @@ def without_recorder(resolved: Plan) -> Plan:
 
 
 def _start_suite(
-    resolved: Plan, directory: Path, children: Measured, kind: str, steps: int, composed: bool
+    resolved: Plan, directory: Path, children: MeasuredProcesses, kind: str, steps: int, composed: bool
 ) -> None:
     ros = ["-r", f"__ns:={NAMESPACE}", "--params-file", str(resolved.write(directory / "config"))]
     ros += ["-p", "use_sim_time:=true"]
@@ -159,7 +159,9 @@ def _start_suite(
             children.start(name, NODES[name].split(":")[0], ["--ros-args", *ros])
 
 
-def observe(start: Callable[[Path, Measured], set[str]], seconds: float, placed: bool = False) -> Observed:
+def observe(
+    start: Callable[[Path, MeasuredProcesses], set[str]], seconds: float, placed: bool = False
+) -> Observed:
     """Start processes, start their mission, wait for the watch, stop everything.
 
     Args:

@@ -26,18 +26,18 @@ def usage(pid: int) -> Usage:
     return Usage(cpu * 1e-9, switches)
 
 
-class Memory(NamedTuple):
+class MemoryUse(NamedTuple):
     """Resident and proportional set (shared pages divided among their users), bytes."""
 
     rss: int
     pss: int
 
 
-def memory(pid: int) -> Memory:
+def memory(pid: int) -> MemoryUse:
     """What a process occupies now."""
     found = {}
     for line in Path(f"/proc/{pid}/smaps_rollup").read_text().splitlines():
         key, *rest = line.split()
         if key in ("Rss:", "Pss:"):
             found[key] = int(rest[0]) * 1024
-    return Memory(found["Rss:"], found["Pss:"])
+    return MemoryUse(found["Rss:"], found["Pss:"])

@@ -14,8 +14,8 @@ from auv_sim.flight.metrics import OBSERVER_SETTLING_TIME
 from auv_sim.studies.paper.cases import CURRENT
 from auv_sim.studies.paper.claims import measures as m
 from auv_sim.studies.paper.claims import theorems
-from auv_sim.studies.paper.claims.claim import FAILS, HOLDS, Claim, Number, verdict
 from auv_sim.studies.paper.claims.following import Runs
+from auv_sim.studies.paper.claims.paper_claim import FAILS, HOLDS, Number, PaperClaim, verdict
 from auv_sim.studies.paper.claims.theorems import Checked
 
 #: An estimate this near to the truth has converged, m/s.
@@ -28,12 +28,12 @@ FIT, ENVELOPE_FIT = 0.98, 0.9
 RATE_TOLERANCE = 0.15
 
 
-def observer(runs: Runs) -> Claim:
+def observer(runs: Runs) -> PaperClaim:
     """The estimate converges to the true current."""
     run = runs["3-with"]
     error = np.hypot(run.Vx_est - run.Vx_true, run.Vy_est - run.Vy_true)
     worst = float(error[run.t - run.t[0] >= OBSERVER_SETTLING_TIME].max())
-    return Claim(
+    return PaperClaim(
         "observer",
         "Section 5.3, Fig. 12",
         "The observer's estimate converges to the true current.",
@@ -48,7 +48,7 @@ def observer(runs: Runs) -> Claim:
     )
 
 
-def without_observer(runs: Runs, path: CompositePath) -> Claim:
+def without_observer(runs: Runs, path: CompositePath) -> PaperClaim:
     """Without it an error remains, above all on curves."""
     numbers, errors = [], {}
     for name, label in (
@@ -70,7 +70,7 @@ def without_observer(runs: Runs, path: CompositePath) -> Claim:
         "that an error remains": min(errors["without"]) >= 5.0 * max(errors["with"]),
         "that it is larger on curves": errors["without"][1] > errors["without"][0],
     }
-    return Claim(
+    return PaperClaim(
         "without_observer",
         "Section 5.3, Fig. 11",
         "Without the observer the current leaves an error, above all on curved subpaths.",
@@ -92,7 +92,7 @@ def decays(
     eq35: CurrentObserverConfig,
     vehicle: Vehicle,
     thrust: float,
-) -> list[Claim]:
+) -> list[PaperClaim]:
     """Theorems 1, 2, 3, 6, 7."""
     still = theorems.theorem_1(guidance, NO_CURRENT)
     flowing = theorems.theorem_1(guidance, Current(*CURRENT))
@@ -163,7 +163,7 @@ def _errors(runs: Runs, name: str) -> m.Decay:
 
 def _theorem(
     number: int, place: str, text: str, checked: dict[str, Checked], remark: str = "", bound: bool = False
-) -> Claim:
+) -> PaperClaim:
     fit = ENVELOPE_FIT if bound else FIT
     numbers, exponential, rated = [], True, True
     for name, (measured, theory) in checked.items():
@@ -178,7 +178,7 @@ def _theorem(
     outcome = HOLDS if exponential and rated else FAILS
     if exponential and not rated:
         outcome = "holds only with another rate than the theory's"
-    return Claim(
+    return PaperClaim(
         f"theorem_{number}",
         f"Theorem {number}, {place}",
         text,

@@ -9,8 +9,8 @@ from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.run_record import Run
 from auv_sim.studies.paper.cases import LAW_LABELS, OFFSET
 from auv_sim.studies.paper.claims import measures as m
-from auv_sim.studies.paper.claims.claim import Claim, Number, verdict
-from auv_sim.studies.paper.paper_flights import PLANT_NAMES, PLANTS
+from auv_sim.studies.paper.claims.paper_claim import Number, PaperClaim, verdict
+from auv_sim.studies.paper.variants import PLANT_NAMES, PLANTS
 
 #: A subpath counts as followed when its steady part stays within this rms distance, m.
 FOLLOWED = 0.2
@@ -23,7 +23,7 @@ _HEADING_RUNS = ("nism", "pid", "smc")
 Runs = dict[str, Run]
 
 
-def following(runs: Runs, path: CompositePath) -> Claim:
+def following(runs: Runs, path: CompositePath) -> PaperClaim:
     """All subpaths are followed."""
     numbers, held = [], {}
     for start, prefix in (("on the path", "1-on-path"), (f"{OFFSET:g} m beside it", "1-nism")):
@@ -33,7 +33,7 @@ def following(runs: Runs, path: CompositePath) -> Claim:
             name = f"{PLANTS[plant].label}, start {start}"
             numbers.append(Number(f"{name}: worst steady rms distance of a subpath", worst, "m"))
             held[name] = m.completed(run, path) and worst <= FOLLOWED
-    return Claim(
+    return PaperClaim(
         "global_following",
         "Section 5.1, Fig. 5",
         "With the path parametrised as a whole and the virtual point, all subpaths are followed in a row.",
@@ -46,7 +46,7 @@ def following(runs: Runs, path: CompositePath) -> Claim:
     )
 
 
-def convergence(runs: Runs, path: CompositePath) -> list[Claim]:
+def convergence(runs: Runs, path: CompositePath) -> list[PaperClaim]:
     """NISM settles faster, and is nearer to the path afterwards, than PID and SMC."""
     time, error, numbers_t, numbers_e = {}, {}, [], []
     for law in (*_HEADING_RUNS, "robust"):
@@ -63,7 +63,7 @@ def convergence(runs: Runs, path: CompositePath) -> list[Claim]:
     nearer = {LAW_LABELS[o]: error["nism"] < error[o] for o in ("pid", "smc")}
     remark = "The paper does not give the gains of PID and SMC; docs/tuning.md tells how these were found."
     return [
-        Claim(
+        PaperClaim(
             "faster",
             "Section 5.1, Fig. 6",
             "NISM converges faster than PID and conventional sliding mode.",
@@ -74,7 +74,7 @@ def convergence(runs: Runs, path: CompositePath) -> list[Claim]:
             6,
             remark,
         ),
-        Claim(
+        PaperClaim(
             "smaller_error",
             "Section 5.1, Fig. 6",
             "NISM leaves a smaller steady error than PID and conventional sliding mode.",
@@ -87,7 +87,7 @@ def convergence(runs: Runs, path: CompositePath) -> list[Claim]:
     ]
 
 
-def robustness(runs: Runs, path: CompositePath) -> Claim:
+def robustness(runs: Runs, path: CompositePath) -> PaperClaim:
     """A weaker rudder in the plant only."""
     numbers, held = [], {}
     for prefix, how in (("1", "without (44)"), ("2", "with (44)")):
@@ -103,7 +103,7 @@ def robustness(runs: Runs, path: CompositePath) -> Claim:
         kept = error["nism", "mismatch"] <= max(1.5 * error["nism", "prestero"], 0.1)
         smc = error["smc", "mismatch"] >= 2.0 * max(error["nism", "mismatch"], error["smc", "prestero"])
         held[how.split(" ", 1)[1] if prefix == "2" else "no (44)"] = kept and smc
-    return Claim(
+    return PaperClaim(
         "mismatch",
         "Section 5.1, Fig. 7",
         "With Nuud -4.15 instead of -6.15 in the vehicle NISM holds the heading, the model-based "
@@ -119,7 +119,7 @@ def robustness(runs: Runs, path: CompositePath) -> Claim:
     )
 
 
-def rudder_rate(runs: Runs, vehicle: Vehicle) -> Claim:
+def rudder_rate(runs: Runs, vehicle: Vehicle) -> PaperClaim:
     """kp bounds the rate of the rudder."""
     limit = vehicle.rudder.max_rate
     names = [f"1-{law}-prestero" for law in _HEADING_RUNS] + [
@@ -141,7 +141,7 @@ def rudder_rate(runs: Runs, vehicle: Vehicle) -> Claim:
         "kp 0.1745": max(rates["1-nism-prestero"], rates["1-nism-table2"]) <= KP * tolerance,
         "kp from the rudder": max(rates["1-robust-table2"], rates["4-kp-prestero"]) <= limit * tolerance,
     }
-    return Claim(
+    return PaperClaim(
         "rudder_rate",
         "Section 5.1, Fig. 8",
         "kp bounds the rate of the rudder.",
@@ -156,7 +156,7 @@ def rudder_rate(runs: Runs, vehicle: Vehicle) -> Claim:
     )
 
 
-def joints(runs: Runs, path: CompositePath) -> Claim:
+def joints(runs: Runs, path: CompositePath) -> PaperClaim:
     """G1 and G2 joints disturb less than the G0 joint."""
     numbers, held = [], {}
     for plant in PLANT_NAMES:
@@ -170,7 +170,7 @@ def joints(runs: Runs, path: CompositePath) -> Claim:
         ]
         others = max(worst["G1"], worst["G2"])
         held[PLANTS[plant].label] = bool(np.isfinite(others) and worst["G0"] >= 3.0 * others)
-    return Claim(
+    return PaperClaim(
         "joints",
         "Section 5.1",
         "Joints that are G1 or G2 disturb the following less than the G0 joint.",
@@ -182,7 +182,7 @@ def joints(runs: Runs, path: CompositePath) -> Claim:
     )
 
 
-def early_switching(runs: Runs, path: CompositePath) -> Claim:
+def early_switching(runs: Runs, path: CompositePath) -> PaperClaim:
     """Eq. (44) reduces the deviation at the corner."""
     numbers, held = [], {}
     cases = {f"Table 4, {PLANTS[p].label}": (f"1-on-path-{p}", f"2-nism-{p}") for p in PLANT_NAMES}
@@ -194,7 +194,7 @@ def early_switching(runs: Runs, path: CompositePath) -> Claim:
         a, b = m.at_joint(runs[without], path, 0), m.at_joint(runs[early], path, 0)
         numbers += [Number(f"{label}: without (44)", a, "m", 2), Number(f"{label}: with (44)", b, "m", 2)]
         held[label] = bool(np.isfinite(a) and b <= 0.5 * a)
-    return Claim(
+    return PaperClaim(
         "early_switching",
         "Section 5.2, Figs. 9 and 10",
         "Switching early, Eq. (44), makes the error at the corner clearly smaller.",

@@ -8,10 +8,10 @@ import numpy as np
 import pyarrow as pa
 import pytest
 
-from auv_sim.studies.campaign import statistics
 from auv_sim.studies.campaign.campaign_plan import StudyPlan
+from auv_sim.studies.campaign.evaluation import statistics
+from auv_sim.studies.campaign.evaluation.summary import SUMMED_UP, Summary, figure_label, summarise
 from auv_sim.studies.campaign.study_file import FIGURES
-from auv_sim.studies.campaign.summary import TOLD, Summary, figure_label, summarise
 
 STUDY = """\
 version: 1
@@ -34,7 +34,7 @@ def summed(folder: Path, runs: int) -> Summary:
     columns = {name: np.array([row[name] for row in rows]) for name in plan.study.vary}
     figure = 20.0 + columns["initial.starboard"] + 5.0 * columns["autopilot.nism.k1"]
     figure += 2.0 * (columns["guidance.law"] == "los")
-    figures = dict.fromkeys((*TOLD, plan.study.judge), figure)
+    figures = dict.fromkeys((*SUMMED_UP, plan.study.judge), figure)
     flags = dict.fromkeys(("success", "completed"), np.ones(plan.runs, dtype=bool))
     return summarise(plan, pa.table({"run": np.arange(plan.runs)} | columns | flags | figures))
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from auv_sim.studies.campaign import statistics
+from auv_sim.studies.campaign.evaluation import statistics
 
 
 def test_wilson_against_the_textbook() -> None:

@@ -12,13 +12,13 @@ import numpy as np
 import pyarrow as pa
 
 from auv_sim.flight.batch.flight_figures import UNITS
-from auv_sim.studies.campaign import statistics
 from auv_sim.studies.campaign.campaign_plan import StudyPlan
+from auv_sim.studies.campaign.evaluation import statistics
+from auv_sim.studies.campaign.evaluation.statistics import Estimate
 from auv_sim.studies.campaign.run_table import flown_enough
-from auv_sim.studies.campaign.statistics import Estimate
 
 #: The figures that the summary tells about.
-TOLD = (
+SUMMED_UP = (
     "flown_share",
     "rms_distance",
     "largest_distance",
@@ -102,7 +102,7 @@ def summarise(plan: StudyPlan, table: pa.Table) -> Summary:
     rounds = rounds_of(plan, table)
     figures = {
         name: _spread(column(table, name)[completed], rounds[completed] if plan.grids else None, study.seed)
-        for name in dict.fromkeys((*TOLD, study.judge))
+        for name in dict.fromkeys((*SUMMED_UP, study.judge))
     }
     explained = {name: _explained(plan, column(table, name), judged, name) for name in study.vary}
     order = np.lexsort((column(table, "run"), -np.nan_to_num(judged, nan=np.inf), success))

@@ -28,7 +28,7 @@ class Number:
 
 
 @dataclass(frozen=True)
-class Claim:
+class PaperClaim:
     """A claim of the paper after it was measured.
 
     Attributes:

@@ -12,9 +12,9 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from auv_sim.studies.campaign import statistics
 from auv_sim.studies.campaign.campaign_plan import StudyPlan
-from auv_sim.studies.campaign.summary import Summary, column, figure_label, rounds_of
+from auv_sim.studies.campaign.evaluation import statistics
+from auv_sim.studies.campaign.evaluation.summary import Summary, column, figure_label, rounds_of
 from auv_sim.views.plot_style import BLUE, GREEN, GRID, INK, MUTED, ORANGE, RED, save, style
 
 #: Of the start and of the current; other parameters have those of their files.

@@ -45,7 +45,7 @@ _TIME_LIMIT = 200.0
 
 
 @dataclass(frozen=True)
-class Corner:
+class CornerFlight:
     """One flight over one corner.
 
     Attributes:
@@ -82,20 +82,20 @@ class Corner:
 
 
 @dataclass(frozen=True)
-class Result:
+class CornerResult:
     """A corner, and the largest distances to the path: after the switch at the corner, and before it (m)."""
 
-    corner: Corner
+    corner: CornerFlight
     distance: float
     distance_before: float
 
 
 @dataclass(frozen=True)
-class Row:
+class CornerRow:
     """All currents and both sides of one corner.
 
     Attributes:
-        hull, model, angle: as in `Corner`, without the side.
+        hull, model, angle: as in `CornerFlight`, without the side.
         still, worst: largest distance in still water and in any current, m.
         early: the same as `worst`, where the corner comes within the first minute.
         ratio: largest distance over that with the REMUS 100's model, in the worst of all currents.
@@ -110,18 +110,20 @@ class Row:
     ratio: float
 
 
-def corners(pairs: Sequence[tuple[str, str]] = PAIRS, angles: Sequence[int] = ANGLES) -> list[Corner]:
+def corners(pairs: Sequence[tuple[str, str]] = PAIRS, angles: Sequence[int] = ANGLES) -> list[CornerFlight]:
     """Return every flight of the study."""
     directions = [None, *(360.0 / DIRECTIONS * k for k in range(DIRECTIONS))]
     return [
-        Corner(hull, model, side * angle, direction, leg_in)
+        CornerFlight(hull, model, side * angle, direction, leg_in)
         for (hull, model), angle, side, direction, leg_in in itertools.product(
             pairs, angles, SIDES, directions, (SETTLED, EARLY)
         )
     ]
 
 
-def fly(flown: Sequence[Corner], workers: int, done: Callable[[], None] = lambda: None) -> list[Result]:
+def fly(
+    flown: Sequence[CornerFlight], workers: int, done: Callable[[], None] = lambda: None
+) -> list[CornerResult]:
     """Fly them with the batch engine; results in their order.
 
     Args:
@@ -132,12 +134,12 @@ def fly(flown: Sequence[Corner], workers: int, done: Callable[[], None] = lambda
     flights = engine.fly([corner.scenario() for corner in flown], workers, lambda _: done())
     largest = flights.subpath_largest_distance
     return [
-        Result(corner, float(after), float(before))
+        CornerResult(corner, float(after), float(before))
         for corner, before, after in zip(flown, largest[:, 0], largest[:, 1], strict=True)
     ]
 
 
-def table(results: Sequence[Result]) -> list[Row]:
+def table(results: Sequence[CornerResult]) -> list[CornerRow]:
     """Return one row for each hull, model and angle."""
     by_corner = {result.corner: result.distance for result in results}
     rows = []
@@ -146,7 +148,7 @@ def table(results: Sequence[Result]) -> list[Row]:
         settled = [c for c in mine if c.leg_in == SETTLED]
         other = [dataclasses.replace(c, model="remus100") for c in settled]
         rows.append(
-            Row(
+            CornerRow(
                 *key,
                 still=max(by_corner[c] for c in settled if c.direction is None),
                 worst=max(by_corner[c] for c in settled),
@@ -159,11 +161,11 @@ def table(results: Sequence[Result]) -> list[Row]:
     return rows
 
 
-def write(results: Sequence[Result], file: Path) -> None:
+def write(results: Sequence[CornerResult], file: Path) -> None:
     """Write every flight as a line of CSV."""
     with file.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream)
-        names = [field.name for field in dataclasses.fields(Corner)]
+        names = [field.name for field in dataclasses.fields(CornerFlight)]
         writer.writerow([*names, "distance", "distance_before"])
         for result in results:
             writer.writerow([*dataclasses.astuple(result.corner), result.distance, result.distance_before])

@@ -7,14 +7,14 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from auv_msgs_py.settings.result_files import replacing
 from auv_path_following.missions import mission_file
 from auv_sim.flight.batch import engine
-from auv_sim.studies.paper.paper_flights import MISSION, PLANTS, Flight
+from auv_sim.studies.paper.paper_flights import MISSION, PaperFlight
+from auv_sim.studies.paper.variants import PLANTS, START_LAWS
 
 #: Starts lie within this distance of the path's start, m; currents are up to this strong, m/s.
 LARGEST_OFFSET = 30.0
@@ -22,17 +22,9 @@ STRONGEST_CURRENT = 0.4
 #: Subpaths from this one on (counted from 0) count for the rms: what follows the corner.
 FIRST_SUBPATH = 2
 
-#: Law by name -> what differs from a plain flight.
-LAWS: dict[str, dict[str, Any]] = {
-    "robust": {"params": "robust"},
-    "paper": {"params": "paper"},
-    "pid": {"params": "paper", "controller": "pid"},
-    "smc": {"params": "paper", "controller": "smc"},
-}
-
 
 @dataclass(frozen=True)
-class Result:
+class StartResult:
     """One start. Distances in m, the rate in rad/s; NaN where the flight never came so far.
 
     `distance_after_settling` counts from where the path is joined, see `auv_sim.flight.batch.tally.ARRIVED`.
@@ -49,7 +41,7 @@ class Result:
 
 
 @dataclass(frozen=True)
-class Row:
+class StartRow:
     """All starts of one law on one plant: shares, and the worst figures."""
 
     law: str
@@ -64,12 +56,12 @@ class Row:
 
 
 @dataclass(frozen=True)
-class _Job:
+class StartJob:
     law: str
     plant: str
     seed: int
     run: int
-    flight: Flight
+    flight: PaperFlight
 
 
 def starts(runs: int, seed: int) -> list[tuple[tuple[float, float, float], tuple[float, float]]]:
@@ -88,15 +80,15 @@ def starts(runs: int, seed: int) -> list[tuple[tuple[float, float, float], tuple
     return found
 
 
-def jobs(runs: int, seed: int, laws: Sequence[str], plants: Sequence[str]) -> list[_Job]:
+def jobs(runs: int, seed: int, laws: Sequence[str], plants: Sequence[str]) -> list[StartJob]:
     """Every flight of the study, run by run, so that a part of it is a smaller study."""
     return [
-        _Job(
+        StartJob(
             law,
             plant,
             seed,
             run,
-            Flight(name=f"{law}-{plant}-{run}", plant=plant, start=s, current=c, **LAWS[law]),
+            PaperFlight(name=f"{law}-{plant}-{run}", plant=plant, start=s, current=c, **START_LAWS[law]),
         )
         for run, (s, c) in enumerate(starts(runs, seed))
         for law in laws
@@ -104,7 +96,9 @@ def jobs(runs: int, seed: int, laws: Sequence[str], plants: Sequence[str]) -> li
     ]
 
 
-def study(work: Sequence[_Job], workers: int, done: Callable[[], None] = lambda: None) -> list[Result]:
+def study(
+    work: Sequence[StartJob], workers: int, done: Callable[[], None] = lambda: None
+) -> list[StartResult]:
     """Fly all jobs by the batch engine; results in their order.
 
     Args:
@@ -119,7 +113,7 @@ def study(work: Sequence[_Job], workers: int, done: Callable[[], None] = lambda:
     with np.errstate(invalid="ignore"):
         rms = np.sqrt((squares * time).sum(axis=1) / time.sum(axis=1))
     return [
-        Result(
+        StartResult(
             job.law,
             job.plant,
             job.seed,
@@ -133,7 +127,7 @@ def study(work: Sequence[_Job], workers: int, done: Callable[[], None] = lambda:
     ]
 
 
-def table(results: Sequence[Result]) -> list[Row]:
+def table(results: Sequence[StartResult]) -> list[StartRow]:
     """One row for each law and plant, in order of appearance."""
     rows = []
     for law, plant in dict.fromkeys((r.law, r.plant) for r in results):
@@ -142,7 +136,7 @@ def table(results: Sequence[Result]) -> list[Row]:
         # A flight that never came past the corner has no rms: it counts as the worst there is.
         rms = np.array([r.rms_after_corner if r.finished else math.inf for r in mine])
         rows.append(
-            Row(
+            StartRow(
                 law,
                 PLANTS[plant].label,
                 len(mine),
@@ -157,9 +151,9 @@ def table(results: Sequence[Result]) -> list[Row]:
     return rows
 
 
-def write(results: Sequence[Result], file: Path) -> None:
+def write(results: Sequence[StartResult], file: Path) -> None:
     """Every start as a line of CSV."""
     with replacing(file) as draft, draft.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream)
-        writer.writerow(field.name for field in fields(Result))
+        writer.writerow(field.name for field in fields(StartResult))
         writer.writerows(astuple(result) for result in results)

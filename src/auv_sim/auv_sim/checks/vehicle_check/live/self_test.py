@@ -1,0 +1,181 @@
+"""The check checked: every planted mistake over ROS 2, all vehicles at once, paced by their own /clock."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import rclpy
+from rclpy.experimental import EventsExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.signals import SignalHandlerOptions
+from rich.console import Console
+from rosgraph_msgs.msg import Clock
+
+from auv_msgs_py.contract.claim import Claim
+from auv_msgs_py.contract.conversions import set_stamp
+from auv_msgs_py.node.graph_look import GraphLook
+from auv_path_following.vehicle import Vehicle
+from auv_sim.checks.vehicle_check.items.all_items import check, mistakes
+from auv_sim.checks.vehicle_check.live.listener import VehicleListener
+from auv_sim.checks.vehicle_check.live.planted_driver import PlantedDriver
+from auv_sim.checks.vehicle_check.live.small_test import SmallTest
+from auv_sim.checks.vehicle_check.planted import PLANTED, Planted
+from auv_sim.checks.vehicle_check.verdict import Mistake
+from auv_sim.checks.vehicle_check.wiggle import END, FAREWELL
+from auv_sim.command_line import EXIT_DONE, EXIT_FAILED
+from auv_sim.terminal import headed_table
+
+_BEGIN, _STEP = 100.0, 0.05
+#: Wall time for all to find each other, and for one step's messages to arrive, s.
+_DISCOVERY, _ARRIVAL = 30.0, 2.0
+#: A subscription that was matched just now may miss the first message.
+_ATTEMPTS = 10
+
+
+class _Examinee:
+    """A planted vehicle, its listener and its small test."""
+
+    def __init__(self, planted: Planted, hull: Vehicle, drivers: Node, checks: Node) -> None:
+        self.planted = planted
+        self.driver = PlantedDriver(drivers, planted, hull, _BEGIN)
+        self.listener = VehicleListener(checks, self.driver.namespace, hears_commands=False)
+        self.test = SmallTest(self.listener, hull)
+
+    def is_measured(self) -> bool:
+        """Whether all that the driver sent has arrived."""
+        heard, sent = self.listener.recording, self.driver.sent
+        return len(heard.odom) >= sent and (self.planted.bare or len(heard.rudder_state) >= sent)
+
+    def is_commanded(self) -> bool:
+        """Whether all commands have arrived, as far as the mistake allows."""
+        sent = len(self.listener.recording.thrust_cmd)
+        return self.driver.heard >= sent or self.planted.latched_commands
+
+
+def _look_around(node: Node, executor: EventsExecutor) -> None:
+    """Look for another /clock first: a mission may be flying in this domain.
+
+    Raises:
+        GraphTaken: there is one.
+    """
+    claim = Claim(holder="check_vehicle --self-test", namespace="/", names=(), clock=True)
+    look = GraphLook(node, claim)
+    while not look.ended():
+        executor.spin_once(timeout_sec=0.02)
+
+
+class _Graph:
+    """Drivers and checks as two participants: one of them cannot have two types on one topic."""
+
+    def __init__(self) -> None:
+        self._contexts = [rclpy.Context() for _ in range(2)]
+        for context in self._contexts:
+            rclpy.init(args=[], context=context, signal_handler_options=SignalHandlerOptions.NO)
+        clock = Parameter("use_sim_time", value=True)
+        plain: dict[str, Any] = {"start_parameter_services": False, "use_global_arguments": False}
+        self.drivers = Node("planted_driver", context=self._contexts[0], **plain)
+        self.checks = Node("check_vehicle", context=self._contexts[1], parameter_overrides=[clock], **plain)
+        self.driving, self.checking = (EventsExecutor(context=context) for context in self._contexts)
+        self.driving.add_node(self.drivers)
+        self.checking.add_node(self.checks)
+
+    def close(self) -> None:
+        """Leave the graph."""
+        for node in (self.drivers, self.checks):
+            node.destroy_node()
+        for context in self._contexts:
+            context.try_shutdown()
+
+
+def _until(condition: Callable[[], bool], patience: float, *executors: EventsExecutor) -> None:
+    """Spin until the condition holds, for `patience` s of wall time at most."""
+    deadline = time.monotonic() + patience
+    while not condition() and time.monotonic() < deadline:
+        for executor in executors:
+            executor.spin_once(timeout_sec=0.005)
+
+
+def find_all(
+    planted: Sequence[Planted], hull: Vehicle, progress: Callable[[float], None] = lambda _: None
+) -> dict[str, set[Mistake]]:
+    """Check simulated vehicles over ROS 2, each with its mistake.
+
+    Args:
+        planted: the drivers.
+        hull: the vehicle.
+        progress: called with the share of the work that is done.
+
+    Returns:
+        Name of the driver -> what was found.
+
+    Raises:
+        GraphTaken: another /clock is published in this domain.
+    """
+    graph = _Graph()
+    try:
+        _look_around(graph.drivers, graph.driving)
+        clock = graph.drivers.create_publisher(Clock, "/clock", 10)
+        examinees = [_Examinee(p, hull, graph.drivers, graph.checks) for p in planted]
+
+        def is_matched() -> bool:
+            return all(one.driver.is_ready() for one in examinees) and clock.get_subscription_count() > 0
+
+        _until(is_matched, _DISCOVERY, graph.driving, graph.checking)
+        _drive(examinees, graph, clock, progress)
+        recordings = [one.listener.finish(_BEGIN, sim_time=True) for one in examinees]
+    finally:
+        graph.close()
+    return {
+        one.planted.name: mistakes(check(recording, one.planted.file(hull)))
+        for one, recording in zip(examinees, recordings, strict=True)
+    }
+
+
+def _drive(
+    examinees: Sequence[_Examinee], graph: _Graph, clock: Any, progress: Callable[[float], None]
+) -> None:
+    """Run all small tests: time, measurements, commands, each step when the one before has arrived."""
+    now, is_going, message = _BEGIN, True, Clock()
+
+    def is_on_time() -> bool:
+        return examinees[0].listener.now() >= now - 1e-6
+
+    while is_going:
+        set_stamp(message.clock, round(now * 1e9))
+        for _ in range(_ATTEMPTS):
+            clock.publish(message)
+            _until(is_on_time, _ARRIVAL, graph.checking)
+            if is_on_time():
+                break
+        for one in examinees:
+            one.driver.live(now)
+        _until(lambda: all(one.is_measured() for one in examinees), _ARRIVAL, graph.checking)
+        ticks = [one.test.tick() for one in examinees]
+        is_going = all(ticks)
+        _until(lambda: all(one.is_commanded() for one in examinees), _ARRIVAL, graph.driving)
+        now += _STEP
+        progress((now - _BEGIN) / (END + FAREWELL))
+
+
+def self_test(console: Console, hull: Vehicle) -> int:
+    """Check every planted mistake and print what was found; return the exit code."""
+    begin = time.monotonic()
+    with console.status("checking simulated vehicles") as status:
+        found = find_all(
+            PLANTED, hull, lambda share: status.update(f"checking simulated vehicles: {share:.0%}")
+        )
+    table = headed_table("one mistake each", ("driver", "verdict", "found"))
+    wrong = 0
+    for planted in PLANTED:
+        right = found[planted.name] == ({planted.mistake} if planted.mistake else set())
+        wrong += not right
+        names = "; ".join(sorted(mistake.value for mistake in found[planted.name])) or "nothing"
+        table.add_row(planted.name, "[green]ok[/green]" if right else "[bold red]missed[/bold red]", names)
+    console.print(table)
+    console.print(
+        f"{len(PLANTED) - wrong} of {len(PLANTED)} as they should be, {time.monotonic() - begin:.0f} s"
+    )
+    return EXIT_FAILED if wrong else EXIT_DONE

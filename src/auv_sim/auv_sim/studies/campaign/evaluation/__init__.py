@@ -1,0 +1,1 @@
+"""What a campaign shows: statistics, a summary, tables for the terminal, pictures."""
