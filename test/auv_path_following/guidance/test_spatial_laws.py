@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from auv_msgs_py.values.types import Current, Navigation, WaterVelocity
-from auv_path_following.curves.spatial_point import Tangent
+from auv_path_following.curves.spatial.spatial_point import Tangent
 from auv_path_following.guidance.laws.ailos import AilosConfig, adaptive_offset, ailos
 from auv_path_following.guidance.laws.law import LawInputs, NoState
 from auv_path_following.guidance.spatial_laws import (

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from auv_msgs_py.values.angles import wrap
 from auv_msgs_py.values.pure import bounded, pure
-from auv_path_following.curves.spatial_point import Tangent
+from auv_path_following.curves.spatial.spatial_point import Tangent
 from auv_path_following.guidance.laws.ailos import adaptive_offset
 
 #: Three components, of a place (m) or of a velocity (m/s).

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from auv_path_following.curves.kinds.fermat import FermatSpiral
 from auv_path_following.curves.rows import PathRows, evaluate
-from auv_path_following.curves.spatial_point import (
+from auv_path_following.curves.spatial.spatial_point import (
     SpatialPoint,
     curvatures_of,
     lifted,
