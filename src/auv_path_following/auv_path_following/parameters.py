@@ -1,4 +1,4 @@
-"""All parameters of the three nodes as settings: ROS-free, so that files are checked before a node starts."""
+"""All parameters of the three nodes as settings; ROS-free, so that files are checked before a node starts."""
 
 from __future__ import annotations
 
@@ -15,34 +15,34 @@ from auv_path_following.missions.mission_state import HoldingConfig
 from auv_path_following.navigation.current_observer import CurrentObserverConfig
 from auv_path_following.navigation.navigation_gate import NavigationGateConfig
 
-if TYPE_CHECKING:  # reading missions is guidance's affair; the other nodes start faster without it
+if TYPE_CHECKING:  # only guidance reads missions; the other nodes start faster without it
     from auv_path_following.missions.mission_file import Mission
 
 
 @settings
 class NodeParameters:
-    """What every node of the suite has."""
+    """Parameters of every node of the suite."""
 
     lockstep: bool = setting(False, "answer every input exactly once, reliable subscriptions, no watchdogs")
     recorded: bool = setting(
-        False, "in lockstep: a recorder takes part, nothing is published before it listens"
+        False, "in lockstep: a recorder takes part, nothing is published before it has subscribed"
     )
-    flood_rate: float = setting(200.0, "a topic that comes more often is reported", unit="Hz", ge=1.0, le=1e6)
+    flood_rate: float = setting(200.0, "a topic with a higher rate is reported", unit="Hz", ge=1.0, le=1e6)
 
 
 @settings
 class NavigationParameters(NodeParameters):
-    """What every node that reads the vehicle's navigation has."""
+    """Parameters of every node that reads the vehicle's navigation."""
 
     frames: FrameIds = setting(factory=FrameIds, doc="accepted frame ids")
-    vehicle: str = setting("remus100", "vehicle file, or the name of a shipped one: what it can do")
-    gate: NavigationGateConfig = setting(factory=NavigationGateConfig, doc="which odometry is believed")
+    vehicle: str = setting("remus100", "vehicle file, or the name of a shipped one")
+    gate: NavigationGateConfig = setting(factory=NavigationGateConfig, doc="which odometry is accepted")
     lateness: float = setting(
-        1.0, "odometry that comes so much later after its stamp than it used to is refused", unit="s",
+        1.0, "odometry is refused when its delay behind its stamp has grown by more than this", unit="s",
         ge=0.05, le=60.0,
     )  # fmt: skip
     odometry_timeout: float = setting(
-        0.5, "odometry silent for this long is an error; the autopilot sets rudder and thrust to 0", unit="s",
+        0.5, "without odometry for this long: an error; the autopilot sets rudder and thrust to 0", unit="s",
         ge=0.1, le=10.0, live=True,
     )  # fmt: skip
 
@@ -63,17 +63,17 @@ class GuidanceParameters(NavigationParameters):
 
     mission: str = setting("paper_composite", "mission file, or the name of a shipped one")
     mission_switching: bool = setting(
-        True, "at the start guidance.switching takes over what the mission file asks for"
+        True, "at the start guidance.switching takes the values of the mission file"
     )
     guidance: PathFollowerConfig = setting(factory=PathFollowerConfig, doc="virtual point, law and switching")
-    holding: HoldingConfig = setting(factory=HoldingConfig, doc="what missing navigation leads to")
+    holding: HoldingConfig = setting(factory=HoldingConfig, doc="response to missing navigation")
     limits: LimitsConfig = setting(factory=LimitsConfig, doc="what ends a mission")
     water_velocity_timeout: float = setting(
         1.0, "oldest velocity through water that is still used", unit="s", ge=0.05, le=60.0, live=True
     )
     current_timeout: float = setting(
         5.0,
-        "older estimates of the current are reported, and the last one is kept",
+        "an older estimate of the current is reported, and still used",
         unit="s",
         ge=0.1,
         le=600.0,
@@ -81,11 +81,11 @@ class GuidanceParameters(NavigationParameters):
     )
 
     def with_mission_overrides(self, mission: Mission) -> GuidanceParameters:
-        """These parameters with the mission's own switching, unless `mission_switching` is off."""
+        """Return these parameters with the mission's own switching, unless `mission_switching` is off."""
         if not self.mission_switching:
             return self
-        wish = mission.switching
-        switching = with_overrides(self.guidance.switching, wish.mode, wish.radius)
+        own = mission.switching
+        switching = with_overrides(self.guidance.switching, own.mode, own.radius)
         return dataclasses.replace(self, guidance=dataclasses.replace(self.guidance, switching=switching))
 
 
@@ -95,5 +95,5 @@ class AutopilotParameters(NavigationParameters):
 
     autopilot: AutopilotConfig = setting(factory=AutopilotConfig, doc="controller and gains")
     reference_timeout: float = setting(
-        0.5, "guidance silent for this long: rudder and thrust go to 0", unit="s", ge=0.1, le=10.0, live=True
+        0.5, "without guidance for this long: rudder and thrust go to 0", unit="s", ge=0.1, le=10.0, live=True
     )

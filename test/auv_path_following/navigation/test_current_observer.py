@@ -146,7 +146,7 @@ def test_it_begins_with_no_current_and_reset_begins_anew():
 
 
 def settled(psi=0.0):
-    """An observer that knows a current of (0.1, 0.2) m/s, and where its vehicle is at time t."""
+    """An observer with an estimate of (0.1, 0.2) m/s, and the pose of its vehicle at time t."""
     at, water = drifting(0.1, 0.2, 1.9, 0.0, psi), WaterVelocity(1.9, 0.0)
     observer = CurrentObserver()
     for k in range(601):

@@ -1,4 +1,4 @@
-"""Which navigation is believed."""
+"""Which odometry is accepted."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from auv_msgs_py.values.types import Navigation
 from auv_path_following.navigation.navigation_gate import NavigationGate, NavigationGateConfig, Passed
 
-BELIEVED, REFUSED, MOVED = Passed.BELIEVED, Passed.REFUSED, Passed.MOVED
+ACCEPTED, REFUSED, MOVED = Passed.ACCEPTED, Passed.REFUSED, Passed.MOVED
 DT = 0.1
 TOP_SPEED = 2.0
 
@@ -37,14 +37,14 @@ def fly(gate, measurements, under_way=True, dt=DT):
         min_size=2, max_size=40,
     )
 )  # fmt: skip
-def test_what_a_vehicle_can_do_is_always_believed(steps):
+def test_what_a_vehicle_can_do_is_always_accepted(steps):
     gate = NavigationGate(NavigationGateConfig(), TOP_SPEED)
     x = y = psi = 0.0
     for k, (speed, course, r) in enumerate(steps):
         x += speed * math.cos(course) * DT
         y += speed * math.sin(course) * DT + 1e-6 * k
         psi = math.remainder(psi + r * DT, 2.0 * math.pi)
-        assert gate.judge(Navigation(x, y, psi, r), DT, True).passed is BELIEVED
+        assert gate.judge(Navigation(x, y, psi, r), DT, True).passed is ACCEPTED
 
 
 @pytest.mark.parametrize(
@@ -57,24 +57,24 @@ def test_what_a_vehicle_can_do_is_always_believed(steps):
     ],
 )
 def test_a_lone_outlier_is_refused_and_named(gate, wrong, named):
-    assert set(fly(gate, [at(k * DT) for k in range(11)])) == {BELIEVED}
+    assert set(fly(gate, [at(k * DT) for k in range(11)])) == {ACCEPTED}
     judged = gate.judge(wrong, DT, True)
     assert judged.passed is REFUSED
     assert named in judged.found
-    assert fly(gate, [at(1.2), at(1.3)]) == [BELIEVED, BELIEVED]
+    assert fly(gate, [at(1.2), at(1.3)]) == [ACCEPTED, ACCEPTED]
 
 
 @pytest.mark.parametrize("jump", [{"north": 100.0}, {"psi": math.pi}, {"psi": 1.6}])
-def test_a_jump_that_stays_is_believed_after_a_while_and_only_then(gate, jump):
+def test_a_jump_that_stays_is_accepted_after_a_while_and_only_then(gate, jump):
     fly(gate, [at(k * DT) for k in range(11)])
     verdicts = fly(gate, [at(k * DT, **jump) for k in range(11, 60)])
     first = verdicts.index(MOVED)
     assert set(verdicts[:first]) == {REFUSED}
     assert first * DT == pytest.approx(3.0, abs=2 * DT)
-    assert set(verdicts[first + 1 :]) == {BELIEVED}
+    assert set(verdicts[first + 1 :]) == {ACCEPTED}
 
 
-def test_places_that_do_not_agree_are_never_believed(gate):
+def test_places_that_do_not_agree_are_never_accepted(gate):
     fly(gate, [at(k * DT) for k in range(11)])
     wild = [at(k * DT, north=300.0 + 100.0 * (k % 2)) for k in range(11, 100)]
     assert set(fly(gate, wild)) == {REFUSED}
@@ -87,7 +87,7 @@ def test_places_that_do_not_agree_are_never_believed(gate):
         (Navigation(0.0, 0.1, 0.4, 0.0), "a heading that turned"),
     ],
 )
-def test_a_place_that_runs_away_in_small_steps_is_never_believed(gate, step, named):
+def test_a_place_that_runs_away_in_small_steps_is_never_accepted(gate, step, named):
     """Every step is within the margin of one; together they are not, nor do they agree among themselves."""
     judged = [
         gate.judge(
@@ -97,7 +97,7 @@ def test_a_place_that_runs_away_in_small_steps_is_never_believed(gate, step, nam
     ]
     assert named in next(j.found for j in judged if j.passed is REFUSED)
     # A heading that spins is now and then where it may be.
-    assert [j.passed for j in judged].count(BELIEVED) < 200
+    assert [j.passed for j in judged].count(ACCEPTED) < 200
     assert MOVED not in [j.passed for j in judged]
 
 
@@ -109,19 +109,19 @@ def test_a_place_that_runs_away_in_small_steps_is_never_believed(gate, step, nam
     )
 )
 @settings(deadline=None, max_examples=20)
-def test_noise_within_the_margins_is_believed_for_ever(noise):
+def test_noise_within_the_margins_is_accepted_for_ever(noise):
     gate = NavigationGate(NavigationGateConfig(), TOP_SPEED)
     for k, (x, y, psi) in enumerate(noise):
-        assert gate.judge(Navigation(x, 2.0 * k * DT + y, psi, 0.0), DT, True).passed is BELIEVED
+        assert gate.judge(Navigation(x, 2.0 * k * DT + y, psi, 0.0), DT, True).passed is ACCEPTED
 
 
-def test_after_refused_positions_a_heading_that_turned_meanwhile_is_believed(gate):
+def test_after_refused_positions_a_heading_that_turned_meanwhile_is_accepted(gate):
     def turning(k, north=0.0):
         return at(k * DT, north=north, psi=0.7 * k * DT, r=0.7)
 
     fly(gate, [turning(k) for k in range(11)])
     assert set(fly(gate, [turning(k, north=100.0 * (1 + k % 2)) for k in range(11, 41)])) == {REFUSED}
-    assert set(fly(gate, [turning(k) for k in range(41, 60)])) == {BELIEVED}
+    assert set(fly(gate, [turning(k) for k in range(41, 60)])) == {ACCEPTED}
 
 
 def test_an_impossible_yaw_rate_never_becomes_possible(gate):
@@ -129,15 +129,15 @@ def test_an_impossible_yaw_rate_never_becomes_possible(gate):
     assert set(fly(gate, [at(k * DT, r=100.0) for k in range(1, 200)])) == {REFUSED}
 
 
-def test_a_first_measurement_is_believed_wherever_it_is(gate):
-    assert gate.judge(at(0.0, north=1e5, psi=3.0), 0.0, False).passed is BELIEVED
+def test_a_first_measurement_is_accepted_wherever_it_is(gate):
+    assert gate.judge(at(0.0, north=1e5, psi=3.0), 0.0, False).passed is ACCEPTED
     gate.reset()
-    assert gate.judge(at(0.0, north=-1e5), DT, False).passed is BELIEVED
+    assert gate.judge(at(0.0, north=-1e5), DT, False).passed is ACCEPTED
 
 
 def test_after_a_dropout_the_vehicle_may_be_where_it_can_have_come_to(gate):
     fly(gate, [at(0.0)])
-    assert gate.judge(at(10.0, psi=2.0), 10.0, True).passed is BELIEVED
+    assert gate.judge(at(10.0, psi=2.0), 10.0, True).passed is ACCEPTED
     assert gate.judge(at(10.0, north=80.0), 10.0, True).passed is REFUSED
 
 
@@ -145,39 +145,39 @@ def test_a_frozen_pose_is_refused_until_it_changes(gate):
     fly(gate, [at(k * DT) for k in range(11)])
     verdicts = fly(gate, [at(1.0)] * 40)
     assert verdicts.index(REFUSED) * DT == pytest.approx(2.0, abs=2 * DT)
-    # The vehicle has been stopped since, which is no reason to believe it again.
+    # The vehicle has been stopped since, which is no reason to accept it again.
     assert set(fly(gate, [at(1.0)] * 40, under_way=False)) == {REFUSED}
-    assert fly(gate, [at(1.1), at(1.2)]) == [BELIEVED, BELIEVED]
+    assert fly(gate, [at(1.1), at(1.2)]) == [ACCEPTED, ACCEPTED]
 
 
 def test_a_pose_that_froze_under_way_is_refused_also_when_the_vehicle_is_stopped_meanwhile(gate):
     fly(gate, [at(k * DT) for k in range(11)])
-    assert set(fly(gate, [at(1.0)] * 10)) == {BELIEVED}
+    assert set(fly(gate, [at(1.0)] * 10)) == {ACCEPTED}
     assert REFUSED in fly(gate, [at(1.0)] * 15, under_way=False)
 
 
 @pytest.mark.parametrize("late", [1, 3])
 def test_a_vehicle_that_stops_dead_may_lie_still_though_its_log_says_so_a_moment_later(gate, late):
     fly(gate, [at(k * DT) for k in range(11)])
-    assert set(fly(gate, [at(1.0)] * late)) == {BELIEVED}
-    assert set(fly(gate, [at(1.0)] * 1000, under_way=False)) == {BELIEVED}
+    assert set(fly(gate, [at(1.0)] * late)) == {ACCEPTED}
+    assert set(fly(gate, [at(1.0)] * 1000, under_way=False)) == {ACCEPTED}
 
 
 def test_after_a_freeze_the_vehicle_may_be_where_it_can_have_come_to(gate):
     fly(gate, [at(k * DT) for k in range(11)])
     fly(gate, [at(1.0)] * 50)
-    assert fly(gate, [at(6.0, psi=1.5), at(6.1, psi=1.6)]) == [BELIEVED, BELIEVED]
+    assert fly(gate, [at(6.0, psi=1.5), at(6.1, psi=1.6)]) == [ACCEPTED, ACCEPTED]
 
 
 def test_a_vehicle_that_lies_still_may_say_so(gate):
-    assert set(fly(gate, [at(1.0)] * 1000, under_way=False)) == {BELIEVED}
+    assert set(fly(gate, [at(1.0)] * 1000, under_way=False)) == {ACCEPTED}
 
 
 def test_a_slow_navigation_behind_a_fast_odometry_is_not_frozen(gate):
     slow = [at(math.floor(k * DT)) for k in range(100)]  # a new pose once a second
-    assert set(fly(gate, slow)) == {BELIEVED}
+    assert set(fly(gate, slow)) == {ACCEPTED}
 
 
 def test_it_can_be_switched_off():
     gate = NavigationGate(NavigationGateConfig(enabled=False), TOP_SPEED)
-    assert fly(gate, [at(0.0), at(0.1, north=1000.0, r=50.0)]) == [BELIEVED, BELIEVED]
+    assert fly(gate, [at(0.0), at(0.1, north=1000.0, r=50.0)]) == [ACCEPTED, ACCEPTED]

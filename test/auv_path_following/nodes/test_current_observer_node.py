@@ -1,4 +1,4 @@
-"""current_observer by itself, over real DDS."""
+"""current_observer alone, over real DDS."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def test_unknown_frames_are_refused_with_both_names(bench: Bench) -> None:
 
 
 def test_a_new_place_found_without_velocity_through_water_is_no_current(bench: Bench) -> None:
-    """Believed while the log was silent, 60 m away; two seconds later the log is back."""
+    """Accepted while the log was silent, 60 m away; two seconds later the log is back."""
     node = bench.start(CurrentObserverNode, gate__accept_after=0.3, water_velocity_timeout=0.2)
     for k in range(40):
         t = 1.0 + 0.1 * k

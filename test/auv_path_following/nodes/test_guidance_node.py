@@ -1,4 +1,4 @@
-"""ailos_guidance by itself, over real DDS."""
+"""ailos_guidance alone, over real DDS."""
 
 from __future__ import annotations
 
@@ -125,7 +125,7 @@ def test_a_jump_is_refused_and_the_mission_aborts_where_the_vehicle_turns_out_to
         bench.water(3.6 + 0.1 * k, 1.9)
         bench.odometry(3.6 + 0.1 * k, Navigation(5.0, 100.0, 0.0, 0.0))
     bench.until(lambda: node.health.refused["odom"] == 4)
-    bench.until(lambda: bench.diagnosed("from the last that was believed"))
+    bench.until(lambda: bench.diagnosed("from the last accepted one"))
     assert bench.values(topics.DESIRED_THRUST)[-1] == 6.0
     for k in range(4, 8):
         bench.water(3.6 + 0.1 * k, 1.9)
@@ -135,7 +135,7 @@ def test_a_jump_is_refused_and_the_mission_aborts_where_the_vehicle_turns_out_to
     bench.until(lambda: bench.values(topics.DESIRED_THRUST)[-1] == 0.0)
 
 
-def test_a_pose_that_froze_is_believed_again_when_somebody_starts_anew(bench: Bench, tmp_path: Any) -> None:
+def test_a_pose_that_froze_is_accepted_again_after_a_new_start(bench: Bench, tmp_path: Any) -> None:
     node = fly_north(bench, tmp_path, gate__frozen_after=1.0, holding__hold_after=0.4)
     for k in range(12):
         bench.measurement(3.6 + 0.1 * k, Navigation(5.0, 0.0, 0.0, 0.0), 1.9, ("map", "base_link"))

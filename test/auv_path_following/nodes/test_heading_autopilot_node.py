@@ -1,4 +1,4 @@
-"""heading_autopilot by itself, over real DDS."""
+"""heading_autopilot alone, over real DDS."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ def test_a_heading_that_jumps_does_not_reach_the_rudder(bench: Bench) -> None:
         bench.until(lambda k=k: len(bench.values(topics.RUDDER_CMD)) > k)
     bench.odometry(1.3, Navigation(0.6, 0.0, 1.5, 0.0))
     bench.until(lambda: node.health.refused["odom"] == 1)
-    bench.until(lambda: bench.diagnosed("a heading 86 deg from the last that was believed"))
+    bench.until(lambda: bench.diagnosed("a heading 86 deg from the last accepted one"))
     assert all(abs(rudder) < 1e-3 for rudder in bench.values(topics.RUDDER_CMD))
 
 
@@ -120,7 +120,7 @@ def test_thrust_that_contradicts_the_state_of_the_mission_is_not_obeyed_for_long
     assert bench.values(topics.THRUST_CMD)[-1] == 0.0
 
 
-def test_a_pose_that_froze_is_believed_again_when_a_mission_is_started(bench: Bench) -> None:
+def test_a_pose_that_froze_is_accepted_again_when_a_mission_is_started(bench: Bench) -> None:
     """It is not when a mission goes on that held."""
     node = bench.start(HeadingAutopilotNode, gate__frozen_after=1.0)
 
@@ -136,12 +136,12 @@ def test_a_pose_that_froze_is_believed_again_when_a_mission_is_started(bench: Be
     bench.send(topics.MISSION_STATE, String(data="running"))
     assert not [answered(1.0 + 0.1 * k) for k in range(15)][-1]
     stops = ((["holding", "holding", "running"], False), (["aborted", "aborted", "running"], True))
-    for words, believed in stops:
+    for words, accepted in stops:
         for word in words:
             bench.send(topics.MISSION_STATE, String(data=word))
         bench.until(lambda: node._references.mission.at(time.monotonic()) == "running")
         bench.spin(0.2)
-        assert answered(2.5 + 0.1 * believed) is believed
+        assert answered(2.5 + 0.1 * accepted) is accepted
 
 
 def test_a_mission_state_that_is_repeated_is_no_start(bench: Bench) -> None:
@@ -190,7 +190,7 @@ def test_a_clock_of_the_computer_that_is_set_forward_makes_nothing_late(
     assert not node.health.refused
 
 
-def test_whoever_stops_the_autopilot_stops_the_vehicle(bench: Bench) -> None:
+def test_stopping_the_autopilot_stops_the_vehicle(bench: Bench) -> None:
     node = bench.start(HeadingAutopilotNode)
     bench.odometry(1.0, NORTHWARD)
     bench.reference(math.pi / 2, 0.0, 6.0)

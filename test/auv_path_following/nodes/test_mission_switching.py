@@ -1,4 +1,4 @@
-"""ailos_guidance by itself takes over the switching that its mission asks for."""
+"""ailos_guidance alone takes the switching from its mission."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from node_bench import Bench
 
 @pytest.fixture
 def mission(tmp_path: Path) -> str:
-    file = tmp_path / "wish.yaml"
+    file = tmp_path / "switched.yaml"
     route = "loiter: {centre: [0, 0], radius: 30}\nswitching: {mode: all, radius: 3}\n"
-    file.write_text(f"version: 1\nname: wish\nframe: ned\nspeed: 1.5\n{route}", encoding="utf-8")
+    file.write_text(f"version: 1\nname: switched\nframe: ned\nspeed: 1.5\n{route}", encoding="utf-8")
     return str(file)
 
 
@@ -23,8 +23,8 @@ def mission(tmp_path: Path) -> str:
 def test_its_parameters_show_what_counts(
     bench: Bench, mission: str, taken: bool, expected: tuple[str, float]
 ) -> None:
-    wishes = {"mission": mission, "mission_switching": taken, "guidance__switching__mode": "off"}
-    node = bench.start(GuidanceNode, **wishes)
+    parameters = {"mission": mission, "mission_switching": taken, "guidance__switching__mode": "off"}
+    node = bench.start(GuidanceNode, **parameters)
     names = ("guidance.switching.mode", "guidance.switching.radius")
     assert tuple(node.get_parameter(name).value for name in names) == expected
     circles = node.keeper.config.follower.progress.circles

@@ -53,11 +53,11 @@ def test_a_second_publisher_of_a_topic_is_named(bench: Bench) -> None:
     node = bench.start(CurrentObserverNode)
     stranger = rclpy.create_node("stranger", namespace="/auv")
     stranger.create_publisher(qos.message_class(topics.ODOM.type), "odom", 10)
-    told = {"condition publishers": "odom is published by /auv/bench, /auv/stranger"}
+    conditions = {"condition publishers": "odom is published by /auv/bench, /auv/stranger"}
     arrays = bench.received[topics.DIAGNOSTICS.name]
     bench.until(
         lambda: any(
-            told.items() <= {pair.key: pair.value for pair in status.values}.items()
+            conditions.items() <= {pair.key: pair.value for pair in status.values}.items()
             for array in arrays for status in array.status if status.hardware_id == node.get_name()
         )
     )  # fmt: skip

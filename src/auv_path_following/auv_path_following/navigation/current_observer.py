@@ -1,4 +1,4 @@
-"""Estimates the current from position and velocity through the water, Eq. (35)."""
+"""Estimate the current from position and velocity through the water, Eq. (35)."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class CurrentObserverConfig:
 
 
 class Observer(NamedTuple):
-    """Configuration: gains and longest gap as in the settings, and `transition` for steps of `dt` s."""
+    """Configuration: gains and longest gap (s) of the settings, and `transition` for steps of `dt` s."""
 
     k_ob1: float
     k_ob2: float
@@ -41,13 +41,13 @@ class Observer(NamedTuple):
 
 
 class ObserverState(NamedTuple):
-    """What the observer keeps from step to step.
+    """State of the observer.
 
     Attributes:
-        seen: whether there is a last measurement.
+        seen: whether there was a measurement.
         x, y, wx, wy: its position (m) and velocity through the water (m/s), NED.
         ex, ey: position error, m.
-        blind: time since the velocity through the water was known, s.
+        blind: time since the last velocity through the water, s.
         current: the estimate, m/s, NED.
     """
 
@@ -64,7 +64,7 @@ class ObserverState(NamedTuple):
 
 @pure
 def relocated(state: ObserverState) -> ObserverState:
-    """Return the state in which the next position does not continue the last one; the current is kept."""
+    """Return the state without a last position; the current is kept."""
     return ObserverState(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, state.current)
 
 
@@ -79,21 +79,21 @@ def observe(
 ) -> ObserverState:
     """Estimate the current by Eq. (35), discretised exactly for any step.
 
-    Between two measurements the position is taken to move on a straight line and the velocity through
-    water, turned into the world frame, to be the mean of its ends. Then the drift seen over the step,
+    Between two measurements the position is assumed to move on a straight line, and the velocity through
+    water, rotated into the world frame, to be the mean of its two values. Then the drift seen over the step,
     d = (eta_k - eta_k-1)/dt - mean(R(psi) nu_r), is constant, and the linear system
 
         e' = d - Vhat - k_ob2 e,      Vhat' = k_ob1 e,      e = eta - eta_hat
 
-    has the closed-form solution used here: there is no step at which it becomes unstable, and 10 Hz
-    and 50 Hz give the same estimate.
+    has the closed-form solution used here: it is stable at any step, and 10 Hz and 50 Hz give the same
+    estimate.
 
     Args:
         config: gains.
         state: of the observer.
         navigation: measured pose, NED.
         water: measured velocity through the water, FRD.
-        has_water: whether that is known now; otherwise the estimate rests.
+        has_water: whether `water` is valid; if not, the estimate rests.
         dt: seconds since the last step, greater than 0; ignored on the first one.
     """
     dt += state.blind
@@ -136,11 +136,11 @@ class CurrentObserver:
         self.config = prepare(config)
 
     def reset(self) -> None:
-        """Forget everything; the next update starts with an estimate of zero."""
+        """Reset the state; the next update starts with an estimate of zero."""
         self.state = ObserverState()
 
     def relocate(self) -> None:
-        """The next position does not continue the last one; the current is kept."""
+        """Forget the last position, which the next one does not continue; keep the current."""
         self.state = relocated(self.state)
 
     @property
@@ -149,7 +149,7 @@ class CurrentObserver:
         return self.state.current
 
     def update(self, navigation: Navigation, water: WaterVelocity | None, dt: float) -> ObserverState:
-        """Take in one measurement: `observe`; a `water` of None is not known now."""
+        """Take one measurement, see `observe`; `water` is None where it is unknown."""
         has_water = water is not None
         self.state = observe(self.config, self.state, navigation, water or NO_WATER, has_water, dt)
         return self.state
@@ -160,7 +160,7 @@ def prepare(config: CurrentObserverConfig, dt: float = 0.0) -> Observer:
 
     Args:
         config: gains.
-        dt: usual step, s, whose transition is computed once; any other step has its own.
+        dt: usual step, s: its transition is computed once, that of any other step when it occurs.
     """
     k_ob1, k_ob2 = float(config.k_ob1), float(config.k_ob2)
     return Observer(k_ob1, k_ob2, float(config.longest_gap), dt, transition(k_ob1, k_ob2, dt))
@@ -171,8 +171,8 @@ def transition(k_ob1: float, k_ob2: float, dt: float) -> tuple[float, float, flo
     """Return the matrix exponential of [[-k_ob2, -1], [k_ob1, 0]] dt, row by row; Eq. (36) in e and Vhat.
 
     With m = -k_ob2/2 and q = sqrt(k_ob2^2/4 - k_ob1) (real or imaginary) it is
-    e^(m dt) (cosh(q dt) I + sinh(q dt)/q (A - m I)). It is put together from powers of e that only fall,
-    so that it is finite however large the gains and the step are.
+    e^(m dt) (cosh(q dt) I + sinh(q dt)/q (A - m I)). It is computed from decaying exponentials only, so
+    that it is finite for any gains and any step.
     """
     m = -0.5 * k_ob2
     square = m * m - k_ob1

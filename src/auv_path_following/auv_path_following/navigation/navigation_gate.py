@@ -1,4 +1,4 @@
-"""Which navigation is believed: jumps, impossible rates and a frozen pose are kept out. ROS-free."""
+"""Gate for odometry: refuse jumps, impossible rates and a frozen pose. ROS-free."""
 
 from __future__ import annotations
 
@@ -14,33 +14,33 @@ from auv_msgs_py.values.types import Navigation
 
 @settings
 class NavigationGateConfig:
-    """What is believed of an odometry. In lockstep the gate rests, as all watchdogs do."""
+    """Bounds of plausible odometry. In lockstep the gate rests, as all watchdogs do."""
 
     enabled: bool = setting(True, "refuse odometry that no vehicle could have produced", live=True)
     current: float = setting(
         2.5, "largest current: the vehicle's top speed and this bound its speed over ground", unit="m/s",
         ge=0.0, le=10.0, live=True,
     )  # fmt: skip
-    yaw_rate: float = setting(2.5, "largest yaw rate that is believed", unit="rad/s", gt=0.0, live=True)
+    yaw_rate: float = setting(2.5, "largest plausible yaw rate", unit="rad/s", gt=0.0, live=True)
     position_margin: float = setting(
-        5.0, "a position may jump so far at once: a fix corrects dead reckoning", unit="m", ge=0.0, live=True
+        5.0, "largest jump of a position: a fix corrects dead reckoning", unit="m", ge=0.0, live=True
     )  # fmt: skip
-    heading_margin: float = setting(0.35, "a heading may jump so far at once", unit="rad", ge=0.0, live=True)
+    heading_margin: float = setting(0.35, "largest jump of a heading", unit="rad", ge=0.0, live=True)
     accept_after: float = setting(
-        3.0, "a new place that agrees with itself for this long is believed", unit="s", ge=0.1, le=600.0,
+        3.0, "measurements at a new place that agree for this long are accepted", unit="s", ge=0.1, le=600.0,
         live=True,
     )  # fmt: skip
     frozen_after: float = setting(
-        2.0, "the same pose to the last bit for this long under way is not believed", unit="s", ge=0.1,
+        2.0, "an identical pose, to the last bit, for this long under way is refused", unit="s", ge=0.1,
         le=600.0, live=True,
     )  # fmt: skip
 
 
-#: For so long what says that the vehicle moves may be older than the pose that says it does not, s.
+#: Largest lag of the motion indication behind the pose, s.
 _LAG = 0.5
 
 
-#: Over so much time a place must not run away, s, with a mark every so often.
+#: Time over which drift is bounded, s, and number of marks in it.
 _WINDOW = 5.0
 _MARKS = 10
 
@@ -48,24 +48,24 @@ _MARKS = 10
 class Passed(enum.Enum):
     """What to do with a measurement."""
 
-    BELIEVED = "believed"
+    ACCEPTED = "accepted"
     REFUSED = "refused"
     MOVED = "moved"
 
 
 class Judgement(NamedTuple):
-    """The verdict and, for a refusal or a move, what was found and what was expected."""
+    """Decision and, for a refusal or a move, what was found and what was expected."""
 
     passed: Passed
     found: str = ""
     expected: str = ""
 
 
-_BELIEVED = Judgement(Passed.BELIEVED)
+_ACCEPTED = Judgement(Passed.ACCEPTED)
 
 
 class _Mark(NamedTuple):
-    """Where the vehicle was, and how far it had turned by then; s, m, rad."""
+    """Position and heading turned so far at a time; s, m, rad."""
 
     time: float
     x: float
@@ -74,14 +74,14 @@ class _Mark(NamedTuple):
 
 
 class _Track:
-    """What one vehicle can have measured, one place after the other.
+    """Consecutive positions that one vehicle can have measured.
 
-    A margin for noise and corrections is granted to each measurement, and twice over the last few seconds:
-    so noise is borne for ever, and a place that runs away is found though each of its steps is small.
+    Each measurement has a margin for noise and corrections, and the last `_WINDOW` s have twice this margin.
+    So noise is always accepted, and a position that drifts away is refused even if each step is small.
 
     Args:
         top_speed: through the water, m/s.
-        first: where it begins.
+        first: first measurement.
     """
 
     def __init__(self, top_speed: float, first: Navigation) -> None:
@@ -93,16 +93,16 @@ class _Track:
         self._marks: deque[_Mark] = deque([_Mark(0.0, first.x, first.y, 0.0)])
 
     def wait(self, dt: float) -> None:
-        """Time passes."""
+        """Let `dt` s pass without an accepted position."""
         self._since += dt
         self._time += dt
 
     def turn_unseen(self, turn: float) -> None:
-        """By its yaw rate the vehicle has turned so far (rad) while its place was not believed."""
+        """Add a turn (rad) by the measured yaw rate while positions are refused."""
         self._turned += turn
 
     def add(self, navigation: Navigation) -> None:
-        """It went on to here."""
+        """Append an accepted position."""
         self._heading += self._turned + self._turn_to(navigation)
         self.last = navigation
         self._since = self._turned = 0.0
@@ -113,7 +113,7 @@ class _Track:
                 marks.popleft()
 
     def wrong(self, navigation: Navigation, c: NavigationGateConfig, unseen: float) -> Judgement | None:
-        """Why it cannot have gone on to here; None if it can. It may have turned unseen for `unseen` s."""
+        """Return why the track cannot continue here, or None; it may have turned for `unseen` s."""
         if abs(navigation.r) > c.yaw_rate:
             found = f"a yaw rate of {navigation.r:.3g} rad/s"
             return Judgement(Passed.REFUSED, found, f"at most {c.yaw_rate:g} rad/s")
@@ -121,12 +121,12 @@ class _Track:
         jump = math.hypot(navigation.x - self.last.x, navigation.y - self.last.y)
         allowed = c.position_margin + speed * self._since
         if jump > allowed:
-            found = f"a position {jump:.1f} m from the last that was believed"
+            found = f"a position {jump:.1f} m from the last accepted one"
             return Judgement(Passed.REFUSED, found, f"at most {allowed:.1f} m after {self._since:.2f} s")
         turn = abs(self._turn_to(navigation))
         allowed = c.heading_margin + c.yaw_rate * unseen
         if turn > allowed:
-            found = f"a heading {math.degrees(turn):.0f} deg from the last that was believed"
+            found = f"a heading {math.degrees(turn):.0f} deg from the last accepted one"
             return Judgement(Passed.REFUSED, found, f"at most {math.degrees(allowed):.0f} deg")
         return self._runs_away(navigation, c, speed)
 
@@ -150,14 +150,14 @@ class _Track:
 
 
 class NavigationGate:
-    """Compares each measurement with those that were believed before.
+    """Compare each measurement with the accepted ones before it.
 
-    A jump is refused, and so is all that follows it, until the measurements are back where they can be
-    believed, or have agreed among themselves for `accept_after`: then the vehicle is where they say
-    (`MOVED`), and what was derived from the old place has to be forgotten.
+    A jump is refused, and so are the measurements after it, until they continue the accepted track again, or
+    have agreed among themselves for `accept_after`. Then the vehicle is at the new place (`MOVED`), and
+    everything derived from the old place must be discarded.
 
-    A pose that repeats itself to the last bit while the vehicle is under way is refused until it changes, or
-    until somebody vouches for it with a `reset`.
+    A pose that repeats to the last bit while the vehicle is under way is refused until it changes or until a
+    `reset`.
 
     Args:
         config: bounds.
@@ -170,40 +170,40 @@ class NavigationGate:
         self.reset()
 
     def reset(self) -> None:
-        """The next measurement is a first one."""
-        self._believed: _Track | None = None
+        """Forget all measurements; the next one is the first."""
+        self._accepted: _Track | None = None
         self._other: _Track | None = None
         self._agreed = 0.0
         self._still = 0.0
 
     def judge(self, navigation: Navigation, dt: float, under_way: bool) -> Judgement:
-        """Take in a measurement.
+        """Judge a measurement.
 
         Args:
             navigation: what was measured, NED.
-            dt: seconds since the last measurement, believed or not.
-            under_way: whether the vehicle is known to move.
+            dt: time since the last measurement, accepted or not, s.
+            under_way: whether another source says that the vehicle moves.
         """
         if not self.config.enabled:
             self.reset()
-            return _BELIEVED
-        believed = self._believed
-        if believed is None:
+            return _ACCEPTED
+        accepted = self._accepted
+        if accepted is None:
             wrong = _Track(self.top_speed, navigation).wrong(navigation, self.config, 0.0)
         else:
-            believed.wait(dt)
-            wrong = believed.wrong(navigation, self.config, dt + self._still)
+            accepted.wait(dt)
+            wrong = accepted.wrong(navigation, self.config, dt + self._still)
         if wrong is None:
             return self._moving_or_frozen(navigation, dt, under_way)
-        if believed is not None and abs(navigation.r) <= self.config.yaw_rate:
-            believed.turn_unseen(navigation.r * dt)
+        if accepted is not None and abs(navigation.r) <= self.config.yaw_rate:
+            accepted.turn_unseen(navigation.r * dt)
         if not self._agrees(navigation, dt):
             return wrong
-        self._believe(navigation)
+        self._start_track(navigation)
         return Judgement(Passed.MOVED, wrong.found, wrong.expected)
 
     def _agrees(self, navigation: Navigation, dt: float) -> bool:
-        """Whether what was refused has agreed with itself for long enough."""
+        """Return whether the refused measurements have agreed for `accept_after`."""
         other = self._other
         if other is not None:
             other.wait(dt)
@@ -214,26 +214,26 @@ class NavigationGate:
         self._other, self._agreed = _Track(self.top_speed, navigation), 0.0
         return False
 
-    def _believe(self, navigation: Navigation) -> None:
-        """A first measurement, or a new place."""
-        self._believed, self._other = _Track(self.top_speed, navigation), None
+    def _start_track(self, navigation: Navigation) -> None:
+        """Begin the accepted track, at a first measurement or a new place."""
+        self._accepted, self._other = _Track(self.top_speed, navigation), None
         self._agreed = self._still = 0.0
 
     def _moving_or_frozen(self, navigation: Navigation, dt: float, under_way: bool) -> Judgement:
         self._other, self._agreed = None, 0.0
-        if self._believed is None:
-            self._believe(navigation)
-            return _BELIEVED
-        if navigation[:3] != self._believed.last[:3]:
-            self._believed.add(navigation)
+        if self._accepted is None:
+            self._start_track(navigation)
+            return _ACCEPTED
+        if navigation[:3] != self._accepted.last[:3]:
+            self._accepted.add(navigation)
             self._still = 0.0
-            return _BELIEVED
-        # What went on under way goes on until the pose changes: somebody else may have stopped the vehicle.
+            return _ACCEPTED
+        # A standstill that began under way counts until the pose changes, even if the vehicle stops.
         if under_way or self._still > _LAG:
             self._still += dt
         else:
-            self._believed.add(navigation)
+            self._accepted.add(navigation)
             self._still = 0.0
         if self._still >= self.config.frozen_after:
             return Judgement(Passed.REFUSED, f"the same pose for {self._still:.1f} s under way", "a new one")
-        return _BELIEVED
+        return _ACCEPTED

@@ -1,4 +1,4 @@
-"""current_observer: estimates the current from odometry and velocity through water."""
+"""current_observer: estimate the current from odometry and velocity through water."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from auv_path_following.parameters import ObserverParameters
 
 
 class CurrentObserverNode(SuiteNode):
-    """Publishes `current_estimate` once per odometry that comes with a fresh velocity through water."""
+    """Publish `current_estimate` once per odometry with a fresh velocity through water."""
 
     def __init__(self, **arguments: Any) -> None:
         super().__init__(topics.OBSERVER, ObserverParameters, **arguments)

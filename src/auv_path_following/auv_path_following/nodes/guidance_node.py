@@ -1,4 +1,4 @@
-"""ailos_guidance: follows the mission's path with virtual point, subpath switching and a guidance law."""
+"""ailos_guidance: follow the mission's path with virtual point, subpath switching and a guidance law."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from auv_path_following.parameters import GuidanceParameters
 
 
 class GuidanceNode(SuiteNode):
-    """Answers every odometry with one set of references; keeps the mission's state."""
+    """Answer every odometry with one set of references; keep the mission's state."""
 
     def __init__(self, **arguments: Any) -> None:
         super().__init__(topics.GUIDANCE, GuidanceParameters, **arguments)
@@ -72,8 +72,8 @@ class GuidanceNode(SuiteNode):
         late = thrust > 0.0 and inputs.current_age > p.current_timeout
         self.health.warn("current", f"no fresh {topics.CURRENT_ESTIMATE.name}" if late else "")
         if thrust > 0.0 and has_water:
-            if news := self._approach.update(output.approach, dt):
-                self.get_logger().info(news)
+            if text := self._approach.update(output.approach, dt):
+                self.get_logger().info(text)
             self.health.warn("approach", self._approach.complaint(p.guidance.approach.overdue))
         self._to_go = distance_to_go(self.mission.path, self.keeper.state.follower)
         self._messages.fill(output, thrust, self._to_go, inputs.stamp)

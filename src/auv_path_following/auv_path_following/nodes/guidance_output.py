@@ -1,32 +1,20 @@
-"""What guidance publishes: its path, and its result for each odometry, as the contract's messages."""
+"""Messages of guidance: the path, and the result for each odometry."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from rclpy.clock import Clock, ClockType
-from std_msgs.msg import String
-
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import PATH_FRAME, fill_pose, path_message, set_stamp
 from auv_msgs_py.contract.frames import flip_yaw
-from auv_msgs_py.contract.mission_word import PERIOD, TIMES, MissionState
 from auv_msgs_py.contract.wire import Float64, PoseStamped, Vector3Stamped
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.guidance.follow import GuidanceOutput
-from auv_path_following.missions.mission_state import (
-    HOLDING,
-    NAVIGATION_LOST,
-    STATES,
-    MissionStatus,
-    Reason,
-    words,
-)
 
 #: Distance between the poses of `path`, m.
 _PATH_SPACING = 1.0
-#: A path longer than so many metres is published in larger steps.
+#: Most poses of `path`; a longer path has larger steps.
 _PATH_POSES = 20_000
 
 
@@ -41,73 +29,14 @@ def whole_path(path: CompositePath, stamp: int) -> Any:
     return path_message([(point.x, point.y, point.chi) for point in points], stamp)
 
 
-class MissionReport:
-    """Publishes the mission's state as `mission_word` says: a new one twice, any once every `PERIOD`.
-
-    Free running by wall time, because a state must come when the ROS clock stands still. In lockstep by
-    mission time and as part of an answer, so that a run has the same messages each time.
-
-    Args:
-        node: whose publisher, log and diagnostics they are.
-    """
-
-    def __init__(self, node: SuiteNode) -> None:
-        self._node = node
-        self._publisher = node.advertise(topics.MISSION_STATE)
-        self._lockstep = bool(node.parameters.lockstep)
-        self.word: MissionState | None = None
-        self.reason = self._detail = ""
-        self._published = 0.0
-        if not self._lockstep:
-            node.create_timer(PERIOD, self._publish, clock=Clock(clock_type=ClockType.STEADY_TIME))
-
-    def values(self) -> dict[str, str]:
-        """State and reason, for the diagnostics."""
-        return {"mission_state": str(self.word or ""), "reason": self.reason}
-
-    def publish(self, mission: MissionStatus) -> None:
-        """Publish the state where it has changed."""
-        word = STATES[mission.state]
-        if word is self.word:
-            return
-        health = self._node.health
-        if word is MissionState.HOLDING:
-            self._detail = health.refusals.latest
-        self.word, self.reason = word, words(mission.reason, self._detail)
-        stopped = word in (MissionState.HOLDING, MissionState.ABORTED)
-        health.error("mission", "")
-        health.error("mission", f"{word.value}: {self.reason}" if stopped else "", log=False)
-        for _ in range(TIMES):
-            self._publish()
-        self._node.get_logger().info(f"{word.value}: {self.reason}")
-
-    def resumed(self, hold_after: float) -> None:
-        """Publish that the mission held, if only a gap between two measurements shows it."""
-        if self.word is MissionState.RUNNING:
-            self.publish(MissionStatus(HOLDING, Reason(NAVIGATION_LOST, 0.0, 0.0, hold_after)))
-
-    def answered(self, running: bool) -> None:
-        """Publish the state as part of the answer to an odometry, where it is due.
-
-        In lockstep an answer without thrust is always followed by the state: the simulator waits for it.
-        """
-        if self._lockstep and (not running or abs(self._node.now() - self._published) >= PERIOD):
-            self._publish()
-
-    def _publish(self) -> None:
-        self._published = self._node.now()
-        if self.word is not None:
-            self._publisher.publish(String(data=self.word.value))
-
-
 class GuidanceMessages:
-    """Messages that are filled and published again and again; those that the autopilot waits for go first.
+    """The messages of one step, reused; those that the autopilot waits for go first.
 
     Args:
-        node: whose publishers they are.
+        node: ailos_guidance.
 
     Attributes:
-        output: what they were filled with last.
+        output: the latest result.
     """
 
     def __init__(self, node: SuiteNode) -> None:
@@ -124,13 +53,13 @@ class GuidanceMessages:
         self._error.header.frame_id = PATH_FRAME
 
     def fill(self, output: GuidanceOutput, thrust: float, to_go: float, stamp: int) -> None:
-        """Take a result in NED.
+        """Write a result (NED) into the messages.
 
         Args:
             output: the result.
             thrust: desired thrust, N.
-            to_go: path to the end, m.
-            stamp: of the odometry that it answers, ns.
+            to_go: length of path to the end, m.
+            stamp: of the answered odometry, ns.
         """
         self.output, floats = output, self._floats
         floats[topics.DESIRED_YAW][1].data = flip_yaw(output.psi_d)
@@ -144,7 +73,7 @@ class GuidanceMessages:
         vector.x, vector.y, vector.z = output.xe, output.ye, output.psi_e
 
     def publish(self) -> None:
-        """Send them all."""
+        """Publish all messages."""
         for publisher, message in self._floats.values():
             publisher.publish(message)
         self._virtual_point.publish(self._pose)

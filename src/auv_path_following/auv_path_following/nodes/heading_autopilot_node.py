@@ -1,4 +1,4 @@
-"""heading_autopilot: from the references of guidance to rudder and thrust."""
+"""heading_autopilot: turn the references of guidance into rudder and thrust."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ _STOPPED = "rudder and thrust are 0"
 
 
 class HeadingAutopilotNode(SuiteNode):
-    """Sends both commands exactly once per odometry, and zeros of itself when its inputs fall silent.
+    """Publish both commands exactly once per odometry, and zeros when the inputs stop.
 
-    An odometry is answered as soon as guidance has answered it too. Without lockstep one that is still
-    open when the next comes is answered with the last reference, or, if that is too old, with a stop.
+    An odometry is answered as soon as guidance has answered it. Without lockstep an odometry that is still
+    open when the next one comes is answered with the last reference, or with a stop if that is too old.
     """
 
     def __init__(self, **arguments: Any) -> None:
@@ -43,8 +43,8 @@ class HeadingAutopilotNode(SuiteNode):
         if not self.parameters.lockstep:
             self.every(0.1, self._watch)
 
-    def validate(self, wanted: AutopilotParameters) -> None:
-        HeadingAutopilot(self.autopilot.vehicle, wanted.autopilot)  # raises where that cannot be
+    def validate(self, proposed: AutopilotParameters) -> None:
+        HeadingAutopilot(self.autopilot.vehicle, proposed.autopilot)  # raises where the gains do not fit
 
     def configure(self) -> None:
         self.autopilot.configure(self.parameters.autopilot)
@@ -61,7 +61,7 @@ class HeadingAutopilotNode(SuiteNode):
         self._intake.under_way = self._command.thrust > 0.0
         navigation, dt, stamp, _, moved = self._intake.take(message)
         free = not self.parameters.lockstep
-        # A gap between stamps as one in time: which is noticed first must not matter.
+        # A gap between stamps counts as a gap in time: which is found first must not matter.
         if moved or (free and dt > self.parameters.odometry_timeout):
             self.autopilot.reset()
         if free and topic in self._pairing:
@@ -90,14 +90,14 @@ class HeadingAutopilotNode(SuiteNode):
         self.answer(self._publish)
 
     def _watch(self) -> None:
-        """Stop the vehicle when odometry, which drives everything, is silent."""
+        """Stop the vehicle when no odometry comes, because only odometry triggers an answer."""
         if self._intake.silent:
             self.autopilot.reset()
             self._pairing.clear()
             self._stop()
 
     def close(self) -> None:
-        """Stop the vehicle with the autopilot."""
+        """Stop the vehicle when the autopilot ends."""
         if not self.parameters.lockstep:
             self._stop()
 

@@ -1,4 +1,4 @@
-"""The mission in its node: started and aborted by services, held without navigation, begun anew with time."""
+"""The mission in its node: started and aborted by services, held without navigation, reset with time."""
 
 from __future__ import annotations
 
@@ -28,17 +28,17 @@ from auv_path_following.missions import limits
 from auv_path_following.missions import mission_state as states
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.missions.mission_state import MissionStatus, Reason
-from auv_path_following.nodes.guidance_output import MissionReport
+from auv_path_following.nodes.mission_report import MissionReport
 
 
 class MissionKeeper:
-    """Configuration and state of guidance, and what changes them besides measurements.
+    """Configuration and state of guidance, and their changes by services, parameters and time.
 
     Args:
         node: ailos_guidance.
-        mission: what is flown.
+        mission: to fly.
         agility: of the hull.
-        begins: called when a mission begins anew, with whether a start was requested.
+        begins: called when a mission begins again, with whether a start was requested.
     """
 
     def __init__(
@@ -53,19 +53,19 @@ class MissionKeeper:
         self.report = MissionReport(node)
 
     def offer(self) -> None:
-        """Offer the services, and watch the time without navigation."""
+        """Offer the services, and start the watchdog of navigation."""
         self._node.create_service(Trigger, topics.START_SERVICE, self._on_start)
         self._node.create_service(Trigger, topics.ABORT_SERVICE, self._on_abort)
         if not self._node.parameters.lockstep:
             self._node.every(0.1, self._watch)
 
     def configure(self) -> None:
-        """Take the node's parameters; the place on the path is kept."""
+        """Take the node's parameters; keep the place on the path."""
         self.config = self._prepared()
         self.state = reconfigured(self.config, self.state)
 
     def take_switching(self) -> None:
-        """Make the mission's switching the parameters', where it can be seen and changed."""
+        """Set the parameters to the mission's switching, where it can be seen and changed."""
         parameters = self._node.parameters
         switching = parameters.with_mission_overrides(self._mission).guidance.switching
         if switching != parameters.guidance.switching:
@@ -74,7 +74,7 @@ class MissionKeeper:
             self._node.set_parameters([mode, radius])
 
     def step(self, measured: Measured, current: Current, dt: float) -> tuple[GuidanceOutput, float]:
-        """Take one measurement: `guide`; return the follower's result and the desired thrust, N."""
+        """Take one measurement, see `guide`; return the follower's result and the desired thrust, N."""
         if measured.has_water:
             self._last_usable = measured.now
         self.state, output, thrust, has_resumed = guide(
@@ -85,7 +85,7 @@ class MissionKeeper:
         return output, thrust
 
     def restart(self) -> None:
-        """The odometry's stamps went back. If the clock did not, only the vehicle's clock was set: go on."""
+        """Begin again after stamps that went back, but not if only the vehicle's clock was set back."""
         went_back = self._clock_went_back or self._node.now() < (self._last_usable or 0.0)
         if self._node.parameters.lockstep or went_back:
             self._begin(False)
@@ -112,13 +112,13 @@ class MissionKeeper:
         return response
 
     def _begin(self, by_request: bool) -> None:
-        """Go to the beginning of the path: after a start, or when time itself began again."""
+        """Go to the beginning of the path, after a start or a restart of time."""
         self.state = at_the_beginning(self.config, self.state.mission, empty_approach())
         self._last_usable, self._clock_went_back = None, False
         self._begins(by_request)
 
     def _watch(self) -> None:
-        """Hold a mission that gets no usable navigation, and end one that holds for too long."""
+        """Hold a mission without usable navigation, and end one that holds for too long."""
         now, mission = self._node.now(), self.state.mission
         if self._last_usable is None or now < self._last_usable:
             self._clock_went_back = self._last_usable is not None

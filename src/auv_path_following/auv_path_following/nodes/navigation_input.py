@@ -1,7 +1,7 @@
 """Odometry and velocity through water (and, for guidance, the current estimate) as one input.
 
 In lockstep the messages of one step are paired by stamp. Otherwise the odometry triggers, and the newest
-other messages are used unless they are older than a bound: a foreign vehicle never waits.
+other messages are used unless they are older than a bound: the vehicle never waits.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ from auv_path_following.nodes.odometry_intake import OdometryIntake
 
 
 class Inputs(NamedTuple):
-    """One step's input. `water` is None when there is none that is fresh enough; the stamp is in ns.
+    """Input of one step. `water` is None where no fresh value is known; `dt` in s, `stamp` in ns.
 
-    `water_age`, `current_age`: s; of what has never come, since the first odometry.
-    `moved`: this navigation does not continue the last one.
+    `water_age`, `current_age`: s; before the first message, time since the first odometry.
+    `moved`: whether this navigation does not continue the last one.
     """
 
     navigation: Navigation
@@ -40,18 +40,18 @@ class Inputs(NamedTuple):
     moved: bool
 
 
-#: Slower than this through the water a vehicle may lie still over ground, m/s.
+#: Speed through the water above which the vehicle is under way, m/s: at less it may rest over ground.
 _UNDER_WAY = 0.3
 
 
 class NavigationInput:
-    """Subscribes, converts, pairs.
+    """Subscribe, convert and pair.
 
     Args:
         node: the node; its parameters are `NavigationParameters` with `water_velocity_timeout`.
         step: called once per odometry.
         restart: called when time went back, before the step.
-        with_current: whether the current estimate belongs to the input.
+        with_current: whether to include the current estimate.
     """
 
     def __init__(
@@ -83,7 +83,7 @@ class NavigationInput:
 
     @property
     def missing(self) -> tuple[str, ...]:
-        """Lockstep: the topics the current step still lacks."""
+        """Topics that the current step lacks, in lockstep."""
         return self._pairing.missing
 
     def _on_odometry(self, message: Odometry) -> None:
@@ -101,7 +101,7 @@ class NavigationInput:
                 self._paired()
             return
         water, current = None, NO_CURRENT
-        # What has never come is as old as the first odometry: the first of all is not late yet.
+        # A message that has never come is as old as the first odometry, so at the start none is late.
         water_age = age = (stamp - self._first) * 1e-9
         if self._water is not None:
             water_age = abs(stamp - self._water[1]) * 1e-9
@@ -113,7 +113,7 @@ class NavigationInput:
         self._step(Inputs(navigation, water, water_age, current, age, dt, stamp, moved))
 
     def _in_order(self, topic: Topic, stamp: int) -> None:
-        """Free running, where an odometry takes the newest: a message that was overtaken is not that."""
+        """Refuse, free running, a message that a newer one has overtaken."""
         if not self._lockstep and self._order[topic].judge(stamp).verdict is StampVerdict.REFUSE:
             raise MessageRefused(topic.name, "a stamp that is not newer than the last", "rising stamps")
 

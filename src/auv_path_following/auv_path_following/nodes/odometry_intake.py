@@ -1,4 +1,4 @@
-"""Odometry as every node takes it in: converted, in order, on time, and believed."""
+"""The intake of odometry in every node: converted, in order, on time and plausible."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ class AcceptedOdometry(NamedTuple):
         navigation: pose and yaw rate, NED.
         dt: seconds since the last accepted one.
         stamp: ns.
-        restarted: the stamps went back before it.
-        moved: it does not continue the last one, in place or in time; what lies between was not travelled.
+        restarted: whether the stamps went back before it.
+        moved: whether it does not continue the last one, in place or in time.
     """
 
     navigation: Navigation
@@ -35,14 +35,14 @@ class AcceptedOdometry(NamedTuple):
 
 
 class OdometryIntake:
-    """Converts and judges odometry: frames and numbers, its stamp against clock and order, plausibility.
+    """Convert and judge odometry: frames and numbers, its stamp against clock and order, plausibility.
 
-    In lockstep, where nothing comes late and a refusal would be an answer that never comes, only frames,
-    numbers and order are judged.
+    In lockstep no message is late and a refusal would block the step, so only frames, numbers and order are
+    judged.
 
     Args:
         node: the node; its parameters are `NavigationParameters`.
-        consequence: what the node does when it is silent, for people.
+        consequence: what the node does without odometry, for the diagnostics.
     """
 
     def __init__(self, node: SuiteNode, consequence: str = "") -> None:
@@ -57,7 +57,7 @@ class OdometryIntake:
         self._refused_for = 0.0
         self._accepted_at: float | None = None
         self._silent = False
-        #: Set by the node: whether the vehicle is known to move, so that a pose that stands still is wrong.
+        #: Set by the node: whether the vehicle moves, so that an unchanged pose is an error.
         self.under_way = False
         self._heard = False
         node.health.expect("odometry", f"no {topics.ODOM.name} yet")
@@ -65,17 +65,17 @@ class OdometryIntake:
             node.every(0.1, self._watch)
 
     def configure(self) -> None:
-        """The node's parameters were changed in flight."""
+        """Take the node's parameters after a change in flight."""
         self._gate.config = self._node.parameters.gate
 
     def reset_gate(self) -> None:
-        """Somebody has started a mission, and so vouches for where the vehicle lies, even still."""
+        """Accept the next pose as a first one, even an unchanged pose: a mission was started by request."""
         self._gate.reset()
         self._refused_for = 0.0
 
     @property
     def silent(self) -> bool:
-        """Free running: no odometry was accepted for longer than `odometry_timeout`."""
+        """Whether, free running, no odometry was accepted for longer than `odometry_timeout`."""
         return self._silent
 
     def _watch(self) -> None:
@@ -97,7 +97,7 @@ class OdometryIntake:
         """
         stamp = stamp_of(message.header.stamp, topics.ODOM.name)
         navigation = navigation_from(message, self._frames, topics.ODOM.name)
-        # Whether a stamp that goes back is an old message or a clock that was set, its order tells.
+        # For a stamp that goes back the order decides: an old message, or a clock that was set.
         stepped = self._free and not self._guard.is_old(stamp) and self._stepped(stamp)
         verdict, dt = self._guard.judge(stamp)
         if verdict is StampVerdict.REFUSE:
@@ -119,7 +119,7 @@ class OdometryIntake:
         dt, self._refused_for = dt + self._refused_for, 0.0
         moved = passed is Passed.MOVED
         if moved:
-            self._node.get_logger().warning(f"a new place is believed: {found}")
+            self._node.get_logger().warning(f"a new place is accepted: {found}")
         self._accepted_at = self._node.now()
         if self._silent:
             self._silent = False

@@ -1,4 +1,4 @@
-"""The autopilot's references: heard, judged, and held against the mission's state."""
+"""The autopilot's references: received, checked, and compared with the mission's state."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ REFERENCES = (topics.DESIRED_YAW, topics.DESIRED_YAW_RATE, topics.DESIRED_THRUST
 
 
 class ReferenceInput:
-    """Subscribes to the references and to the mission's state.
+    """Subscribe to the references and to the mission's state.
 
     Args:
         node: the autopilot.
-        thrust_max: N.
+        thrust_max: largest thrust, N.
         put: called with topic and value of each reference.
-        starts: called when a mission starts, free running only.
-        stopped: what a stop means, for the diagnostics.
+        starts: called when a mission starts, only free running.
+        stopped: consequence of a stop, for the diagnostics.
     """
 
     def __init__(
@@ -43,7 +43,7 @@ class ReferenceInput:
         stopped: str,
     ) -> None:
         self._node, self._put, self._starts, self._stopped = node, put, starts, stopped
-        # Beyond any request of guidance: more than a turn, a spin, a multiple of the largest thrust.
+        # Bounds (rad, rad/s, N) beyond any request of guidance.
         self._largest = dict(zip(REFERENCES, (6.5, 10.0, 10.0 * thrust_max), strict=True))
         self._watch = ReferenceWatch()
         self._missing = ""
@@ -53,7 +53,7 @@ class ReferenceInput:
         node.listen(topics.MISSION_STATE, self._on_mission_state)
 
     def take(self, yaw: float | None, rate: float | None, thrust: float | None) -> None:
-        """Take in what guidance answered to one odometry; None for a reference that is missing."""
+        """Take guidance's answer to one odometry; None for a missing reference."""
         if yaw is not None and rate is not None and thrust is not None:
             self._watch.put(Reference(flip_yaw(yaw), -rate, thrust), self._node.now())
         else:

@@ -59,7 +59,7 @@ def test_a_row_does_not_contradict_itself(row) -> None:  # type: ignore[no-untyp
     assert (row.safe > 0.0) == (row.outcome != "goes on")
     assert row.lasts >= row.safe
     assert row.wall or row.then_abort or row.fault == "kill" or row.lasts >= row.within
-    assert row.fault != "jump" or row.place != topics.ODOM.name or row.lasts < 3.0  # else it is believed
+    assert row.fault != "jump" or row.place != topics.ODOM.name or row.lasts < 3.0  # else it is accepted
 
 
 def test_names_are_unique_and_choose() -> None:

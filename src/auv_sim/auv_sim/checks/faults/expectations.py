@@ -124,7 +124,7 @@ TABLE: tuple[Expectation, ...] = (
     ),
     _odom(
         "jump",
-        "from the last that was believed",
+        "from the last accepted one",
         lasts=2.5,
         set_by="gate.position_margin, odometry_timeout, holding.hold_after",
     ),

@@ -29,7 +29,7 @@ _ON_PATH = 2.0
 _STRAIGHT = 0.02
 #: The virtual point may wait for the vehicle by so much of a subpath, and no more.
 _BACK = 0.1
-#: After a fault the mission goes on within this, s of ROS time: a new place is believed after 3 s.
+#: After a fault the mission goes on within this, s of ROS time: a new place is accepted after 3 s.
 _RECOVERY = 6.0
 
 MISSION = """\

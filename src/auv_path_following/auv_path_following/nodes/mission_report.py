@@ -1,0 +1,77 @@
+"""Publication of the mission's state, with its reason in the log and the diagnostics."""
+
+from __future__ import annotations
+
+from rclpy.clock import Clock, ClockType
+from std_msgs.msg import String
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.mission_word import PERIOD, TIMES, MissionState
+from auv_msgs_py.node.runtime import SuiteNode
+from auv_path_following.missions.mission_state import (
+    HOLDING,
+    NAVIGATION_LOST,
+    STATES,
+    MissionStatus,
+    Reason,
+    words,
+)
+
+
+class MissionReport:
+    """Publish the mission's state as `mission_word` requires: a new state twice, any state every `PERIOD`.
+
+    Free running by wall time, so that the state is also published when the ROS clock stands still. In
+    lockstep by mission time and as part of an answer, so that each run has the same messages.
+
+    Args:
+        node: ailos_guidance.
+    """
+
+    def __init__(self, node: SuiteNode) -> None:
+        self._node = node
+        self._publisher = node.advertise(topics.MISSION_STATE)
+        self._lockstep = bool(node.parameters.lockstep)
+        self.word: MissionState | None = None
+        self.reason = self._detail = ""
+        self._published = 0.0
+        if not self._lockstep:
+            node.create_timer(PERIOD, self._publish, clock=Clock(clock_type=ClockType.STEADY_TIME))
+
+    def values(self) -> dict[str, str]:
+        """Return state and reason, for the diagnostics."""
+        return {"mission_state": str(self.word or ""), "reason": self.reason}
+
+    def publish(self, mission: MissionStatus) -> None:
+        """Publish the state if it has changed."""
+        word = STATES[mission.state]
+        if word is self.word:
+            return
+        health = self._node.health
+        if word is MissionState.HOLDING:
+            self._detail = health.refusals.latest
+        self.word, self.reason = word, words(mission.reason, self._detail)
+        stopped = word in (MissionState.HOLDING, MissionState.ABORTED)
+        health.error("mission", "")
+        health.error("mission", f"{word.value}: {self.reason}" if stopped else "", log=False)
+        for _ in range(TIMES):
+            self._publish()
+        self._node.get_logger().info(f"{word.value}: {self.reason}")
+
+    def resumed(self, hold_after: float) -> None:
+        """Publish a hold that only a gap between two measurements has shown."""
+        if self.word is MissionState.RUNNING:
+            self.publish(MissionStatus(HOLDING, Reason(NAVIGATION_LOST, 0.0, 0.0, hold_after)))
+
+    def answered(self, running: bool) -> None:
+        """Publish the state as part of the answer to an odometry, if it is due.
+
+        In lockstep the state follows every answer without thrust: the simulator waits for it.
+        """
+        if self._lockstep and (not running or abs(self._node.now() - self._published) >= PERIOD):
+            self._publish()
+
+    def _publish(self) -> None:
+        self._published = self._node.now()
+        if self.word is not None:
+            self._publisher.publish(String(data=self.word.value))
