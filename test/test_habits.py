@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from doc_pages import ROOT
+from doc_pages import PAGES, ROOT
 from test_architecture import MOST_MODULES, ROS_ROOMS
 
 TEMPLATES = sorted((ROOT / ".github" / "ISSUE_TEMPLATE").glob("*.yml"))
@@ -69,12 +69,12 @@ def test_contributing_gives_the_limits_that_are_held() -> None:
     assert f"A folder has at most {MOST_MODULES} modules." in contributing()
 
 
-def test_the_files_that_contributing_names_exist() -> None:
-    """By the end of their path, as the page writes them."""
-    files = [
-        path.as_posix()
-        for folder in ("src", "test", "docs", "scripts")
-        for path in (ROOT / folder).rglob("*")
-    ]
-    for name in re.findall(r"`([\w/]+(?:\.py|\.md))`", contributing()):
+@pytest.mark.parametrize("page", PAGES)
+def test_the_files_that_a_page_names_exist(page: str) -> None:
+    """By the end of their path; names without a folder only in CONTRIBUTING.md."""
+    folders = ("src", "test", "docs", "scripts", "examples", "config")
+    files = [path.as_posix() for folder in folders for path in (ROOT / folder).rglob("*")]
+    folder = "" if page == "CONTRIBUTING.md" else r"[\w.]+/"
+    pattern = rf"`({folder}[\w/.]+\.(?:py|md|csv))[`:]"
+    for name in re.findall(pattern, (ROOT / page).read_text(encoding="utf-8")):
         assert (ROOT / name).exists() or any(path.endswith(f"/{name}") for path in files), name
