@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 import yaml
 
-from doc_pages import PAGES, ROOT
-from test_architecture import MOST_MODULES, ROS_ROOMS
+from doc_pages import PAGES, ROOT, copies
+from test_architecture import MOST_MODULES
 
 TEMPLATES = sorted((ROOT / ".github" / "ISSUE_TEMPLATE").glob("*.yml"))
 
@@ -53,13 +53,10 @@ def contributing() -> str:
     return (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
 
 
-def test_contributing_lists_the_rooms_that_may_need_ros() -> None:
-    """The architecture's test holds the list; this holds the page to it."""
-    (listed,) = re.findall(
-        r"<!-- ros rooms: begin -->\n(.*)<!-- ros rooms: end -->", contributing(), re.DOTALL
-    )
-    wanted = "".join(f"   - `{room}`\n" for room in ROS_ROOMS)
-    assert listed == wanted, f"put this between the marks:\n{wanted}"
+@pytest.mark.parametrize("number", range(3), ids=["rooms that need ROS", "law", "line of the law"])
+def test_a_page_shows_what_the_code_has(number: int) -> None:
+    page, shown, source = list(copies())[number]
+    assert shown == source, f"{page}: cd test && python3 -m doc_pages"
 
 
 def test_contributing_gives_the_limits_that_are_held() -> None:
