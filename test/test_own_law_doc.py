@@ -6,7 +6,7 @@ from pathlib import Path
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.settings import params_file
-from auv_sim.parameters import SUITE
+from auv_sim.sim_parameters import SUITE
 from doc_pages import listings
 
 
