@@ -1,4 +1,4 @@
-"""Who is named when a step gets no answer, without ROS."""
+"""The node that is named when a step gets no answer, without ROS."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from auv_sim.nodes.lockstep import Lockstep
 
 
 class Simulator:
-    """As much of the simulator as lockstep asks for."""
+    """The part of the simulator that lockstep uses."""
 
     parameters = SimpleNamespace(recorded=False, answer_timeout=0.0)
     mission_running = True

@@ -1,4 +1,4 @@
-"""All nodes of a mission in one process; each gets the same ROS arguments as if it had its own."""
+"""All nodes of a mission in one process, each with the ROS arguments that it would have in its own."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ NODES = {
 
 def main(argv: Sequence[str], nodes: Mapping[str, str] = NODES) -> int:
     """Run the nodes named in the one argument, a JSON object of node name -> its ROS arguments."""
-    from auv_msgs_py.node.run import run_nodes  # the launcher needs the table without rclpy
+    from auv_msgs_py.node.run import run_nodes  # the launcher reads the table without rclpy
 
-    wanted: dict[str, list[str]] = json.loads(argv[0])
+    requested: dict[str, list[str]] = json.loads(argv[0])
     factories = []
-    for name, ros_arguments in wanted.items():
+    for name, ros_arguments in requested.items():
         module, cls = nodes[name].split(":")
         make = getattr(importlib.import_module(module), cls)
         factories.append(partial(make, cli_args=["--ros-args", *ros_arguments], use_global_arguments=False))

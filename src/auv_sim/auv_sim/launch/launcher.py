@@ -23,26 +23,26 @@ from auv_sim.launch.processes.process_group import Child, Children
 from auv_sim.launch.progress_display import ProgressDisplay
 from auv_sim.launch.vehicle_driver import EMULATOR, EMULATOR_MODULE
 
-#: Wall time for all nodes to find each other, s.
+#: Longest wall time for all nodes to discover each other, s.
 _DISCOVERY_BOUND = 60.0
-#: Wall time to wait for a foreign vehicle's first odometry, s.
+#: Longest wall time until a foreign vehicle's first odometry, s.
 _VEHICLE_BOUND = 120.0
-#: Wall time without a step of the simulator after which nothing is expected to move any more, s. The
-#: simulator names a node that does not answer well before; this is for what it cannot see.
+#: Wall time without a step of the simulator after which the mission has failed, s. The simulator reports a
+#: node that does not answer well before; this bound covers what it cannot detect.
 _STALL_BOUND = 60.0
 _COMPOSED = "composed"
 
 
 def domain_of(plan: Plan) -> int:
-    """The ROS domain: asked for; else a foreign vehicle's, from the environment; else one of our own.
+    """Return the ROS domain: of the command line; for a foreign vehicle, the environment; else a free one.
 
     Raises:
-        ConfigurationError: the environment names none.
+        ConfigurationError: ROS_DOMAIN_ID is not a domain.
     """
     if plan.options.domain is not None:
         return plan.options.domain
     if plan.options.no_sim:
-        # As ROS has it: empty is not set, and that is 0.
+        # As in ROS, an empty variable counts as unset, and unset means 0.
         try:
             return ros_domain(os.environ.get("ROS_DOMAIN_ID") or "0")
         except argparse.ArgumentTypeError:
@@ -58,17 +58,13 @@ def fly(plan: Plan, directory: Path, domain: int, progress: ProgressDisplay, loa
         plan: what to fly.
         directory: logs and the bag go below it.
         domain: ROS domain.
-        progress: what a person sees.
-        loader: of the nodes; it has none yet.
+        progress: the display on the terminal.
+        loader: of the nodes; it has forked none yet.
 
     Raises:
         MissionFailed: a node died or never came up; nothing is left running.
     """
-    # ROS's own logs, too, belong to the run: a service has no home to put them.
-    environment = {"ROS_DOMAIN_ID": str(domain), "ROS_LOG_DIR": str(directory / "log" / "ros")}
-    environment |= discovery.variables()
-    if plan.options.simulator or "ROS_AUTOMATIC_DISCOVERY_RANGE" not in os.environ:
-        environment["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    environment = _environment(plan, directory, domain)
     os.environ.update(environment)
     interrupt = StopRequest()
     children = Children(directory / "log", environment)
@@ -76,7 +72,7 @@ def fly(plan: Plan, directory: Path, domain: int, progress: ProgressDisplay, loa
     processor = Processor(None if separate and not plan.options.any_processor else ())
     try:
         _start_nodes(plan, children, loader, plan.write(directory / "config"))
-        # Only now: the nodes are to load meanwhile, and a process with DDS threads must not fork.
+        # Imported after the fork: the nodes load meanwhile, and a process with DDS threads must not fork.
         from auv_sim.launch.monitor import Monitor
 
         look = discovery.look_for(domain)
@@ -84,7 +80,7 @@ def fly(plan: Plan, directory: Path, domain: int, progress: ProgressDisplay, loa
         try:
             return _Flight(plan, children, loader, monitor, progress, interrupt, processor).run(look)
         finally:
-            # The recorder first, while the others still hold what it has not yet taken in.
+            # The recorder stops first, while the others still hold messages that it has not yet received.
             children.stop([topics.RECORDER])
             children.stop()
             monitor.close()
@@ -92,6 +88,16 @@ def fly(plan: Plan, directory: Path, domain: int, progress: ProgressDisplay, loa
         children.stop()
         processor.release()
         interrupt.withdraw()
+
+
+def _environment(plan: Plan, directory: Path, domain: int) -> dict[str, str]:
+    """Return the environment variables of all processes of a mission."""
+    # ROS's own logs belong to the run, too: a service has no home directory for them.
+    environment = {"ROS_DOMAIN_ID": str(domain), "ROS_LOG_DIR": str(directory / "log" / "ros")}
+    environment |= discovery.variables()
+    if plan.options.simulator or "ROS_AUTOMATIC_DISCOVERY_RANGE" not in os.environ:
+        environment["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    return environment
 
 
 def _start_nodes(plan: Plan, children: Children, loader: Loader, parameters: Path) -> None:
@@ -114,7 +120,7 @@ def _start_nodes(plan: Plan, children: Children, loader: Loader, parameters: Pat
 
 
 class _Flight:
-    """The stages of one mission, each with its own way to end."""
+    """The stages of one mission."""
 
     def __init__(  # type: ignore[no-untyped-def]
         self, plan, children, loader, monitor, progress, interrupt, processor: Processor
@@ -128,7 +134,7 @@ class _Flight:
         self._processor = processor
 
     def run(self, look: float) -> Outcome:
-        """Fly, after at least `look` s of looking at the graph."""
+        """Fly, after observing the graph for at least `look` s."""
         begin = time.monotonic()
         if not self._graph_free(look) or not self._all_listening() or not self._vehicle_there():
             return Outcome("interrupted", "stopped before the mission began", time.monotonic() - begin, 0.0)
@@ -138,7 +144,7 @@ class _Flight:
         if refused:
             raise MissionFailed(f"the mission could not be started: {refused}")
         if not self._plan.lockstep:
-            self._monitor.first_stamp = None  # what came before was no mission
+            self._monitor.first_stamp = None  # rows before the start are not part of the mission
         begin = time.monotonic()
         state = self._until_over(begin)
         wall = time.monotonic() - begin
@@ -153,15 +159,15 @@ class _Flight:
         return Outcome(state, reason, wall, self._monitor.mission_time)
 
     def _graph_free(self, look: float) -> bool:
-        """Look at the graph for `look` s and while the nodes load, which enter it only then.
+        """Observe the graph for `look` s and until all nodes have loaded; they enter it after that.
 
-        A busy machine discovers late and loads late: looking until all have loaded takes account of both.
+        A busy machine discovers late and loads late: waiting for the loaded nodes allows for both.
 
         Returns:
             False when interrupted.
 
         Raises:
-            GraphTaken: another has what this mission needs.
+            GraphTaken: another process holds what this mission claims.
         """
         self._look = self._monitor.look_around(self._plan.claim(), look)
         while not self._look.ended(self._loader.at_gate()):
@@ -173,7 +179,7 @@ class _Flight:
         return True
 
     def _all_listening(self) -> bool:
-        """Wait until every node listens to what it needs; False when interrupted."""
+        """Wait until every node subscribes to its topics; False when interrupted."""
         names = set(self._plan.parameters)
         deadline = time.monotonic() + _DISCOVERY_BOUND
         while not self._interrupt.requested:
@@ -189,7 +195,7 @@ class _Flight:
         return False
 
     def _vehicle_there(self) -> bool:
-        """Without our simulator: wait for somebody's odometry; False when interrupted."""
+        """Without the simulator, wait for a vehicle's odometry; False when interrupted."""
         deadline = time.monotonic() + _VEHICLE_BOUND
         topic = topics.full_name(self._plan.options.namespace, topics.ODOM.name)
         while not self._plan.options.simulator and not self._monitor.odometry_seen:
@@ -224,7 +230,7 @@ class _Flight:
         return "interrupted"
 
     def _stop_vehicle(self) -> None:
-        """Ctrl-C must not leave a propeller running: abort, and let the zero commands reach the vehicle."""
+        """Abort, and allow time for the zero commands to reach the vehicle: no propeller may keep running."""
         self._monitor.abort()
         self._monitor.look(0.3)
 

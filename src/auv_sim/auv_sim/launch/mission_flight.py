@@ -1,4 +1,4 @@
-"""One mission from its files to its picture, with what a person sees of it."""
+"""One mission from its files to its picture, with its output on the terminal."""
 
 from __future__ import annotations
 
@@ -6,12 +6,14 @@ import shutil
 import time
 from pathlib import Path
 
+from rich.console import Console
 from rich.markup import escape
 
 from auv_msgs_py.node.graph_look import GraphTaken
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, EXIT_INTERRUPTED, make_directory, say
 from auv_sim.launch import launcher, mission_plan
+from auv_sim.launch.mission_plan import Plan
 from auv_sim.launch.options import Options
 from auv_sim.launch.processes.adopted import Loader
 from auv_sim.launch.progress_display import ProgressDisplay
@@ -29,39 +31,27 @@ def fly(options: Options, loader: Loader) -> int:
     """Fly a mission from its files to its picture; returns the exit code.
 
     Args:
-        options: what was asked for.
+        options: the command line.
         loader: of the nodes.
 
     Raises:
-        SuiteError: what the launcher and the check of the plan raise.
+        SuiteError: from the launcher or the mission check.
     """
     directory = _run_directory(options)
     resolved = mission_plan.make(options, directory)
     domain = launcher.domain_of(resolved)
     console = terminal(options.quiet)
     make_directory(directory, new=True)
-    path = resolved.mission.path
-    timing = "lockstep" if resolved.lockstep else "free running"
-    console.print(
-        f"[bold]{escape(resolved.mission.name)}[/bold]: {path.n} subpaths, {path.length:.1f} m,"
-        f" {escape(resolved.vehicle.name)}, {timing}, ROS domain {domain},"
-        f" namespace {options.namespace}",
-        highlight=False,
-    )
-    for level, verdicts in (("refused", resolved.verdicts.refusals), ("warning", resolved.verdicts.warnings)):
-        for verdict in verdicts:
-            console.print(f"[yellow]{level}[/yellow] {escape(str(verdict))}", highlight=False, soft_wrap=True)
-    for notice in resolved.verdicts.notices:
-        console.print(f"[cyan]notice[/cyan] {escape(notice)}", highlight=False, soft_wrap=True)
+    _announce(resolved, domain, console)
     try:
-        with ProgressDisplay(path, console, options.quiet) as progress:
+        with ProgressDisplay(resolved.mission.path, console, options.quiet) as progress:
             outcome = launcher.fly(resolved, directory, domain, progress, loader)
     except GraphTaken:
-        shutil.rmtree(directory)  # nothing was flown, and the same command is to work again
+        shutil.rmtree(directory)  # nothing was flown: the same command must work again
         raise
     if outcome.state != "complete":
         say(f"mission {outcome.state}: {outcome.reason}", error=True)
-    from auv_sim.launch import mission_results  # its libraries draw: nothing to load before the flight
+    from auv_sim.launch import mission_results  # after the flight: it imports plotting libraries
 
     outcome, summary = mission_results.conclude(resolved, directory, outcome)
     if summary is not None:
@@ -69,6 +59,23 @@ def fly(options: Options, loader: Loader) -> int:
     if outcome.state == "incomplete":
         say(f"mission incomplete: {outcome.reason}", error=True)
     return _EXIT[outcome.state]
+
+
+def _announce(resolved: Plan, domain: int, console: Console) -> None:
+    """Print the mission's headline and the findings of its check."""
+    path = resolved.mission.path
+    timing = "lockstep" if resolved.lockstep else "free running"
+    console.print(
+        f"[bold]{escape(resolved.mission.name)}[/bold]: {path.n} subpaths, {path.length:.1f} m,"
+        f" {escape(resolved.vehicle.name)}, {timing}, ROS domain {domain},"
+        f" namespace {resolved.options.namespace}",
+        highlight=False,
+    )
+    for level, verdicts in (("refused", resolved.verdicts.refusals), ("warning", resolved.verdicts.warnings)):
+        for verdict in verdicts:
+            console.print(f"[yellow]{level}[/yellow] {escape(str(verdict))}", highlight=False, soft_wrap=True)
+    for notice in resolved.verdicts.notices:
+        console.print(f"[cyan]notice[/cyan] {escape(notice)}", highlight=False, soft_wrap=True)
 
 
 def _run_directory(options: Options) -> Path:

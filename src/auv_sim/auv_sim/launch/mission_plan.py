@@ -1,9 +1,8 @@
-"""From what a person asked for to what every node is told: checked before anything is started."""
+"""The plan of a mission: its files read and checked, and the settings of every node, before any starts."""
 
 from __future__ import annotations
 
 import dataclasses
-import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,16 +14,14 @@ from auv_msgs_py.settings.schema import Pair
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import NO_CURRENT, Current
 from auv_path_following import config_files, vehicle
-from auv_path_following.control.autopilot import HeadingAutopilot
 from auv_path_following.missions import mission_file
 from auv_path_following.missions.mission_file import Mission
-from auv_path_following.parameters import AutopilotParameters
 from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.mission_check.flyable import Findings, check, refusal
 from auv_sim.flight.closed_loop import Scenario
+from auv_sim.launch import node_settings
 from auv_sim.launch.options import DRIVERS, Options
 from auv_sim.launch.vehicle_driver import configure_driver
-from auv_sim.sim_parameters import SUITE
 from auv_sim.vehicle import sea
 
 
@@ -33,11 +30,12 @@ class Plan:
     """One mission, resolved.
 
     Attributes:
-        options: what was asked for.
+        options: the command line.
         mission, vehicle: as read from their files.
         parameters: node name -> settings object, for the nodes that are started.
-        sources: what each input was read from: "mission", "vehicle", "params", with a sea "sea" -> path.
-        verdicts: what was found when the mission was checked.
+        sources: kind of input ("mission", "vehicle", "params", "controller_model", "sea") -> its file.
+        verdicts: the findings of the mission check.
+        controller_model: the hull that the nodes assume.
         emulator: command line of the emulated vehicle, None without one.
     """
 
@@ -66,7 +64,7 @@ class Plan:
         return self.options.use_sim_time or self.own_clock
 
     def claim(self) -> Claim:
-        """What the mission takes for itself in the graph."""
+        """Return what the mission claims in the graph."""
         namespace = self.options.namespace
         vehicle = () if self.options.no_sim else (topics.PLANT, *DRIVERS.values())
         names = {*self.parameters, *vehicle, topics.LAUNCHER}
@@ -74,7 +72,7 @@ class Plan:
         return Claim(holder=holder, namespace=namespace, names=tuple(sorted(names)), clock=self.own_clock)
 
     def scenario(self) -> Scenario:
-        """The same flight for `closed_loop`.
+        """Return the same flight for `closed_loop`.
 
         Raises:
             ValueError: there is no simulator in this plan.
@@ -98,7 +96,7 @@ class Plan:
         )
 
     def write(self, directory: Path) -> Path:
-        """Write the resolved configuration, such that it can be flown again as it stands.
+        """Write the resolved configuration, ready to be flown again.
 
         Returns:
             The parameter file for the nodes.
@@ -112,37 +110,31 @@ class Plan:
             if kind in self.sources:
                 here[kind] = directory / f"{kind}.yaml"
                 result_files.copy(self.sources[kind], here[kind])
-        told = {}
+        written = {}
         for name, settings in self.parameters.items():
-            its = {k: str(here[k]) for k in here if hasattr(settings, k)}
-            if "vehicle" in its and "controller_model" in here and name != topics.PLANT:
-                its["vehicle"] = str(here["controller_model"])
-            told[name] = dataclasses.replace(settings, **its)
+            changes = {kind: str(here[kind]) for kind in here if hasattr(settings, kind)}
+            if "vehicle" in changes and "controller_model" in here and name != topics.PLANT:
+                changes["vehicle"] = str(here["controller_model"])
+            written[name] = dataclasses.replace(settings, **changes)
         target = directory / "params.yaml"
-        yaml_file.dump(params_file.as_ros(told), target)
+        yaml_file.dump(params_file.as_ros(written), target)
         return target
 
 
 def make(options: Options, directory: Path) -> Plan:
-    """Read and check all files, and give every node its parameters.
+    """Read and check all files, and set the parameters of every node.
 
     Args:
-        options: what was asked for.
+        options: the command line.
         directory: the run directory; the bag goes there.
 
     Raises:
         ConfigurationError: one line with the place, what was found and what was expected.
     """
-    sources = {
-        "mission": config_files.find("missions", options.mission).absolute(),
-        "vehicle": config_files.find("vehicles", options.vehicle).absolute(),
-        "params": config_files.find("params", options.params).absolute(),
-    }
+    sources = _find_files(options)
     hull = model = vehicle.load(str(sources["vehicle"]))
-    if options.controller_model is not None:
-        sources["controller_model"] = config_files.find("vehicles", options.controller_model).absolute()
+    if "controller_model" in sources:
         model = vehicle.load(str(sources["controller_model"]))
-    model_file = str(sources.get("controller_model", sources["vehicle"]))
     mission = mission_file.load(str(sources["mission"]), model)
     if (options.simulator or options.emulator) and hull.hull is None:
         raise ConfigurationError(
@@ -151,56 +143,24 @@ def make(options: Options, directory: Path) -> Plan:
             "the hull's coefficients, or --no-sim: the simulator needs them",
         )
     notices: list[str] = []
-    parameters = params_file.load(sources["params"], SUITE, options.namespace, notices)
-    timing = {"lockstep": options.simulator and options.speed is None}
-    timing["recorded"] = timing["lockstep"]
-    for name in parameters:
-        parameters[name] = dataclasses.replace(parameters[name], **timing)
-    _try_gains(model, parameters[topics.AUTOPILOT], sources["params"])
-    wishes = parameters[topics.GUIDANCE].with_mission_overrides(mission).guidance
-    _tell(parameters, topics.GUIDANCE, guidance=wishes, mission_switching=False)
-    _tell(parameters, topics.GUIDANCE, mission=str(sources["mission"]), vehicle=model_file)
-    _tell(parameters, topics.OBSERVER, vehicle=model_file)
-    _tell(parameters, topics.AUTOPILOT, vehicle=model_file)
-    _tell(
-        parameters,
-        topics.PLANT,
-        vehicle=str(sources["vehicle"]),
-        initial=_initial(options, mission, parameters),
-        publish_at_rest=False,
-    )
-    _tell(parameters, topics.RECORDER, directory=str(directory / "bag"))
-    if options.speed is not None:
-        _tell(parameters, topics.PLANT, speed=options.speed)
-    water = _sea(options, parameters, sources)
-    if options.current is not None:
-        current = parameters[topics.PLANT].current
-        changed = dataclasses.replace(current, Vx=options.current[0], Vy=options.current[1])
-        _tell(parameters, topics.PLANT, current=changed)
-    if options.switching is not None:
-        guidance = parameters[topics.GUIDANCE].guidance
-        switching = dataclasses.replace(guidance.switching, mode=options.switching)
-        _tell(parameters, topics.GUIDANCE, guidance=dataclasses.replace(guidance, switching=switching))
-    guidance = parameters[topics.GUIDANCE].guidance
-    current = NO_CURRENT
-    if options.simulator or options.emulator:
-        told = parameters[topics.PLANT].current.value
-        current = Current(told.Vx + water[0], told.Vy + water[1])
-    verdicts = check(mission, hull, current, guidance.switching, guidance.lookahead)
+    settings = node_settings.load(options, sources["params"], model, notices)
+    node_settings.set_mission(settings, options, mission, sources, directory)
+    mean = node_settings.set_options(settings, options, sources)
+    verdicts = _check(options, mission, hull, settings, mean)
     verdicts = dataclasses.replace(verdicts, notices=(*verdicts.notices, *notices))
     if verdicts.refusals and not options.force:
         raise refusal(mission, verdicts, "--force flies it all the same")
     emulator, driver = None, DRIVERS.get(options.vehicle_driver or "")
     if driver is not None:
         file = str(sources["vehicle"])
-        emulator = configure_driver(driver, options.vehicle_address, options.speed, file, parameters)
+        emulator = configure_driver(driver, options.vehicle_address, options.speed, file, settings)
     for name in {topics.PLANT, *DRIVERS.values()} - {topics.PLANT if options.simulator else driver}:
-        del parameters[name]
-    return Plan(options, mission, hull, parameters, sources, verdicts, model, emulator)
+        del settings[name]
+    return Plan(options, mission, hull, settings, sources, verdicts, model, emulator)
 
 
 def scenario(options: Options) -> Scenario:
-    """The flight that the launcher would fly, for `closed_loop.fly`; nothing is written.
+    """Return the flight that the launcher would fly, for `closed_loop.fly`; write nothing.
 
     Args:
         options: as for the launcher, with its defaults.
@@ -211,39 +171,29 @@ def scenario(options: Options) -> Scenario:
     return make(options, Path("runs")).scenario()
 
 
-def _try_gains(known: Vehicle, settings: AutopilotParameters, file: Path) -> None:
-    """Find here what the autopilot's node would end with."""
-    try:
-        HeadingAutopilot(known, settings.autopilot)
-    except ConfigurationError as error:
-        place = f"{file}: {topics.AUTOPILOT}: {error.where}"
-        raise ConfigurationError(place, error.found, error.expected) from None
+def _find_files(options: Options) -> node_settings.Sources:
+    """Return the input files by kind.
+
+    Raises:
+        ConfigurationError: there is no such file.
+    """
+    sources = {
+        "mission": config_files.find("missions", options.mission).absolute(),
+        "vehicle": config_files.find("vehicles", options.vehicle).absolute(),
+        "params": config_files.find("params", options.params).absolute(),
+    }
+    if options.controller_model is not None:
+        sources["controller_model"] = config_files.find("vehicles", options.controller_model).absolute()
+    return sources
 
 
-def _sea(options: Options, parameters: dict[str, Any], sources: dict[str, Path]) -> Pair:
-    """Tell the simulator its sea, asked for or of the parameter file; returns its mean current, m/s, NED."""
-    name = options.sea if options.sea is not None else parameters[topics.PLANT].sea
-    if not name or not options.simulator:
-        if options.seed is not None:
-            raise ConfigurationError("--seed", "without a sea", "--sea with it: nothing else is random")
-        return 0.0, 0.0
-    sources["sea"] = config_files.find("seas", name).absolute()
-    seed = options.seed if options.seed is not None else parameters[topics.PLANT].seed
-    _tell(parameters, topics.PLANT, sea=str(sources["sea"]), seed=seed)
-    return sea.load(str(sources["sea"])).current.mean
-
-
-def _tell(parameters: dict[str, Any], node: str, **changes: Any) -> None:
-    parameters[node] = dataclasses.replace(parameters[node], **changes)
-
-
-def _initial(options: Options, mission: Mission, parameters: dict[str, Any]) -> Any:
-    """Where the simulated vehicle begins: as asked for, else on the path's start, heading along it."""
-    initial = parameters[topics.PLANT].initial
-    if options.initial is not None:
-        x, y, psi = options.initial[0], options.initial[1], math.radians(options.initial[2])
-    elif initial == type(initial)():
-        x, y, psi = mission.path.start_pose
-    else:
-        return initial
-    return dataclasses.replace(initial, x=x, y=y, psi=psi)
+def _check(
+    options: Options, mission: Mission, hull: Vehicle, settings: node_settings.NodeSettings, mean: Pair
+) -> Verdicts:
+    """Check whether the mission can be flown in the current that is configured (m/s, NED)."""
+    current = NO_CURRENT
+    if options.simulator or options.emulator:
+        constant = settings[topics.PLANT].current.value
+        current = Current(constant.Vx + mean[0], constant.Vy + mean[1])
+    guidance = settings[topics.GUIDANCE].guidance
+    return check(mission, hull, current, guidance.switching, guidance.lookahead)

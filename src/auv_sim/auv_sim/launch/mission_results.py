@@ -1,4 +1,4 @@
-"""What a mission leaves behind: figures, a picture, a table, and the next command."""
+"""The results of a mission: figures, a picture, a table, and the next command."""
 
 from __future__ import annotations
 
@@ -16,30 +16,40 @@ from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.reading.load import load
 from auv_sim.command_line import to_type
-from auv_sim.flight.metrics import MissionSummary, farthest, summarise
+from auv_sim.flight.metrics import MissionSummary, SubpathSummary, farthest, summarise
 from auv_sim.launch.mission_plan import Plan
 from auv_sim.launch.outcome import Outcome
 from auv_sim.terminal import go_on, wrote
 from auv_sim.views.overview import draw
 
-#: What was said on `mission_state` is no proof; what was recorded is.
+#: The outcome is judged by the recording, not by `mission_state`.
 _UNFINISHED = "found a recording without the path's end, expected it where mission_state is complete"
 
-#: Of more subpaths and corners than this the farthest are printed; summary.json has all.
+#: At most this many subpaths and corners are printed, those farthest off the path; summary.json has all.
 _MOST_ROWS, _MOST_CORNERS = 40, 10
+
+
+#: Files of a run directory -> what each is for.
+_FILES = (
+    ("overview.png", "the mission in one picture"),
+    ("summary.json", "the figures above, for programs"),
+    ("bag", "every topic, rosbag2 (MCAP): ros2 bag play, Foxglove, rosbags"),
+    ("config", "mission, vehicle and parameters as flown"),
+    ("log", "what each node said"),
+)
 
 
 def conclude(plan: Plan, directory: Path, outcome: Outcome) -> tuple[Outcome, MissionSummary | None]:
     """Load the bag, judge the mission, write `summary.json` and `overview.png`.
 
     Args:
-        plan: what was flown.
+        plan: of the mission flown.
         directory: the run directory.
         outcome: how the mission ended on the graph.
 
     Returns:
         The outcome, incomplete where too little of the path was flown or its end was not reached; and the
-        figures, None without a bag.
+        figures, None without a readable bag.
     """
     try:
         run = load(directory / "bag")
@@ -50,17 +60,7 @@ def conclude(plan: Plan, directory: Path, outcome: Outcome) -> tuple[Outcome, Mi
         reason = summary.shortfall(plan.options.least_flown) or ("" if summary.completed else _UNFINISHED)
         if reason:
             outcome = dataclasses.replace(outcome, state="incomplete", reason=reason)
-    record: dict[str, Any] = {
-        "outcome": outcome.state,
-        "reason": outcome.reason,
-        "wall_time_s": round(outcome.wall_time, 3),
-        "times_real_time": round(outcome.mission_time / outcome.wall_time, 2) if outcome.wall_time else None,
-        "timing": "lockstep" if plan.lockstep else "free running",
-        "mission": plan.mission.name,
-        "vehicle": plan.vehicle.name,
-        **json.loads(summary.to_json()),
-    }
-    write_text(directory / "summary.json", json.dumps(record, indent=2) + "\n")
+    _write_summary(plan, directory, outcome, summary)
     rudder = plan.vehicle.rudder
     draw(
         run,
@@ -75,9 +75,33 @@ def conclude(plan: Plan, directory: Path, outcome: Outcome) -> tuple[Outcome, Mi
     return outcome, summary
 
 
+def _write_summary(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary) -> None:
+    record: dict[str, Any] = {
+        "outcome": outcome.state,
+        "reason": outcome.reason,
+        "wall_time_s": round(outcome.wall_time, 3),
+        "times_real_time": round(outcome.mission_time / outcome.wall_time, 2) if outcome.wall_time else None,
+        "timing": "lockstep" if plan.lockstep else "free running",
+        "mission": plan.mission.name,
+        "vehicle": plan.vehicle.name,
+        **json.loads(summary.to_json()),
+    }
+    write_text(directory / "summary.json", json.dumps(record, indent=2) + "\n")
+
+
 def show(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary, console: Console) -> None:
-    """The table, the files, the next command."""
-    table = Table(title=f"{escape(plan.mission.name)}: {outcome.state}", title_justify="left")
+    """Print the table, the figures, the files and the next command."""
+    console.print(_table(f"{escape(plan.mission.name)}: {outcome.state}", summary))
+    _show_figures(outcome, summary, console)
+    console.print()
+    for name, what in _FILES:
+        wrote(console, directory / name, what)
+    go_on(console, "Look further", to_type("bag.py", "report", directory))
+
+
+def _table(title: str, summary: MissionSummary) -> Table:
+    """Return the subpaths farthest off the path and the whole mission, a row each."""
+    table = Table(title=title, title_justify="left")
     table.add_column("subpath")
     for heading in (
         "time (s)",
@@ -88,26 +112,26 @@ def show(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary,
     ):
         table.add_column(heading, justify="right")
     for part in farthest(summary.subpaths, _MOST_ROWS):
-        table.add_row(
-            f"{part.number} {part.kind}",
-            _number(part.duration, 1),
-            _number(part.rms_distance, 3),
-            _number(part.largest_distance, 3),
-            _number(part.rms_heading_error, 2),
-            _number(part.rudder_travel_per_metre, 2),
-        )
+        table.add_row(f"{part.number} {part.kind}", *_cells(part))
     table.add_section()
     if (others := len(summary.subpaths) - _MOST_ROWS) > 0:
         table.add_row(f"{others} others, nearer to the path")
-    table.add_row(
-        "all",
-        _number(summary.duration, 1),
-        _number(summary.rms_distance, 3),
-        _number(summary.largest_distance, 3),
-        _number(summary.rms_heading_error, 2),
-        _number(summary.rudder_travel_per_metre, 2),
+    table.add_row("all", *_cells(summary))
+    return table
+
+
+def _cells(part: SubpathSummary | MissionSummary) -> tuple[str, ...]:
+    return (
+        _number(part.duration, 1),
+        _number(part.rms_distance, 3),
+        _number(part.largest_distance, 3),
+        _number(part.rms_heading_error, 2),
+        _number(part.rudder_travel_per_metre, 2),
     )
-    console.print(table)
+
+
+def _show_figures(outcome: Outcome, summary: MissionSummary, console: Console) -> None:
+    """Print the flown share, the corners, the errors of navigation and current, and the speed."""
     console.print(summary.flown_line(), soft_wrap=True)
     for corner in farthest(summary.corners, _MOST_CORNERS):
         if math.isnan(corner.largest_distance):  # not reached
@@ -129,16 +153,6 @@ def show(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary,
     console.print(
         f"{outcome.mission_time:.1f} s of mission in {outcome.wall_time:.1f} s, {speed:.0f} times real time"
     )
-    console.print()
-    for name, what in (
-        ("overview.png", "the mission in one picture"),
-        ("summary.json", "the figures above, for programs"),
-        ("bag", "every topic, rosbag2 (MCAP): ros2 bag play, Foxglove, rosbags"),
-        ("config", "mission, vehicle and parameters as flown"),
-        ("log", "what each node said"),
-    ):
-        wrote(console, directory / name, what)
-    go_on(console, "Look further", to_type("bag.py", "report", directory))
 
 
 def _number(value: float, digits: int) -> str:

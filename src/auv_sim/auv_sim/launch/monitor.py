@@ -24,14 +24,14 @@ from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.node.graph_look import GraphLook
 from auv_msgs_py.values.errors import MessageRefused
 
-#: A path that has no more than this left is flown to its end, m.
+#: A path of which at most this much is left counts as flown to its end, m.
 _ARRIVED = 1e-3
-#: `complete` without the evidence for it counts after this, s of wall time.
+#: Wall time after which `complete` counts without the evidence for it, s.
 _UNDISPUTED = 4.0 * PERIOD
 
 
 class Monitor:
-    """Looks in from time to time: its queues hold one message, so a fast mission costs it nothing.
+    """Polls the mission's topics; its queues hold one message, so a fast mission costs it nothing.
 
     Args:
         namespace: of the mission's nodes.
@@ -69,11 +69,11 @@ class Monitor:
 
     def _on_odometry(self, _: Odometry) -> None:
         self.odometry_seen = True
-        # One is enough to know that there is a vehicle.
+        # One odometry shows that there is a vehicle.
         self.node.destroy_subscription(self._odometry)
 
     def _on_parameter(self, message: Float64) -> None:
-        if 0.0 <= message.data < math.inf:  # a NaN is not
+        if 0.0 <= message.data < math.inf:  # NaN fails this
             self.s = message.data
 
     def _on_to_go(self, message: Float64) -> None:
@@ -97,15 +97,15 @@ class Monitor:
 
     @property
     def state(self) -> str:
-        """The mission's state that counts, see `MissionWord`; empty before the first word."""
+        """The mission's state in force, see `MissionWord`; empty before the first message."""
         return self._word.at(time.monotonic())
 
     def completed(self, subpaths: int) -> bool:
         """Whether the mission has reached the end of its path.
 
-        `complete` counts with the path parameter and the distance to go of a path's end beside it. These come
-        best effort, and the last ones may be lost: without them it counts when nothing else was said for
-        `_UNDISPUTED` s, in which guidance would have repeated another state several times.
+        `complete` counts once path parameter and distance to go show the path's end. They are best effort,
+        and the last ones may be lost: without them `complete` counts when no other state arrived for
+        `_UNDISPUTED` s, in which guidance would have repeated it several times.
 
         Args:
             subpaths: of the path, which is the last path parameter.
@@ -122,24 +122,24 @@ class Monitor:
         return 0.0 if self.first_stamp is None else (self.stamp - self.first_stamp) * 1e-9
 
     def look(self, seconds: float) -> None:
-        """Take in what came, for about this long."""
+        """Process what has arrived; return after about this many seconds."""
         deadline = time.monotonic() + seconds
         for _ in range(8):
             self._executor.spin_once(timeout_sec=0.0)
         time.sleep(max(0.0, deadline - time.monotonic()))
 
     def look_around(self, claim: Claim, length: float) -> GraphLook:
-        """Begin to look for `length` s whether the graph has room for a mission; `look` lets it see."""
+        """Begin to check for `length` s whether the graph has room for a mission; `look` feeds it."""
         return GraphLook(self.node, claim, length=length)
 
     def missing_nodes(self, names: set[str], recorded: bool) -> set[str]:
-        """Which of the named nodes do not yet listen to the topics they need."""
+        """Return which of the named nodes do not yet subscribe to all their topics."""
         missing: set[str] = set()
         for topic in topics.CONTRACT:
-            wanted = {name for name in topic.subscribers if name in names}
+            expected = {name for name in topic.subscribers if name in names}
             if recorded:
-                wanted.add(topics.RECORDER)
-            missing |= wanted - self._listeners(topic)
+                expected.add(topics.RECORDER)
+            missing |= expected - self._listeners(topic)
         if not self._start.service_is_ready():
             missing.add(topics.GUIDANCE)
         return missing
@@ -149,7 +149,7 @@ class Monitor:
         return {info.node_name for info in self.node.get_subscriptions_info_by_topic(full)}
 
     def start(self, patience: float = 5.0) -> str:
-        """Call the start service; an empty answer means that it was taken."""
+        """Call the start service; return why it was refused, empty if it was accepted."""
         return self._call(self._start, patience)
 
     def abort(self, patience: float = 1.0) -> str:

@@ -1,4 +1,4 @@
-"""What the command line of a mission can ask for, with its defaults."""
+"""The options of a mission's command line, with their defaults."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from auv_sim.flight.least_share import LEAST_SHARE, LEAST_SHARE_AT_SEA
 DEFAULT_MISSION = "paper_composite"
 DEFAULT_VEHICLE = "remus100"
 DEFAULT_PARAMS = "robust"
-#: What `--vehicle-driver` may say -> the driver's node.
+#: Value of `--vehicle-driver` -> the driver's node.
 DRIVERS = {"mavlink": topics.MAVLINK_DRIVER}
 
 
 @dataclass(frozen=True, kw_only=True)
 class Options:
-    """What the command line can say; names and units as there."""
+    """Options of the command line; names and units as there."""
 
     mission: str = DEFAULT_MISSION
     vehicle: str = DEFAULT_VEHICLE
@@ -46,7 +46,7 @@ class Options:
 
     @property
     def command(self) -> str:
-        """What flies the same mission again: the options that differ from their defaults, for the shell."""
+        """The command that flies the same mission again: the options that differ from their defaults."""
         changed = {
             field.name: getattr(self, field.name)
             for field in dataclasses.fields(self)
@@ -63,7 +63,7 @@ class Options:
 
     @property
     def simulator(self) -> bool:
-        """Whether our simulator is the vehicle."""
+        """Whether the suite's simulator is the vehicle."""
         return not self.no_sim and self.vehicle_driver is None
 
     @property

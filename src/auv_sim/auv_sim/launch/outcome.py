@@ -8,7 +8,7 @@ from auv_msgs_py.values.errors import SuiteError
 
 
 class MissionFailed(SuiteError):
-    """The mission ended otherwise than by reaching the end of the path."""
+    """The mission ended before the end of the path."""
 
 
 @dataclass(frozen=True)
@@ -16,9 +16,9 @@ class Outcome:
     """How the mission ended.
 
     Attributes:
-        state: complete, aborted or interrupted; `results.conclude` makes incomplete of a complete mission of
-            which too little was flown.
-        reason: for people; empty when complete.
+        state: complete, aborted or interrupted; `mission_results.conclude` turns complete into incomplete
+            where too little of the path was flown.
+        reason: one line; empty when complete.
         wall_time: seconds between start and end of the mission.
         mission_time: the same in the mission's own time.
     """

@@ -1,4 +1,4 @@
-"""What a person sees while a mission flies."""
+"""The progress of a mission on the terminal."""
 
 from __future__ import annotations
 
@@ -42,12 +42,12 @@ class ProgressDisplay:
     ) -> None:
         self._bar.__exit__(kind, error, trace)
 
-    def waiting_for(self, whom: str) -> None:
-        """Say what the mission waits for."""
-        self._bar.update(self._task, description=f"waiting for {whom}")
+    def waiting_for(self, what: str) -> None:
+        """Show what the mission waits for."""
+        self._bar.update(self._task, description=f"waiting for {what}")
 
     def update(self, s: float, ye: float, mission_time: float, wall_time: float) -> None:
-        """Show where the vehicle is: s, cross-track error (m), times (s)."""
+        """Show the vehicle's progress: s of Eq. (1), cross-track error (m), times (s)."""
         i = min(int(s), self._path.n - 1)
         segment = self._path.segments[i]
         flown = self._path.length - self._path.distance_to_go(i, min(s - i, 1.0))

@@ -1,4 +1,4 @@
-"""A vehicle behind a driver in place of the simulator: the driver's parameters, and the emulated vehicle."""
+"""A vehicle behind a driver in place of the simulator: the driver's parameters and the emulator's command."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.driver_parameters import MavlinkDriverParameters
 from auv_sim.sim_parameters import PlantParameters
 
-#: Below what DDS uses (from 7400) and what Linux hands out.
+#: UDP ports below those of DDS (from 7400) and the ephemeral ports of Linux.
 _PORTS = range(6000, 7400)
 #: The emulated vehicle's name among the mission's processes, and its module.
 EMULATOR, EMULATOR_MODULE = "vehicle_emulator", "auv_sim.nodes.mavlink.emulator"
@@ -22,14 +22,14 @@ EMULATOR, EMULATOR_MODULE = "vehicle_emulator", "auv_sim.nodes.mavlink.emulator"
 def configure_driver(
     driver: str, address: str | None, speed: float | None, vehicle: str, parameters: dict[str, Any]
 ) -> tuple[str, ...] | None:
-    """Give the driver's node the vehicle's address and the way time passes.
+    """Set the driver's vehicle address and clock.
 
     Args:
         driver: the node's name.
         address: of the vehicle; None for an emulated one.
         speed: of the emulated vehicle, times real time; None for real time on the wall clock.
         vehicle: its file.
-        parameters: node name -> settings, changed in place; the emulated vehicle begins as the simulator.
+        parameters: node name -> settings, changed in place; the emulator starts in the simulator's state.
 
     Returns:
         The command line of the emulated vehicle, None when `address` is given.
@@ -37,7 +37,7 @@ def configure_driver(
     Raises:
         ConfigurationError: a key or a peer that the driver would refuse.
     """
-    # Not before there is a driver: its protocol takes as long to import as all else here.
+    # Imported only for a driver: MAVLink takes as long to import as all else here.
     from auv_sim.nodes.mavlink.peer import Configured
     from auv_sim.nodes.mavlink.signing import load_key
 
@@ -52,23 +52,29 @@ def configure_driver(
     else:
         port = free_port()
         changes |= {"address": f"udpin:127.0.0.1:{port}", "clock_speed": speed or 0.0}
-        plant: PlantParameters = parameters[topics.PLANT]
-        start, current = plant.initial, plant.current
-        emulator = (
-            "--address", f"udpout:127.0.0.1:{port}",
-            "--vehicle", vehicle,
-            "--initial", *map(repr, (start.x, start.y, math.degrees(start.psi))),
-            "--surge", repr(start.surge),
-            "--current", *map(repr, (current.Vx, current.Vy)),
-            "--speed", repr(speed or 1.0),
-            "--signing-key", given.signing_key,
-        )  # fmt: skip
-    parameters[driver] = dataclasses.replace(parameters[driver], **changes)
+        emulator = _emulator(port, vehicle, parameters[topics.PLANT], speed or 1.0, given.signing_key)
+    parameters[driver] = dataclasses.replace(given, **changes)
     return emulator
 
 
+def _emulator(
+    port: int, vehicle: str, plant: PlantParameters, speed: float, signing_key: str
+) -> tuple[str, ...]:
+    """Return the emulator's command line; it starts in the simulator's state."""
+    start, current = plant.initial, plant.current
+    return (
+        "--address", f"udpout:127.0.0.1:{port}",
+        "--vehicle", vehicle,
+        "--initial", *map(repr, (start.x, start.y, math.degrees(start.psi))),
+        "--surge", repr(start.surge),
+        "--current", *map(repr, (current.Vx, current.Vy)),
+        "--speed", repr(speed),
+        "--signing-key", signing_key,
+    )  # fmt: skip
+
+
 def free_port() -> int:
-    """A free UDP port that neither DDS nor Linux will hand out before the driver has it."""
+    """Return a free UDP port outside the ranges of DDS and of Linux's ephemeral ports."""
     ports = random.sample(_PORTS, len(_PORTS))
     for port in ports:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:

@@ -1,4 +1,4 @@
-"""What a fault does to the messages of one topic."""
+"""Faults: each turns the messages of one topic into others."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from auv_sim.sim_parameters import Fault
 
 FAULTS: tuple[Fault, ...] = tuple(fault for fault in get_args(Fault) if fault != "none")
 
-#: So many messages are kept to be sent again backwards.
+#: Most messages kept for the fault reverse.
 _MEMORY = 1000
 
 
@@ -20,14 +20,14 @@ class Injector:
     """Turns each serialized message of a topic into those that are sent in its place.
 
     stop        nothing.
-    delay       the message, so many seconds later.
+    delay       the message, `delay` seconds later.
     nan         its first number is NaN; a text becomes ``nan``.
     freeze      the content of the last good message, with the stamp of this one.
-    jump        its first number is larger by so much.
+    jump        its first number is larger by `jump`.
     reverse     the last good messages in reverse order, as they were, and the first of them from then on.
-    flood       the message so many times, spread over the time to the next one.
+    flood       `copies` of the message, spread over the time to the next one.
     frameless   an empty frame_id.
-    timeless    a stamp of 4294967295 ns, which is no time.
+    timeless    a stamp of 4294967295 ns, which is invalid.
     cut         the first half of its bytes.
     forge       the message, and behind the first one the text ``complete`` once.
 
@@ -49,7 +49,7 @@ class Injector:
 
     @property
     def fault(self) -> Fault:
-        """What is being done."""
+        """The fault in force."""
         return self._fault
 
     @fault.setter
@@ -59,7 +59,7 @@ class Injector:
         self._under_way.clear()
 
     def pass_on(self, data: bytes, now: float) -> list[bytes]:
-        """What to send for a message that came at `now` (s)."""
+        """Return what to send for a message that arrived at `now`, s."""
         match self._fault:
             case "none":
                 self._came = now
@@ -88,7 +88,7 @@ class Injector:
                 return [self._changed(data)]
 
     def due(self, now: float) -> list[bytes]:
-        """Messages that were kept back and whose time has come."""
+        """Return the delayed messages that are due."""
         found = []
         while self._under_way and self._under_way[0][0] <= now:
             found.append(self._under_way.popleft()[1])
@@ -114,7 +114,7 @@ class Injector:
 
 
 def _set_first_number(message: Any, change: Any) -> None:
-    """x of a position or velocity, or the one number of a Float64; a text is replaced."""
+    """Change x of a position or velocity, or the number of a Float64; replace a text."""
     place = message
     for name in ("pose", "pose", "position"):
         place = getattr(place, name, place)

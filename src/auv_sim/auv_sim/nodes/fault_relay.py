@@ -1,7 +1,7 @@
-"""fault_relay: stands between a topic's publisher and its readers and spoils what passes, when asked to.
+"""fault_relay: forwards topics, and injects a fault into them on request.
 
-The publisher is remapped to ``<topic>_raw``, which the relay reads; what it makes of it goes to ``<topic>``.
-So the suite, or a vehicle's driver, is tested as it is:
+The publisher is remapped to ``<topic>_raw``, which the relay reads; it publishes ``<topic>``. The suite, or a
+vehicle's driver, is tested unchanged:
 
     ros2 run auv_sim remus_plant --ros-args -r __ns:=/auv -r odom:=odom_raw
     ros2 run auv_sim fault_relay --ros-args -r __ns:=/auv -p topics:=odom
@@ -25,7 +25,7 @@ from auv_sim.nodes.fault_injection import Injector
 from auv_sim.sim_parameters import Fault, FaultRelayParameters
 
 NAME = "fault_relay"
-#: The control chain: what can be relayed.
+#: Topics that can be relayed: the control chain.
 RELAYED = {
     topic.name: topic
     for topic in (
@@ -37,12 +37,12 @@ RELAYED = {
 
 
 def raw(topic: str) -> str:
-    """The name under which the publisher speaks to the relay."""
+    """Return the name to which the publisher is remapped."""
     return f"{topic}_raw"
 
 
 class FaultRelay(SuiteNode):
-    """Passes everything on, but for one topic, which has a fault."""
+    """Forwards its topics, those named by `on` with the fault of its parameters."""
 
     def __init__(self, **arguments: Any) -> None:
         super().__init__(NAME, FaultRelayParameters, **arguments)
@@ -51,7 +51,7 @@ class FaultRelay(SuiteNode):
             if name not in RELAYED:
                 raise ConfigurationError(f"{NAME}: parameter topics", name, " ".join(RELAYED))
         self.injectors: dict[str, Injector] = {}
-        #: How many messages of each topic have come.
+        #: Messages received, by topic.
         self.passed: Counter[str] = Counter()
         self._publishers_by_name: dict[str, Any] = {}
         for name in names:
@@ -103,7 +103,7 @@ class FaultRelay(SuiteNode):
 
 
 def main(args: Sequence[str] | None = None) -> int:
-    """The executable `fault_relay`."""
+    """Run the executable `fault_relay`."""
     return run_nodes([FaultRelay], args)
 
 

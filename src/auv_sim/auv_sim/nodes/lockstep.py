@@ -1,12 +1,13 @@
 """The simulator's side of lockstep: no step without an answer, no answer without a step.
 
-Why it cannot go wrong is written down in `auv_msgs_py.contract.pairing`.
+`auv_msgs_py.contract.pairing` has the proof.
 """
 
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import Any, Protocol
 
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.clock import Clock, ClockType
@@ -14,24 +15,38 @@ from std_msgs.msg import UInt64
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.pairing import Pairing
-from auv_msgs_py.node.health import Health
-from auv_msgs_py.node.lockstep_gate import LockstepGate
+from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.values.types import Command
+from auv_sim.nodes.wait_reports import WaitReports
 
-if TYPE_CHECKING:
-    from auv_sim.nodes.plant_node import RemusPlantNode
 
-_BY_NAME = {topic.name: topic for topic in (*topics.CONTRACT, topics.RECORDED_STEPS)}
+class Simulator(Protocol):
+    """The part of the simulator's node that lockstep uses."""
+
+    parameters: Any
+    mission_running: bool
+    steps: int
+    fault: str
+
+    @property
+    def stamp(self) -> int: ...
+    def listen(self, topic: Topic, callback: Callable[[Any], None]) -> None: ...
+    def advertise(self, topic: Topic) -> Any: ...
+    def create_timer(self, period: float, callback: Callable[[], None], *, clock: Any) -> Any: ...
+    def gate_waits_for(self) -> str: ...
+    def advance(self, command: Command) -> None: ...
+    def publish_step(self) -> None: ...
+    def fail(self, text: str) -> None: ...
 
 
 class Lockstep:
-    """Takes the next step when both commands for the present one are there and the mission is running.
+    """Takes the next step once both commands for the present one have arrived and the mission runs.
 
     Args:
         node: the simulator.
     """
 
-    def __init__(self, node: RemusPlantNode) -> None:
+    def __init__(self, node: Simulator) -> None:
         self._node = node
         self._pairing = Pairing((topics.RUDDER_CMD.name, topics.THRUST_CMD.name), strict=True)
         self._open_since: float | None = None
@@ -43,8 +58,7 @@ class Lockstep:
         self._command: Command | None = None
         self._recorded, self._recorded_at = 0, time.monotonic()
         self._published = 0
-        self._waits: dict[str, tuple[float, str]] = {}
-        self._refused: dict[str, str] = {}
+        self._reports = WaitReports()
         node.listen(topics.DIAGNOSTICS, self._on_diagnostics)
         self._request = node.advertise(topics.RECORD_REQUEST) if node.parameters.recorded else None
         if node.parameters.recorded:
@@ -52,20 +66,20 @@ class Lockstep:
         node.create_timer(0.2, self._check, clock=Clock(clock_type=ClockType.STEADY_TIME))
 
     def waiting_for(self) -> str:
-        """The commands that the present step lacks."""
+        """Return the commands that the present step lacks."""
         return "" if self._open_since is None else ", ".join(self._missing())
 
     def _missing(self) -> tuple[str, ...]:
         return self._pairing.missing or self._pairing.topics
 
     def on_command(self, topic: str, value: float) -> None:
-        """A valid command came."""
+        """Process a valid command."""
         if not self._pairing.put(topic, value):
             return
         self._command = Command(*self._pairing.take())
         self._open_since = None
-        # With thrust the mission ran at this step, whatever else was said meanwhile (by another publisher, or
-        # by an abort that the next step will show). Without thrust it did not run. Its state travels on
+        # With thrust the mission ran at this step, whatever state arrived meanwhile (of another publisher,
+        # or of an abort that the next step will show). Without thrust it did not run. Its state travels on
         # another topic and may be late: wait for it, or the number of steps would depend on the race.
         self._under_thrust = self._command.thrust > 0.0
         if self._under_thrust:
@@ -74,7 +88,7 @@ class Lockstep:
         self._proceed()
 
     def on_mission_state(self) -> None:
-        """The mission's state changed."""
+        """Process a mission state."""
         if not self._node.mission_running:
             self._left_running = True
             self._awaits_state = False
@@ -105,15 +119,10 @@ class Lockstep:
             self._request.publish(UInt64(data=self._published))
 
     def _on_diagnostics(self, message: DiagnosticArray) -> None:
-        for status in message.status:
-            for pair in status.values:
-                if pair.key == "waiting_for":
-                    self._waits[status.hardware_id] = time.monotonic(), pair.value
-                elif pair.key == Health.REFUSED:
-                    self._refused[status.hardware_id] = pair.value
+        self._reports.take_in(message, time.monotonic())
 
     def _check(self) -> None:
-        """End the run, with the culprit's name, when a step stays without an answer."""
+        """End the run, naming the culprit, when a step stays without an answer."""
         if self._node.fault:
             return
         if self._open_since is None:
@@ -124,7 +133,8 @@ class Lockstep:
             return
         bound = self._node.parameters.answer_timeout
         if time.monotonic() - self._open_since > bound:
-            self._node.fail(f"{self._where()} got no answer within {bound:g} s: {self._culprit()}")
+            culprit = self._reports.culprit(self._missing(), self._open_since)
+            self._node.fail(f"{self._where()} got no answer within {bound:g} s: {culprit}")
 
     def _check_recorder(self) -> None:
         under_way = self._under_thrust or self._node.mission_running
@@ -140,31 +150,3 @@ class Lockstep:
 
     def _where(self) -> str:
         return f"step {self._node.steps} (t = {self._node.stamp * 1e-9:.2f} s)"
-
-    def _culprit(self) -> str:
-        """Follow which node waits for which topic.
-
-        The first that reports nothing, or waits for nothing, is the culprit; on the way there, a message that
-        the waiting node has refused.
-        """
-        topic = _BY_NAME[self._missing()[0]]
-        if refusal := self._refusal(topics.PLANT, ", ".join(self._missing())):
-            return refusal
-        for _ in topics.CONTRACT:
-            at, waits = self._waits.get(topic.publisher, (0.0, ""))
-            if refusal := self._refusal(topic.publisher, waits):
-                return refusal
-            reported = self._open_since is not None and at > self._open_since
-            following = _BY_NAME.get(waits.split(",")[0]) if reported else None
-            if following is None or following.publisher == topics.PLANT:
-                if reported and LockstepGate.lacks_reader(waits):
-                    return f"{topic.publisher} waits for {waits}"
-                break
-            topic = following
-        return f"{topic.publisher} did not send {topic.name}"
-
-    def _refusal(self, node: str, waits: str) -> str:
-        """What a node has refused of the topics that it waits for, with the value; else an empty text."""
-        refused = self._refused.get(node, "")
-        is_awaited = refused.partition(":")[0] in waits.split(", ")
-        return f"{node} refused {refused}" if refused and is_awaited else ""

@@ -1,16 +1,16 @@
-"""When the wall clock asks for a step. ROS-free."""
+"""Steps at the pace of the wall clock. ROS-free."""
 
 from __future__ import annotations
 
-#: How many steps of lag are caught up; time that is lost beyond them stays lost.
+#: Steps of lag that are caught up; time lost beyond them stays lost.
 PATIENCE = 4
 
 
 class Pacer:
-    """Keeps steps at a fixed period of wall time; a late timer is caught up, no step is left out.
+    """Keeps steps at a fixed period of wall time; a late timer is caught up, and no step is left out.
 
-    One step at a time is due, and asked twice a period the pace can double. What is caught up is no burst
-    of steps without a command in between. When the machine cannot keep the pace, time goes slower than asked.
+    At most one step is due at each poll. Polled twice a period, the pace can double, and steps caught up
+    never come in a burst without commands in between. A machine that cannot keep the pace slows time down.
 
     Args:
         period: wall time of a step, s.
@@ -18,13 +18,13 @@ class Pacer:
 
     def __init__(self, period: float) -> None:
         self.period = period
-        #: Wall time by which the steps lag behind what was asked for, for good, s.
+        #: Wall time lost for good, s.
         self.behind = 0.0
         self._next: float | None = None
 
     @property
     def ask_every(self) -> float:
-        """How often to ask, s."""
+        """Period of polling, s."""
         return 0.5 * self.period
 
     def restart(self, now: float) -> None:
@@ -32,7 +32,7 @@ class Pacer:
         self._next = now
 
     def due(self, now: float) -> bool:
-        """Whether a step is to be taken now (s, monotonic)."""
+        """Return whether a step is due now (s, monotonic)."""
         if self._next is None:
             self._next = now
         lag = now - self._next

@@ -12,15 +12,9 @@ from std_srvs.srv import Trigger
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.claim import Claim, of_simulator
-from auv_msgs_py.contract.conversions import (
-    fill_current,
-    fill_odometry,
-    fill_water_velocity,
-    finite,
-    set_stamp,
-)
+from auv_msgs_py.contract.conversions import finite
 from auv_msgs_py.contract.mission_word import MissionState, MissionWord
-from auv_msgs_py.contract.wire import Clock, Float64, Odometry, TwistWithCovarianceStamped, Vector3Stamped
+from auv_msgs_py.contract.wire import Float64
 from auv_msgs_py.node.run import run_nodes
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.types import STOP, Command
@@ -28,11 +22,12 @@ from auv_path_following import vehicle
 from auv_sim.nodes.held_commands import HeldCommands
 from auv_sim.nodes.lockstep import Lockstep
 from auv_sim.nodes.pacing import Pacer
+from auv_sim.nodes.vehicle_outputs import VehicleOutputs
 from auv_sim.sim_parameters import PlantParameters
 from auv_sim.vehicle import sea
 from auv_sim.vehicle.simulated import SimulatedVehicle
 
-#: States of a mission in which the vehicle, free running, obeys no command: it may have come late.
+#: States of a mission in which the free-running vehicle obeys no command: one may arrive late.
 _OVER = (MissionState.HOLDING, MissionState.COMPLETE, MissionState.ABORTED)
 
 
@@ -55,22 +50,10 @@ class RemusPlantNode(SuiteNode):
         self.command = STOP
         self._released = not p.hold_until_running
         self._commands = HeldCommands(self.vehicle.rudder.max_angle, self.vehicle.thrust_max)
-        self._reset_wanted = False
+        self._reset_requested = False
         self._begun = False
-        self._odometry = Odometry(p.world_frame, p.body_frame)
-        self._truth = Odometry(p.world_frame, p.body_frame) if at_sea else None
-        self._water, self._true_current = TwistWithCovarianceStamped(p.body_frame), Vector3Stamped()
         p.check_frames(self.get_name())
-        self._clock_message, self._rudder_message = Clock(), Float64()
-        self._outputs = [
-            (self.advertise(topic), message)
-            for topic, message in (
-                (topics.CLOCK, self._clock_message), (topics.ODOM, self._odometry),
-                (topics.WATER_VELOCITY, self._water), (topics.RUDDER_STATE, self._rudder_message),
-                (topics.TRUE_CURRENT, self._true_current), (topics.TRUE_ODOM, self._truth),
-            )
-            if message is not None
-        ]  # fmt: skip
+        self._outputs = VehicleOutputs(self, with_true_odometry=at_sea is not None)
         self.close_gate()
         self._lockstep = Lockstep(self) if p.lockstep else None
         self.pacer = None if p.lockstep else Pacer(p.step / p.speed)
@@ -96,38 +79,24 @@ class RemusPlantNode(SuiteNode):
 
     @property
     def stamp(self) -> int:
-        """The present step's time, ns."""
+        """Time of the present step, ns."""
         return topics.FIRST_STAMP_NS + self.steps * self.step_ns
 
     def configure(self) -> None:
         self.simulated.constant_current = self.parameters.current.value
 
     def publish_step(self) -> None:
-        """Publish the present state, once the readers are there."""
-        vehicle, stamp = self.simulated, self.stamp
-        set_stamp(self._clock_message.clock, stamp)
-        rest = self._at_rest
-        u, v = (0.0, 0.0) if rest else vehicle.ground_velocity
-        fill_odometry(self._odometry, vehicle.navigation, u, v, stamp)
-        fill_water_velocity(self._water, vehicle.passing_water if rest else vehicle.water_velocity, stamp)
-        self._rudder_message.data = vehicle.rudder
-        fill_current(self._true_current, vehicle.current, stamp)
-        if self._truth is not None:
-            fill_odometry(self._truth, *vehicle.truth, stamp)
-        self.time_is(stamp)
-        self.answer(self._publish)
-
-    def _publish(self) -> None:
-        # In lockstep every step has its message, and a log that is blind repeats itself.
-        blind = self._lockstep is None and not self.simulated.water_lock
-        for publisher, message in self._outputs:
-            if not (blind and message is self._water):
-                publisher.publish(message)
+        """Publish the present state, once its subscribers are matched."""
+        self._outputs.fill(self.simulated, self._at_rest, self.stamp)
+        self.time_is(self.stamp)
+        # In lockstep every step has its message: a log without water lock repeats its last measurement.
+        in_lockstep = self._lockstep is not None
+        self.answer(lambda: self._outputs.publish(in_lockstep or self.simulated.water_lock))
 
     def advance(self, command: Command) -> None:
-        """One step of the plant, or back to the beginning if a reset was asked for."""
-        if self._reset_wanted:
-            self._reset_wanted = False
+        """Advance the vehicle by one step, or reset it if that was requested."""
+        if self._reset_requested:
+            self._reset_requested = False
             self.simulated.reset()
             self.steps = 0
             self._commands.clear()
@@ -156,13 +125,13 @@ class RemusPlantNode(SuiteNode):
             raise refused
 
     def _on_reset(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        # In lockstep the answer of a step under way must not meet the new first step.
-        self._reset_wanted = True
+        # It waits for the next step: in lockstep, the answer to the present one must not meet the new first.
+        self._reset_requested = True
         response.success, response.message = True, "back at the initial state with the next step"
         return response
 
     def _tick(self) -> None:
-        """Free running: the next step, when the wall clock asks for it."""
+        """Take the next step of a free run when the wall clock demands it."""
         assert self.pacer is not None
         silent = self._at_rest and not self.parameters.publish_at_rest
         if silent:
@@ -170,7 +139,7 @@ class RemusPlantNode(SuiteNode):
         if silent or not self.pacer.due(time.monotonic()):
             return
         self.command = self._held_command()
-        if self._begun and self._at_rest and not self._reset_wanted:
+        if self._begun and self._at_rest and not self._reset_requested:
             self.steps += 1
         elif self._begun:
             self.advance(self.command)
@@ -179,11 +148,11 @@ class RemusPlantNode(SuiteNode):
 
     @property
     def _at_rest(self) -> bool:
-        """Free running, before the mission: time passes, and the vehicle lies where it will begin."""
+        """Whether a free run has not begun: time passes, and the vehicle is held at its initial state."""
         return self._lockstep is None and not self._released
 
     def _held_command(self) -> Command:
-        """The newest commands; a stop when none came for too long, as any vehicle must do on its own."""
+        """Return the newest commands; a stop when one is overdue, as every vehicle has to do on its own."""
         bound = self.parameters.command_timeout
         command, silent = self._commands.at(self.stamp, bound)
         self.health.warn("commands", f"no {', '.join(silent)} for {bound:g} s: stopped" if silent else "")
@@ -192,7 +161,7 @@ class RemusPlantNode(SuiteNode):
 
 
 def main(args: Sequence[str] | None = None) -> int:
-    """The executable `remus_plant`."""
+    """Run the executable `remus_plant`."""
     return run_nodes([RemusPlantNode], args)
 
 

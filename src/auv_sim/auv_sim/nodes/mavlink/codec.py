@@ -8,7 +8,7 @@ from pymavlink.dialects.v20 import common as mavlink
 
 from auv_sim.nodes.mavlink.signing import Reader, keep_time, signing
 
-#: More than an Ethernet frame holds; larger ones only cost time, bytes.
+#: Largest datagram that is read, bytes: more than an Ethernet frame holds.
 LARGEST_DATAGRAM = 2048
 #: Messages of one datagram that may fail their checks before the rest is left unread: each costs time.
 _MOST_FAILURES = 4
@@ -27,7 +27,7 @@ class Frame(NamedTuple):
 
 
 class Codec:
-    """Packs our messages and reads those of others.
+    """Packs our messages and unpacks received ones.
 
     Args:
         system, component: our own ids.
@@ -39,14 +39,14 @@ class Codec:
         self._signing = signing(key)
         self._reader = Reader(None, system, component)
         self._reader.signing = self._signing
-        self._voices: dict[int, Any] = {}
+        self._packers: dict[int, Any] = {}
 
     def unpack(self, datagram: bytes) -> tuple[list[Frame], str]:
         """Read one datagram.
 
         Returns:
-            The messages in it, and what was wrong with the rest ("": nothing). A message that fails its
-            checks is skipped; where none begins, and after `_MOST_FAILURES`, the reading ends.
+            The messages in it, and what is wrong with the rest ("": nothing). A message that fails its
+            checks is skipped; reading ends where none begins, and after `_MOST_FAILURES`.
         """
         if not 0 < len(datagram) <= LARGEST_DATAGRAM:
             return [], "too large a datagram" if datagram else "an empty datagram"
@@ -69,31 +69,32 @@ class Codec:
         return frames, damage
 
     def pack(self, message: Any, component: int | None = None, line: int = 0) -> bytes:
-        """Make a message our next datagram.
+        """Pack a message into our next datagram.
 
         Args:
-            message: what to say.
-            component: of our system, in whose name it is said; ours if None.
-            line: signatures have to rise on each line; give messages that may overtake each other one each.
+            message: a MAVLink message.
+            component: the sender within our system; our own if None.
+            line: link id of the signature. Signatures must rise on each link: messages that may overtake each
+            other need separate ones.
         """
         component = self._component if component is None else component
-        if component not in self._voices:
-            self._voices[component] = mavlink.MAVLink(None, self._system, component)
-            self._voices[component].signing = self._signing
-        voice = self._voices[component]
+        if component not in self._packers:
+            self._packers[component] = mavlink.MAVLink(None, self._system, component)
+            self._packers[component].signing = self._signing
+        packer = self._packers[component]
         keep_time(self._signing)
         self._signing.link_id = line
-        data: bytes = message.pack(voice)
-        voice.seq = (voice.seq + 1) % 256
+        data: bytes = message.pack(packer)
+        packer.seq = (packer.seq + 1) % 256
         return data
 
 
 def _length(datagram: bytes, at: int) -> int:
-    """Length of the message that begins there, from its header; 0 if none begins."""
+    """Return the length of the message that begins at `at`, from its header; 0 if none begins."""
     header = datagram[at : at + 3]
     if len(header) == 3 and header[0] == mavlink.PROTOCOL_MARKER_V2:
         if header[2] & ~mavlink.MAVLINK_IFLAG_SIGNED:
-            return 0  # a flag that we do not understand: the specification has the message dropped
+            return 0  # an unknown flag: by the specification the message is dropped
         signature = mavlink.MAVLINK_SIGNATURE_BLOCK_LEN if header[2] else 0
         return int(mavlink.HEADER_LEN_V2 + header[1] + 2 + signature)
     if len(header) == 3 and header[0] == mavlink.PROTOCOL_MARKER_V1:
@@ -102,6 +103,6 @@ def _length(datagram: bytes, at: int) -> int:
 
 
 def _sender(data: bytes) -> tuple[int, int, int]:
-    """System, component and running number, from a message's header."""
+    """Return system, component and sequence number from a message's header."""
     at = 4 if data[0] == mavlink.PROTOCOL_MARKER_V2 else 2
     return data[at + 1], data[at + 2], data[at]

@@ -1,4 +1,4 @@
-"""What the driver hands on to the vehicle: the newest commands, or a stop. ROS-free."""
+"""The commands that the driver forwards: the newest, or a stop. ROS-free."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from auv_msgs_py.values.errors import MessageRefused
 from auv_msgs_py.values.types import STOP, Command
 from auv_sim.nodes.mavlink.mapping import CommandLimits
 
-#: States of the mission in which no command moves the vehicle, from any sender.
+#: States of the mission in which no command moves the vehicle, whatever its sender.
 _OVER = (MissionState.HOLDING, MissionState.COMPLETE, MissionState.ABORTED)
-#: A command may miss the stop by rounding.
+#: Rounding by which a command may exceed a limit.
 _ROUNDING = 1e-9
 
 
@@ -18,7 +18,7 @@ class Commands:
     """Keeps the newest rudder and thrust.
 
     Args:
-        limits: what the vehicle can do.
+        limits: of the vehicle.
         timeout: age beyond which a command is a stop, s of ROS time.
     """
 
@@ -32,10 +32,10 @@ class Commands:
         self._mission = MissionWord()
 
     def put(self, topic: str, value: float, now: int) -> bool:
-        """Take in a command; whether a pair is complete: the autopilot sends the thrust last.
+        """Keep a command; return whether a pair is complete, since the autopilot sends the thrust last.
 
         Raises:
-            MessageRefused: beyond what the vehicle can do.
+            MessageRefused: beyond the vehicle's limits.
         """
         lowest, highest = self._range[topic]
         if not lowest - _ROUNDING <= value <= highest + _ROUNDING:
@@ -44,26 +44,26 @@ class Commands:
         return topic == topics.THRUST_CMD.name and topics.RUDDER_CMD.name in self._newest
 
     def mission_is(self, state: str, wall: float) -> None:
-        """Take in `mission_state`, at a steady time in s.
+        """Process `mission_state` that arrived at `wall`, s of steady time.
 
         Raises:
-            MessageRefused: there is no such state, or an earlier one was contradicted.
+            MessageRefused: no such state, or it contradicts an earlier one.
         """
         refused = self._mission.hear(state, wall)
         if refused is not None:
             raise refused
 
     def silent(self, now: int) -> bool:
-        """Whether one of the two has fallen silent, once any has come."""
+        """Return whether one of the two commands is overdue, once any has arrived."""
         arrivals = [self._newest.get(topic, (0.0, 0))[1] for topic in self._range]
         return bool(self._newest) and min(arrivals) < now - self._timeout
 
     def none_since(self, now: int) -> bool:
-        """Whether both have fallen silent, once any has come."""
+        """Return whether both commands are overdue, once any has arrived."""
         return bool(self._newest) and max(at for _, at in self._newest.values()) < now - self._timeout
 
     def command(self, now: int, wall: float) -> Command:
-        """The newest commands; a stop when one of them is silent or the mission is over.
+        """Return the newest commands; a stop when one of them is overdue or the mission is over.
 
         Args:
             now: ROS time, ns.

@@ -12,21 +12,21 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.nodes.mavlink.codec import LARGEST_DATAGRAM, Codec, Frame
 from auv_sim.nodes.mavlink.peer import Address, Peer, text_of
 
-#: Where ground stations listen for vehicles.
+#: UDP port on which ground stations listen for vehicles.
 STANDARD_PORT = 14550
 _ADDRESS = re.compile(r"(udp|udpin|udpout):([\w.\-]+):(\d+)")
-#: Asked of the system, bytes; what it grants has to hold all that comes while the process does not run.
+#: Receive buffer requested from the system, bytes: it holds what arrives while the process is not scheduled.
 _RECEIVE_BUFFER = 4_000_000
 
 
 def parse_address(text: str, where: str) -> tuple[bool, str, int]:
-    """`udpin:HOST:PORT` waits there for the vehicle, `udpout:HOST:PORT` talks to it; `udp` is `udpin`.
+    """Parse `udpin:HOST:PORT` (or `udp:`), which waits for the vehicle, or `udpout:HOST:PORT`, which sends to it.
 
     Returns:
         (whether to wait, host, port).
 
     Raises:
-        ConfigurationError: another form, or a port that there is not.
+        ConfigurationError: another form, or an invalid port.
     """
     match = _ADDRESS.fullmatch(text)
     if match is None or not 0 < int(match[3]) < 65536:
@@ -42,7 +42,7 @@ class MavlinkLink:
     Args:
         address: as `parse_address` reads it.
         system, component: our own ids.
-        where: what to name when the address cannot be used.
+        where: the parameter or option, for the message.
         peer: decides which sender is the vehicle; any sender and system if None.
         key: of signatures, see `Codec`.
         clock: wall time, s.
@@ -69,7 +69,7 @@ class MavlinkLink:
         try:
             if waits:
                 self._socket.bind((host, port))
-            else:  # the system then delivers nothing from anywhere else
+            else:  # a connected socket receives from this peer alone
                 self._socket.connect((host, port))
                 self.peer.address = self._socket.getpeername()
         except OSError as error:
@@ -81,23 +81,23 @@ class MavlinkLink:
         self._sender: Address = ("", 0)
         self._codec = Codec(system, component, key)
         self._numbers: dict[tuple[int, int], int] = {}
-        self._known: Address | None = None
-        #: The peer's messages that never came, by the gaps in their numbering; datagrams that could not be
-        #: read to the end, and why the last of them could not.
+        self._peer_address: Address | None = None
+        #: Lost messages of the peer, by the gaps in their numbering; datagrams that could not be read to the
+        #: end, and the reason for the last of them.
         self.lost = self.damaged = 0
         self.damage = ""
 
     def receive(self, timeout: float) -> bytes | None:
-        """One datagram, which may be empty; None when none came within `timeout` s."""
+        """Return one datagram, which may be empty; None when none arrives within `timeout` s."""
         try:
             self._socket.settimeout(timeout)
             data, self._sender = self._socket.recvfrom(LARGEST_DATAGRAM + 1)
-        except OSError:  # nothing came, or an ICMP error: no socket at the other end yet
+        except OSError:  # timeout, or an ICMP error: no socket at the other end yet
             return None
         return data
 
     def messages(self, datagram: bytes) -> list[Any]:
-        """The peer's messages in the datagram last received; what cannot be read is counted and left out."""
+        """Return the peer's messages in the datagram last received; count what cannot be read."""
         sender, now = self._sender, self._clock()
         if not self.peer.may_be(sender, now):
             self.peer.refuse(sender, now)
@@ -109,14 +109,14 @@ class MavlinkLink:
         if not self.peer.is_vehicle(sender, frames, now):
             self.peer.refuse(sender, now)
             return []
-        if sender != self._known:
-            self._known = sender
+        if sender != self._peer_address:
+            self._peer_address = sender
             self._numbers.clear()
         self._count(frames)
         return [frame.message for frame in frames if frame.message is not None]
 
     def _count(self, frames: list[Frame]) -> None:
-        """Look for gaps in the numbering of each component."""
+        """Count the gaps in the numbering of each component."""
         for frame in frames:
             source = frame.system, frame.component
             missing = (frame.number - self._numbers.get(source, frame.number - 1) - 1) % 256
@@ -125,15 +125,15 @@ class MavlinkLink:
                 self._numbers[source] = frame.number
 
     def pack(self, message: Any, component: int | None = None, line: int = 0) -> bytes:
-        """A message as our next datagram, see `Codec.pack`."""
+        """Pack a message into our next datagram, see `Codec.pack`."""
         return self._codec.pack(message, component, line)
 
     def send(self, message: Any) -> None:
-        """Send a message; before the vehicle has been heard it goes nowhere."""
+        """Send a message; it is discarded before the vehicle has been heard."""
         self.send_bytes(self.pack(message))
 
     def send_bytes(self, data: bytes) -> None:
-        """Send what `pack` made. UDP promises nothing, so neither does this."""
+        """Send a datagram of `pack`; like UDP, without any guarantee."""
         if self.peer.address is None:
             return
         try:
@@ -142,7 +142,7 @@ class MavlinkLink:
             else:
                 self._socket.send(data)
         except OSError:
-            return  # no socket there, or the network is down: the other side notices the silence
+            return  # no socket there, or the network is down: the peer notices the silence
 
     def close(self) -> None:
         """Close the socket."""

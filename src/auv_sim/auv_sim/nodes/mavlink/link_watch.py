@@ -1,4 +1,4 @@
-"""The state of the link for people: strangers, damage, another address, another system. ROS-free."""
+"""The state of the link for /diagnostics: strangers, damage, another address, another system. ROS-free."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ import math
 from auv_sim.nodes.mavlink.link import MavlinkLink
 from auv_sim.nodes.mavlink.peer import text_of
 
-#: Damage is reported for this long after it was last seen, s of wall time.
+#: Time for which damage is reported after it was last seen, s of wall time.
 _RECENT = 5.0
 
 
 class LinkWatch:
-    """Turns the counts of a link into sentences.
+    """Turns the counts of a link into conditions.
 
     Args:
-        link: what is watched.
+        link: the watched link.
         system: MAVLink id of the vehicle.
     """
 
@@ -25,7 +25,7 @@ class LinkWatch:
         self._changes = 0
 
     def values(self) -> dict[str, object]:
-        """The counts, for /diagnostics."""
+        """Return the counts, for /diagnostics."""
         link, peer = self._link, self._link.peer
         return {
             "vehicle at": text_of(peer.address),
@@ -36,13 +36,13 @@ class LinkWatch:
         }
 
     def moved(self) -> str:
-        """The vehicle's new address, once after it has changed; else empty."""
+        """Return the vehicle's new address, once after each change; else empty."""
         peer = self._link.peer
         changed, self._changes = peer.changes > self._changes, peer.changes
         return f"the vehicle now speaks from {text_of(peer.address)}" if changed else ""
 
     def conditions(self, now: float, heard: bool) -> dict[str, str]:
-        """Name of each condition -> what it is, empty where all is well.
+        """Return the name of each condition -> its text, empty where it does not hold.
 
         Args:
             now: wall time, s.

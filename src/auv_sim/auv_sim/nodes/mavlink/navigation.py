@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from auv_msgs_py.values.types import Navigation
 
-#: Attitude and position further apart than this are no pair, ms.
+#: Largest time between attitude and position of a pair, ms.
 APART = 200
 
 
@@ -43,7 +43,7 @@ class Assembly:
     """Pairs the newest attitude with the newest position.
 
     A position triggers. It is moved to the attitude's instant by its own velocity: the attitude comes more
-    often and sooner, and the heading is what a late stamp would harm.
+    often and sooner, and an error of the stamp affects the heading most.
     """
 
     def __init__(self) -> None:
@@ -51,13 +51,13 @@ class Assembly:
         self.reset()
 
     def reset(self) -> None:
-        """Forget: the vehicle was started anew."""
+        """Forget both: the vehicle was restarted."""
         self._attitude: Attitude | None = None
         self._position: Position | None = None
-        self._told: int | None = None
+        self._used_ms: int | None = None
 
     def attitude(self, new: Attitude) -> None:
-        """Take in an attitude."""
+        """Keep an attitude."""
         if not math.isfinite(new.psi + new.r):
             self.dropped["ATTITUDE that is no number"] += 1
         elif self._attitude is not None and new.boot_ms <= self._attitude.boot_ms:
@@ -66,7 +66,7 @@ class Assembly:
             self._attitude = new
 
     def position(self, new: Position) -> Fused | None:
-        """Take in a position; an odometry if there is an attitude for it that none was made of yet."""
+        """Keep a position; return an odometry if there is an attitude for it that has not been used."""
         if not math.isfinite(new.x + new.y + new.vx + new.vy):
             self.dropped["LOCAL_POSITION_NED that is no number"] += 1
             return None
@@ -78,9 +78,9 @@ class Assembly:
         if attitude is None or abs(attitude.boot_ms - new.boot_ms) > APART:
             self.dropped["LOCAL_POSITION_NED without ATTITUDE"] += 1
             return None
-        if attitude.boot_ms == self._told:
+        if attitude.boot_ms == self._used_ms:
             return None
-        self._told = attitude.boot_ms
+        self._used_ms = attitude.boot_ms
         dt = (attitude.boot_ms - new.boot_ms) * 1e-3
         cos_psi, sin_psi = math.cos(attitude.psi), math.sin(attitude.psi)
         return Fused(

@@ -1,4 +1,4 @@
-"""Which sender is the vehicle: decided once, kept while it speaks. ROS-free; times in s."""
+"""Which sender is the vehicle: decided once, kept while it sends. ROS-free; times in s."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.nodes.mavlink.codec import Frame
 
 Address = tuple[str, int]
-#: Other systems that are named, at most: a forger can invent 255.
+#: Most other systems that are named: a forger can invent 255.
 _NAMED = 5
-#: A stranger is reported for this long after its last datagram, s.
+#: Time for which a stranger is reported after its last datagram, s.
 _RECENT = 5.0
 
 
 class Configured:
-    """A sender that was named beforehand.
+    """A configured sender.
 
     Args:
         text: HOST or HOST:PORT; without a port any of that host.
@@ -38,16 +38,16 @@ class Configured:
             raise ConfigurationError(where, f"'{text}'", "HOST or HOST:PORT")
 
     def allows(self, sender: Address) -> bool:
-        """Whether a sender may be the vehicle."""
+        """Return whether a sender may be the vehicle."""
         host, port = sender
         return host == self._host and self._port in (None, port)
 
 
 class Peer:
-    """The one address that is taken for the vehicle, and what came from others.
+    """The address taken for the vehicle's, and counts of other senders.
 
-    Without signatures a vehicle is recognised by its address alone. So the first sender that speaks as
-    `system` is kept, and another one takes its place only after the first was silent for `patience`.
+    Without signatures a vehicle is recognised by its address alone. So the first sender with the id `system`
+    is kept, and another one takes its place only after the first was silent for `patience`.
 
     Args:
         system: MAVLink id of the vehicle; None: any.
@@ -67,14 +67,14 @@ class Peer:
         self._stranger: Address | None = None
 
     def may_be(self, sender: Address, now: float) -> bool:
-        """Whether a datagram is worth reading: its sender is the vehicle, or might become it."""
+        """Return whether a datagram is worth reading: its sender is the vehicle, or might become it."""
         if sender == self.address:
             return True
         allowed = self._allowed is None or self._allowed.allows(sender)
         return allowed and (self.address is None or now > self._heard_at + self._patience)
 
     def is_vehicle(self, sender: Address, frames: Sequence[Frame], now: float) -> bool:
-        """Take in what a datagram of a sender that may be the vehicle held; whether it is."""
+        """Process the messages of a sender that may be the vehicle; return whether it is."""
         ours = False
         for frame in frames:
             if self._system in (None, frame.system):
@@ -87,18 +87,18 @@ class Peer:
         return sender == self.address
 
     def refuse(self, sender: Address, now: float) -> None:
-        """Count a stranger's datagram, whatever it says."""
+        """Count a stranger's datagram."""
         if now > self._stranger_at + _RECENT:
             self._stranger = sender
         self.strangers += 1
         self._stranger_at = now
 
     def stranger(self, now: float) -> str:
-        """Where datagrams come from that are not the vehicle's, as HOST:PORT; empty if none came lately."""
+        """Return the source of recent datagrams that are not the vehicle's, as HOST:PORT; else empty."""
         recent = self._stranger is not None and now <= self._stranger_at + _RECENT
         return text_of(self._stranger) if recent else ""
 
 
 def text_of(address: Address | None) -> str:
-    """HOST:PORT, for people."""
+    """Return HOST:PORT, for messages."""
     return f"{address[0]}:{address[1]}" if address is not None else "nowhere yet"

@@ -1,4 +1,4 @@
-"""MAVLink 2 signing: the file of the key, the clock of signatures, and a reader that no forgery can upset."""
+"""MAVLink 2 signing: the key file, the clock of signatures, and a reader that is robust against forgeries."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ def load_key(path: str, where: str) -> bytes | None:
 
     Args:
         path: the file; empty: no signing.
-        where: the parameter or option that names it, for the message. The content is never part of one.
+        where: the parameter or option, for the message, which never contains the key.
 
     Returns:
         The 32 bytes of the key, None for an empty path.
 
     Raises:
-        ConfigurationError: no such file, one that others can read, or no key in it.
+        ConfigurationError: no such file, one that other users can read, or no key in it.
     """
     if not path:
         return None
@@ -63,26 +63,26 @@ def _refuse_exposed(status: os.stat_result, where: str) -> None:
 
 
 def signing(key: bytes | None) -> Any:
-    """The signing state of one link; signs and demands signatures if there is a key."""
+    """Return the signing state of one link; it signs and demands signatures if there is a key."""
     state = mavlink.MAVLinkSigning()
     state.secret_key, state.sign_outgoing = key, key is not None
     return state
 
 
 def keep_time(state: Any) -> None:
-    """Let the clock of signatures follow the computer's: never back, and past what was received."""
+    """Set the clock of signatures to the computer's; it never goes back, nor behind received signatures."""
     state.timestamp = max(state.timestamp, round((time.time() - _EPOCH) * _TICKS))
 
 
 class Reader(mavlink.MAVLink):  # type: ignore[misc]
-    """pymavlink's decoder, in which a message with a false signature leaves no trace.
+    """pymavlink's decoder, made stateless towards messages with a false signature.
 
-    The original notes the time of a signature before it has checked it. One forgery from the far future would
-    then have every genuine message of that component refused as a replay.
+    The original stores the time of a signature before checking it. One forgery from the far future would then
+    cause every genuine message of that component to be refused as a replay.
     """
 
     def check_signature(self, msgbuf: bytearray, srcSystem: int, srcComponent: int) -> bool:
-        """Whether the signature is right and newer than the last of its link and component."""
+        """Return whether the signature is valid and newer than the last of its link and component."""
         times = self.signing.stream_timestamps
         self.signing.stream_timestamps = dict(times)
         valid = bool(super().check_signature(msgbuf, srcSystem, srcComponent))

@@ -1,7 +1,7 @@
 """From a vehicle's time since boot to ROS time. ROS-free; all times in ns.
 
-A vehicle stamps its measurements with the time since its boot. What the suite needs is when they were made
-in ROS time: the offset between the two clocks has to be estimated from messages that take a while to come.
+A vehicle stamps its measurements with the time since its boot; the suite needs their ROS time. The offset
+between the two clocks is estimated from messages, which arrive with a delay.
 """
 
 from __future__ import annotations
@@ -10,27 +10,28 @@ from collections import deque
 
 _MS = 1_000_000
 _SECOND = 1_000 * _MS
-#: A vehicle whose time goes back by more than this has been started anew.
+#: A vehicle whose time goes back by more than this has been restarted.
 REBOOT = _SECOND
-#: A wrong offset is put right at once beyond this, and below it little by little, so that dt stays true.
+#: A larger error of the offset is corrected at once, a smaller one gradually, so that dt stays true.
 STEP = 500 * _MS
-#: How fast little by little is, as a share of the time that passes: near, and further away than `NEAR`.
+#: Rate of the gradual correction, as a share of the time that passes: within `NEAR`, and beyond it.
 SLEW, FAST, NEAR = 0.002, 0.05, 15 * _MS
-#: Time from the first message until a vehicle's time can be relied on.
+#: Time from the first message until a vehicle's time is reliable.
 SETTLING = _SECOND
-#: Two components share a clock if the one's messages seem to arrive so much later than the other's, and not
-#: this much earlier.
+#: Two components share a clock if the messages of one seem to arrive at most this much later than those of
+#: the other, and at most this much earlier.
 SHARED, EARLY = 100 * _MS, 20 * _MS
-#: How long a good sample counts, and how many time exchanges are compared.
+#: Time for which a sample counts, and number of time exchanges compared.
 WINDOW, EXCHANGES = 10 * _SECOND, 20
 
 
 class OffsetEstimate:
-    """ROS time minus time since boot, for a vehicle that lives in real time.
+    """ROS time minus time since boot, for a vehicle in real time.
 
     A message cannot arrive before it was sent, so every arrival is an upper bound, and the least of them is
-    too large by the shortest delay. An exchange of times (TIMESYNC) measures how long it took, and half of it
-    is a better guess of the delay: the quickest of the last exchanges is used, if there are any.
+    too large by the shortest delay. An exchange of times (TIMESYNC) measures its own duration, half of which
+    is a
+    better estimate of the delay: the quickest of the last exchanges is used, if there are any.
 
     Args:
         settling: time after the first message in which the estimate moves freely.
@@ -52,11 +53,11 @@ class OffsetEstimate:
 
     @property
     def round_trip(self) -> int | None:
-        """Of the quickest exchange, None without any."""
+        """Duration of the quickest exchange; None without any."""
         return min(self._exchanges)[0] if self._exchanges else None
 
     def heard(self, boot: int, now: int) -> bool:
-        """A message with this time arrived now; True when the vehicle has been started anew."""
+        """Process a message with this time that arrived now; return True when the vehicle was restarted."""
         anew = self._newest is not None and boot < self._newest - REBOOT
         if anew:
             self.restarts += 1
@@ -64,7 +65,7 @@ class OffsetEstimate:
         self._newest = boot if self._newest is None else max(self._newest, boot)
         bound = now - boot
         if self._bounds and abs(bound - self._bounds[-1][1]) > REBOOT:
-            # No delay changes that much: one of the two clocks was set, or this process was suspended.
+            # No delay changes this much: one of the two clocks was set, or this process was suspended.
             self._bounds.clear()
             self._exchanges.clear()
         while self._bounds and self._bounds[-1][1] >= bound:
@@ -76,20 +77,20 @@ class OffsetEstimate:
         return anew
 
     def exchanged(self, sent: int, vehicle: int, received: int) -> None:
-        """TIMESYNC: sent and received by us, answered by the vehicle in between at `vehicle`."""
+        """Process a TIMESYNC that was sent and received by us, and answered in between at `vehicle`."""
         offset = (sent + received) // 2 - vehicle
         if self._bounds and abs(offset - self._bounds[0][1]) < _SECOND:
-            # Otherwise it answers with another clock than it stamps with, say with the time of day.
+            # Otherwise it answers with another clock than it stamps with, such as the time of day.
             self._exchanges.append((received - sent, offset))
 
     @property
     def least(self) -> int | None:
-        """The upper bound of the offset, None before anything was heard."""
+        """Upper bound of the offset; None before the first message."""
         return self._bounds[0][1] if self._bounds else None
 
     @property
     def offset(self) -> int | None:
-        """What is added to a time since boot, None before anything was heard."""
+        """Offset added to a time since boot; None before the first message."""
         return self._applied
 
     def _target(self) -> int:
@@ -98,7 +99,7 @@ class OffsetEstimate:
 
     @property
     def settled(self) -> bool:
-        """Whether it has been listened to for long enough."""
+        """Whether the vehicle has been heard for the settling time."""
         return self._heard_from is not None and self._applied_at - self._heard_from >= self._settling
 
     def _apply(self, newest: int) -> None:
@@ -119,20 +120,20 @@ class OffsetEstimate:
         self._applied_at = newest
 
     def stamp(self, boot: int) -> int:
-        """When that was in ROS time. Something must have been heard before."""
+        """Return the ROS time of a time since boot; at least one message must have been heard."""
         assert self._applied is not None
         return boot + self._applied
 
 
 class FollowedClock:
-    """ROS time that follows an emulated vehicle's, for a vehicle that lives faster than real time.
+    """ROS time that follows an emulated vehicle's, for one that is faster than real time.
 
-    What the vehicle says moves time on, so a machine that cannot keep the pace makes time slow and nothing
-    else. When the vehicle is silent, time goes on nevertheless, so that watchdogs notice.
+    The vehicle's messages advance time, so a machine that cannot keep the pace only slows time down. While
+    the vehicle is silent time advances nevertheless, so that watchdogs notice.
 
     Args:
         first: the time to begin with.
-        speed: how many times faster than the wall clock time goes on in silence.
+        speed: times real time, at which time advances in silence.
         patience: silence on the wall clock after which it does.
     """
 
@@ -146,7 +147,7 @@ class FollowedClock:
         self._moved_at: int | None = None
 
     def heard(self, boot: int, wall: int) -> bool:
-        """A message with this time arrived; True when the vehicle has been started anew."""
+        """Process a message with this time; return True when the vehicle was restarted."""
         anew = self._offset is not None and boot < self._newest - REBOOT
         if anew:
             self.restarts += 1
@@ -162,38 +163,38 @@ class FollowedClock:
 
     @property
     def offset(self) -> int | None:
-        """What is added to a time since boot, None before anything was heard."""
+        """Offset added to a time since boot; None before the first message."""
         return self._offset
 
     @property
     def settled(self) -> bool:
-        """Whether the vehicle's time can be relied on: at once, since ours follows it."""
+        """Whether the vehicle's time is reliable: at once, since ours follows it."""
         return True
 
     def pass_silence(self, wall: int) -> bool:
-        """Look at the wall clock; True when time has moved on in silence."""
+        """Compare with the wall clock; return True when time has advanced in silence."""
         if self._moved_at is None:
             self._moved_at = wall - self._patience
         silence = wall - self._moved_at
         if silence < self._patience:
             return False
-        # Never far at once: a machine that was held up is no reason for a jump.
+        # In small steps: a machine that was suspended must not make time jump.
         self.now += round(self._speed * min(silence - self._patience, _SECOND / 100))
         self._moved_at = wall - self._patience
         return True
 
     def stamp(self, boot: int) -> int:
-        """When that was. Something must have been heard before."""
+        """Return the ROS time of a time since boot; at least one message must have been heard."""
         assert self._offset is not None
         return boot + self._offset
 
 
 class ComponentTime:
-    """Time of a component that is not the autopilot: it may count from a boot, or an epoch, of its own.
+    """Time of a component other than the autopilot: it may count from a boot, or an epoch, of its own.
 
-    Its arrivals alone bound its offset no better than by its shortest delay. A component that stamps with the
-    autopilot's clock, as most do, is better served by the autopilot's offset, which the exchange of times
-    corrects. Which of the two holds is decided once, and again when they part.
+    Its arrivals alone bound its offset only up to its shortest delay. A component that stamps with the
+    autopilot's clock, as most do, uses the autopilot's offset, which the exchange of times corrects. Which of
+    the two holds is decided once, and again when they diverge.
 
     Args:
         autopilot: the time of the autopilot.
@@ -207,11 +208,11 @@ class ComponentTime:
 
     @property
     def restarts(self) -> int:
-        """How often the component was started anew."""
+        """Number of restarts of the component."""
         return self._own.restarts
 
     def heard(self, boot: int, now: int) -> bool:
-        """A message with this time arrived now; True when the component has been started anew."""
+        """Process a message with this time that arrived now; return True when the component was restarted."""
         anew = self._own.heard(boot, now)
         least, offset = self._own.least, self._autopilot.offset
         if least is None or offset is None:
@@ -225,9 +226,9 @@ class ComponentTime:
 
     @property
     def settled(self) -> bool:
-        """Whether its time can be relied on."""
+        """Whether its time is reliable."""
         return self._shares is not None
 
     def stamp(self, boot: int) -> int:
-        """When that was in ROS time. It must have settled before."""
+        """Return the ROS time of a time since boot; it must have settled."""
         return (self._autopilot.offset or 0) + boot if self._shares else self._own.stamp(boot)

@@ -1,0 +1,125 @@
+"""The settings of a mission's nodes: the parameter file, then the mission's, then the command line's."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from pathlib import Path
+from typing import Any
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.settings import params_file
+from auv_msgs_py.settings.schema import Pair
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following import config_files
+from auv_path_following.control.autopilot import HeadingAutopilot
+from auv_path_following.missions.mission_file import Mission
+from auv_path_following.vehicle import Vehicle
+from auv_sim.launch.options import Options
+from auv_sim.sim_parameters import SUITE
+from auv_sim.vehicle import sea
+
+#: Node name -> its settings object.
+NodeSettings = dict[str, Any]
+#: "mission", "vehicle", "params" and, where given, "controller_model" and "sea" -> file.
+Sources = dict[str, Path]
+
+
+def load(options: Options, file: Path, model: Vehicle, notices: list[str]) -> NodeSettings:
+    """Read the parameter file, set the timing, and validate the autopilot's gains before any node starts.
+
+    Args:
+        options: the command line.
+        file: the parameter file.
+        model: the hull that the nodes assume.
+        notices: lines about former names in the file are appended.
+
+    Raises:
+        ConfigurationError: a parameter or a gain that its node would refuse.
+    """
+    settings: NodeSettings = params_file.load(file, SUITE, options.namespace, notices)
+    lockstep = options.simulator and options.speed is None
+    for name in settings:
+        change(settings, name, lockstep=lockstep, recorded=lockstep)
+    try:
+        HeadingAutopilot(model, settings[topics.AUTOPILOT].autopilot)
+    except ConfigurationError as error:
+        place = f"{file}: {topics.AUTOPILOT}: {error.where}"
+        raise ConfigurationError(place, error.found, error.expected) from None
+    return settings
+
+
+def set_mission(
+    settings: NodeSettings, options: Options, mission: Mission, sources: Sources, directory: Path
+) -> None:
+    """Set the files, the mission's overrides, the initial state and the bag; change `settings` in place.
+
+    Args:
+        settings: of all nodes.
+        options: the command line.
+        mission: as read from `sources`.
+        sources: the input files.
+        directory: the run directory.
+    """
+    overridden = settings[topics.GUIDANCE].with_mission_overrides(mission).guidance
+    model_file = str(sources.get("controller_model", sources["vehicle"]))
+    change(settings, topics.GUIDANCE, guidance=overridden, mission_switching=False)
+    change(settings, topics.GUIDANCE, mission=str(sources["mission"]))
+    for node in (topics.GUIDANCE, topics.OBSERVER, topics.AUTOPILOT):
+        change(settings, node, vehicle=model_file)
+    initial = _initial(options, mission, settings)
+    plant_file = str(sources["vehicle"])
+    change(settings, topics.PLANT, vehicle=plant_file, initial=initial, publish_at_rest=False)
+    change(settings, topics.RECORDER, directory=str(directory / "bag"))
+
+
+def set_options(settings: NodeSettings, options: Options, sources: Sources) -> Pair:
+    """Apply speed, sea, current and switching from the command line; change `settings` and `sources`.
+
+    Returns:
+        The sea's mean current, north and east, m/s; zero without a sea.
+
+    Raises:
+        ConfigurationError: the sea cannot be read, or there is a seed without a sea.
+    """
+    if options.speed is not None:
+        change(settings, topics.PLANT, speed=options.speed)
+    mean = _set_sea(settings, options, sources)
+    if options.current is not None:
+        Vx, Vy = options.current
+        current = dataclasses.replace(settings[topics.PLANT].current, Vx=Vx, Vy=Vy)
+        change(settings, topics.PLANT, current=current)
+    if options.switching is not None:
+        guidance = settings[topics.GUIDANCE].guidance
+        switching = dataclasses.replace(guidance.switching, mode=options.switching)
+        change(settings, topics.GUIDANCE, guidance=dataclasses.replace(guidance, switching=switching))
+    return mean
+
+
+def change(settings: NodeSettings, node: str, **changes: Any) -> None:
+    """Replace fields of one node's settings."""
+    settings[node] = dataclasses.replace(settings[node], **changes)
+
+
+def _set_sea(settings: NodeSettings, options: Options, sources: Sources) -> Pair:
+    name = options.sea if options.sea is not None else settings[topics.PLANT].sea
+    if not name or not options.simulator:
+        if options.seed is not None:
+            raise ConfigurationError("--seed", "without a sea", "--sea with it: nothing else is random")
+        return 0.0, 0.0
+    sources["sea"] = config_files.find("seas", name).absolute()
+    seed = options.seed if options.seed is not None else settings[topics.PLANT].seed
+    change(settings, topics.PLANT, sea=str(sources["sea"]), seed=seed)
+    return sea.load(str(sources["sea"])).current.mean
+
+
+def _initial(options: Options, mission: Mission, settings: NodeSettings) -> Any:
+    """Return the vehicle's initial state: as configured, else on the path's start, heading along it."""
+    initial = settings[topics.PLANT].initial
+    if options.initial is not None:
+        x, y, psi = options.initial[0], options.initial[1], math.radians(options.initial[2])
+    elif initial == type(initial)():
+        x, y, psi = mission.path.start_pose
+    else:
+        return initial
+    return dataclasses.replace(initial, x=x, y=y, psi=psi)

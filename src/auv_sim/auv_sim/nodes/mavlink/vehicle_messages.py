@@ -1,0 +1,159 @@
+"""The vehicle's MAVLink messages, each turned into a measurement, a time or a condition."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable
+from typing import Any
+
+from pymavlink.dialects.v20 import common as mavlink
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.conversions import finite
+from auv_msgs_py.node.runtime import SuiteNode
+from auv_msgs_py.values.errors import MessageRefused
+from auv_msgs_py.values.types import WaterVelocity
+from auv_sim.nodes.mavlink.mapping import WATER_LOG, CommandLimits, rudder_of_pulse
+from auv_sim.nodes.mavlink.navigation import Assembly, Attitude, Position
+from auv_sim.nodes.mavlink.vehicle_time import ComponentTime, FollowedClock, OffsetEstimate
+from auv_sim.nodes.mavlink.vehicle_topics import VehicleTopics
+
+#: Requests for the vehicle's time that may await their answer.
+_REQUESTS = 8
+
+
+class VehicleMessages:
+    """Handles each kind of message; keeps the estimates of the vehicle's time.
+
+    Args:
+        node: the driver.
+        limits: full deflection of the vehicle.
+    """
+
+    def __init__(self, node: SuiteNode, limits: CommandLimits) -> None:
+        p = node.parameters
+        self._node, self._limits, self._system = node, limits, p.vehicle_system
+        settling = 0 if p.clock_speed else round(p.settling * 1e9)
+        self.time: OffsetEstimate | FollowedClock = (
+            FollowedClock(topics.FIRST_STAMP_NS, p.clock_speed) if p.clock_speed else OffsetEstimate(settling)
+        )
+        self._log_time = ComponentTime(self.time, settling)
+        #: Times of our requests for the vehicle's time, ns.
+        self.requests: deque[int] = deque(maxlen=_REQUESTS)
+        self._assembly = Assembly()
+        self.topics = VehicleTopics(node, self._assembly.dropped)
+        self._water_boot_ms = 0
+        #: ROS time of the newest message, ns; None before the first.
+        self.heard_at: int | None = None
+        self._status = ""
+        autopilot = p.vehicle_component
+        # Message -> the component that may send it (None: any), and its handler.
+        self._handlers: dict[str, tuple[int | None, Callable[[Any], None]]] = {
+            "HEARTBEAT": (autopilot, self._on_heartbeat),
+            "STATUSTEXT": (None, self._on_text),
+            "TIMESYNC": (autopilot, self._on_timesync),
+            "ATTITUDE": (autopilot, self._on_attitude),
+            "LOCAL_POSITION_NED": (autopilot, self._on_position),
+            "SERVO_OUTPUT_RAW": (autopilot, self._on_servo),
+            "ODOMETRY": (WATER_LOG, self._on_water_track),
+        }
+
+    def time_ns(self) -> int:
+        """Return ROS time, ns, without waiting for our own /clock."""
+        if isinstance(self.time, FollowedClock):
+            return self.time.now
+        return int(self._node.get_clock().now().nanoseconds)
+
+    def handle(self, message: Any) -> None:
+        """Process a message of the vehicle; ignore other systems and unknown kinds.
+
+        Raises:
+            MessageRefused: its content is outside its limits.
+        """
+        component, handler = self._handlers.get(message.get_type(), (0, None))
+        if handler is None or message.get_srcSystem() != self._system:
+            return
+        self.heard_at = self.time_ns()
+        if component not in (None, message.get_srcComponent()):
+            what = f"{message.get_type()} of component {message.get_srcComponent()}"
+            self._assembly.dropped[what] += 1
+            return
+        handler(message)
+
+    def values(self) -> dict[str, Any]:
+        """Return state, restarts and round trip for /diagnostics."""
+        restarts: dict[str, Any] = {
+            "vehicle restarts": self.time.restarts,
+            "water log restarts": self._log_time.restarts,
+        }
+        if isinstance(self.time, OffsetEstimate) and self.time.round_trip is not None:
+            restarts["round trip [ms]"] = f"{self.time.round_trip * 1e-6:.1f}"
+        return restarts
+
+    @property
+    def status(self) -> str:
+        """The vehicle's state, and whether it is armed."""
+        return self._status or "not heard yet"
+
+    @property
+    def dropped(self) -> dict[str, int]:
+        """Messages left out, by reason, for /diagnostics."""
+        return {f"dropped {what}": count for what, count in self._assembly.dropped.items()}
+
+    def _hear_time(self, boot_ms: int) -> None:
+        """Process the time of the autopilot; forget the measurements of a vehicle that was restarted."""
+        boot = boot_ms * 1_000_000
+        if isinstance(self.time, FollowedClock):
+            restarted = self.time.heard(boot, time.monotonic_ns())
+            self.topics.clock(self.time.now)
+        else:
+            restarted = self.time.heard(boot, self.time_ns())
+        if restarted:
+            self._node.get_logger().warning("the vehicle was started anew")
+            self._assembly.reset()
+
+    def _on_heartbeat(self, message: Any) -> None:
+        armed = "armed" if message.base_mode & mavlink.MAV_MODE_FLAG_SAFETY_ARMED else "not armed"
+        known = mavlink.enums["MAV_STATE"].get(message.system_status)
+        state = known.name.removeprefix("MAV_STATE_").lower() if known else f"state {message.system_status}"
+        self._status = f"{state}, {armed}"
+        self._node.health.warn("armed", "the vehicle is not armed" if armed == "not armed" else "")
+
+    def _on_text(self, message: Any) -> None:
+        self._node.get_logger().warning(f"the vehicle says: {message.text}")
+
+    def _on_timesync(self, message: Any) -> None:
+        is_answer = message.tc1 and message.ts1 in self.requests
+        if is_answer and isinstance(self.time, OffsetEstimate):
+            self.time.exchanged(message.ts1, message.tc1, self.time_ns())
+
+    def _on_attitude(self, message: Any) -> None:
+        self._hear_time(message.time_boot_ms)
+        self._assembly.attitude(Attitude(message.time_boot_ms, message.yaw, message.yawspeed))
+
+    def _on_position(self, message: Any) -> None:
+        self._hear_time(message.time_boot_ms)
+        m = message
+        fused = self._assembly.position(Position(m.time_boot_ms, m.x, m.y, m.vx, m.vy))
+        if fused is not None and self.time.settled:
+            self.topics.odometry(fused, self.time.stamp(fused.boot_ms * 1_000_000))
+
+    def _on_water_track(self, message: Any) -> None:
+        if message.child_frame_id != mavlink.MAV_FRAME_BODY_FRD:
+            raise MessageRefused("ODOMETRY", f"child_frame_id {message.child_frame_id}", "MAV_FRAME_BODY_FRD")
+        finite(message.vx + message.vy, "ODOMETRY")
+        boot_ms = message.time_usec // 1000
+        if self._log_time.heard(boot_ms * 1_000_000, self.time_ns()):
+            self._node.get_logger().warning("the vehicle's water log was started anew")
+            self._water_boot_ms = 0
+        if boot_ms > self._water_boot_ms and self._log_time.settled:
+            self._water_boot_ms = boot_ms
+            stamp = self._log_time.stamp(boot_ms * 1_000_000)
+            self.topics.water_velocity(WaterVelocity(message.vx, message.vy), stamp)
+
+    def _on_servo(self, message: Any) -> None:
+        output = self._node.parameters.rudder_servo
+        if output:
+            pulse = getattr(message, f"servo{output}_raw")
+            self.topics.rudder(rudder_of_pulse(pulse, self._limits))

@@ -1,0 +1,72 @@
+"""The vehicle's topics of the contract, published by its driver in the order of their stamps."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Any
+
+from geometry_msgs.msg import TwistWithCovarianceStamped
+from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Clock
+from std_msgs.msg import Float64
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.conversions import fill_odometry, fill_water_velocity, set_stamp
+from auv_msgs_py.contract.topics import Topic
+from auv_msgs_py.node.runtime import SuiteNode
+from auv_msgs_py.values.types import WaterVelocity
+from auv_sim.nodes.mavlink.navigation import Fused
+
+#: Step of /clock, ns.
+_CLOCK_PERIOD = 20_000_000
+
+
+class VehicleTopics:
+    """Publishes measurements; one whose stamp goes back is dropped and counted.
+
+    Args:
+        node: the driver; its parameters name the frames and whether it publishes /clock.
+        dropped: messages that were left out, by reason; counted up.
+    """
+
+    def __init__(self, node: SuiteNode, dropped: Counter[str]) -> None:
+        p = node.parameters
+        self._dropped = dropped
+        self._newest: dict[Topic, int] = {}
+        self._odometry, self._water = Odometry(), TwistWithCovarianceStamped()
+        self._odometry.header.frame_id, self._odometry.child_frame_id = p.world_frame, p.body_frame
+        self._water.header.frame_id = p.body_frame
+        self._publish = {
+            topic: node.advertise(topic).publish
+            for topic in (topics.ODOM, topics.WATER_VELOCITY, topics.RUDDER_STATE)
+        }
+        self._publish_clock = node.advertise(topics.CLOCK).publish if p.clock_speed else None
+        self._clock, self._clock_at = Clock(), 0
+
+    def odometry(self, fused: Fused, stamp: int) -> None:
+        """Publish an odometry, stamp in ns."""
+        fill_odometry(self._odometry, fused.navigation, fused.u, fused.v, stamp)
+        self._in_order(topics.ODOM, self._odometry, stamp)
+
+    def water_velocity(self, velocity: WaterVelocity, stamp: int) -> None:
+        """Publish a velocity through the water, m/s, FRD; stamp in ns."""
+        fill_water_velocity(self._water, velocity, stamp)
+        self._in_order(topics.WATER_VELOCITY, self._water, stamp)
+
+    def rudder(self, angle: float) -> None:
+        """Publish a measured rudder angle, rad, positive to port."""
+        self._publish[topics.RUDDER_STATE](Float64(data=angle))
+
+    def clock(self, now: int) -> None:
+        """Publish /clock (ns) in steps of `_CLOCK_PERIOD`, where this driver publishes it."""
+        if self._publish_clock is not None and now >= self._clock_at + _CLOCK_PERIOD:
+            self._clock_at = now
+            set_stamp(self._clock.clock, now)
+            self._publish_clock(self._clock)
+
+    def _in_order(self, topic: Topic, message: Any, stamp: int) -> None:
+        if stamp <= self._newest.get(topic, 0):
+            self._dropped[f"{topic.name} while time was corrected"] += 1
+            return
+        self._newest[topic] = stamp
+        self._publish[topic](message)
