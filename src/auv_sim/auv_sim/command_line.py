@@ -1,4 +1,4 @@
-"""What all command lines share: numbers that are checked, one line for a mistake, the exit codes."""
+"""Parts of every command line: checked numbers, one line for an error, exit codes."""
 
 from __future__ import annotations
 
@@ -29,14 +29,15 @@ EXIT_DONE, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
 
 
 def command(name: str, interrupted: str = "interrupted") -> Callable[[Callable[P, int]], Callable[P, int]]:
-    """How a command ends: for its `main`, which returns the exit code.
+    """Decorate a command's `main`, which returns the exit code, with the handling of errors.
 
-    Input that cannot be used is one line and 2, whatever else fails in a foreseen way one line and 1,
-    Ctrl-C 130. A reader of its output that leaves (head, say) ends a command that only prints, with 0.
+    Unusable input prints one line and exits with 2, any other foreseen failure prints one line and exits
+    with 1, Ctrl-C exits with 130. When the reader of its output leaves (`head`), a command that only prints
+    exits with 0.
 
     Args:
-        name: of what failed.
-        interrupted: what Ctrl-C says, unless the KeyboardInterrupt was raised with words of its own.
+        name: of the command, for the message.
+        interrupted: the message for Ctrl-C, unless the KeyboardInterrupt has one.
     """
 
     def ending(main: Callable[P, int]) -> Callable[P, int]:
@@ -64,7 +65,7 @@ def command(name: str, interrupted: str = "interrupted") -> Callable[[Callable[P
 
 
 class Parser(argparse.ArgumentParser):
-    """One line and exit code 2, without the usage in front of it."""
+    """Prints an error as one line, without the usage, and exits with 2."""
 
     def error(self, message: str) -> NoReturn:
         print(printable(f"{self.prog}: {message} (see --help)"), file=sys.stderr)
@@ -72,7 +73,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def finite(text: str) -> float:
-    """A number, neither NaN nor infinite."""
+    """Parse a finite number."""
     value = float(text)
     if not math.isfinite(value):
         raise argparse.ArgumentTypeError(f"found {text}, expected a finite number")
@@ -80,7 +81,7 @@ def finite(text: str) -> float:
 
 
 def positive(text: str) -> float:
-    """A number greater than 0."""
+    """Parse a number greater than 0."""
     value = finite(text)
     if value <= 0.0:
         raise argparse.ArgumentTypeError(f"found {text}, expected a number greater than 0")
@@ -88,7 +89,7 @@ def positive(text: str) -> float:
 
 
 def not_negative(text: str) -> float:
-    """A number of at least 0."""
+    """Parse a number of at least 0."""
     value = finite(text)
     if value < 0.0:
         raise argparse.ArgumentTypeError(f"found {text}, expected a number that is not negative")
@@ -96,7 +97,7 @@ def not_negative(text: str) -> float:
 
 
 def share(text: str) -> float:
-    """A number from 0 to 1."""
+    """Parse a number from 0 to 1."""
     value = finite(text)
     if not 0.0 <= value <= 1.0:
         raise argparse.ArgumentTypeError(f"found {text}, expected a share from 0 to 1")
@@ -104,28 +105,28 @@ def share(text: str) -> float:
 
 
 def whole(text: str) -> int:
-    """A whole number of at least 0."""
+    """Parse a whole number of at least 0."""
     if not text.isdecimal():
         raise argparse.ArgumentTypeError(f"found '{text}', expected a whole number of at least 0")
     return int(text)
 
 
 def at_least_one(text: str) -> int:
-    """A whole number of at least 1."""
+    """Parse a whole number of at least 1."""
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"found '{text}', expected a whole number of at least 1")
     return int(text)
 
 
 def target(text: str) -> Path:
-    """A file to write: whether it can be is found out before its content is computed."""
+    """Parse the path of a file to write, checked before its content is computed."""
     file = Path(text)
     if file.is_dir():
         why = ", a directory"
     elif not file.parent.is_dir():
-        why = " in a directory that is not there"
+        why = " in a directory that does not exist"
     elif not os.access(file if file.exists() else file.parent, os.W_OK):
-        why = ", which is not to be written"
+        why = ", which is not writable"
     else:
         return file
     raise argparse.ArgumentTypeError(f"found '{text}'{why}, expected a file that can be written")
@@ -136,7 +137,7 @@ finite.__name__ = positive.__name__ = not_negative.__name__ = share.__name__ = "
 
 
 def ros_namespace(text: str) -> str:
-    """A ROS namespace with one slash in front; `/` is the root."""
+    """Parse a ROS namespace; return it with one leading slash; `/` is the root."""
     name = "/" + text.strip("/")
     if not text or not re.fullmatch(r"/|(/[A-Za-z_][A-Za-z0-9_]*)+", name):
         raise argparse.ArgumentTypeError(f"found '{text}', expected a ROS namespace such as /auv")
@@ -144,7 +145,7 @@ def ros_namespace(text: str) -> str:
 
 
 def ros_domain(text: str) -> int:
-    """A ROS domain."""
+    """Parse a ROS domain."""
     if not text.isdecimal() or int(text) > 232:
         raise argparse.ArgumentTypeError(f"found '{text}', expected a ROS domain from 0 to 232")
     return int(text)
@@ -168,11 +169,11 @@ class Renamed(argparse.Action):
 
 
 def to_type(script: str, *words: object, **options: object) -> str:
-    """A command of `scripts/` for people to type, quoted for the shell.
+    """Return a command of `scripts/`, quoted for the shell.
 
     Args:
         script: its file.
-        words: what comes first.
+        words: positional arguments.
         options: name -> value, or several; True stands for the option alone, None for none.
     """
     line = ["python3", f"scripts/{script}", *map(str, words)]
@@ -197,17 +198,17 @@ def not_default(parser: argparse.ArgumentParser, options: argparse.Namespace) ->
 
 
 def discard_output() -> None:
-    """Let standard output lead nowhere, once its reader has gone."""
+    """Redirect standard output to the null device, once its reader has gone."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def say(text: object, error: bool = False) -> None:
-    """Print a line in which text from files is shown as it is safe."""
+    """Print a line with its control characters escaped."""
     print(printable_lines(str(text)), file=sys.stderr if error else sys.stdout, flush=True)
 
 
 def add_flown_option(parser: argparse.ArgumentParser, default: float | None) -> None:
-    """Add the option of every command that judges missions: how much of the path has to be flown.
+    """Add the option `--flown` of commands that judge missions: the least share of the path.
 
     Args:
         parser: the command's.
@@ -224,12 +225,12 @@ def add_flown_option(parser: argparse.ArgumentParser, default: float | None) -> 
 
 
 def make_directory(path: Path, option: str = "--out", new: bool = False) -> None:
-    """Make a directory, with those above it.
+    """Make a directory and its parents.
 
     Args:
         path: the directory.
-        option: that named it.
-        new: whether it must not be there yet.
+        option: the option that named it.
+        new: whether it must not exist yet.
 
     Raises:
         ConfigurationError: it cannot be made.

@@ -1,4 +1,4 @@
-"""The driver's parameters: ROS-free, so that a file is checked before the node starts."""
+"""The driver's parameters. ROS-free, so that a file is checked before the node starts."""
 
 from __future__ import annotations
 
@@ -13,20 +13,21 @@ class MavlinkDriverParameters(NodeParameters):
     """mavlink_driver."""
 
     address: str = setting(
-        "udpin:0.0.0.0:14550", "udpin:HOST:PORT waits there for the vehicle, udpout:HOST:PORT talks to it"
+        "udpin:0.0.0.0:14550", "udpin:HOST:PORT waits for the vehicle, udpout:HOST:PORT sends to it"
     )
     vehicle: str = setting(
-        "remus100", "vehicle file, or the name of a shipped one: what full deflection means"
+        "remus100", "vehicle file, or the name of a shipped one: its limits are full deflection"
     )
     vehicle_system: int = setting(1, "MAVLink system id of the vehicle", ge=1, le=255)
     vehicle_component: int = setting(
         1,
-        "MAVLink component id of the vehicle's autopilot; what others say of its motion is ignored",
+        "MAVLink component id of the vehicle's autopilot; the motion that others report is ignored",
         ge=1,
         le=255,
     )
     peer: str = setting(
-        "", "HOST or HOST:PORT that alone can be the vehicle, with udpin; empty: the first that speaks as it"
+        "",
+        "with udpin, the HOST or HOST:PORT of the vehicle; empty: the first sender with its system id",
     )
     peer_timeout: float = setting(
         5.0,
@@ -40,22 +41,22 @@ class MavlinkDriverParameters(NodeParameters):
     )
     system: int = setting(
         255,
-        "our MAVLink system id; most autopilots obey only the one that their parameters name",
+        "our MAVLink system id; most autopilots obey only the id that their parameters name",
         ge=1,
         le=255,
     )
     component: int = setting(191, "our MAVLink component id: an onboard computer", ge=1, le=255)
     turn_axis: Literal["clockwise", "counter-clockwise"] = setting(
-        "clockwise", "which way a positive r axis of MANUAL_CONTROL turns the vehicle"
+        "clockwise", "direction in which a positive r axis of MANUAL_CONTROL turns the vehicle"
     )
     rudder_servo: int = setting(
-        1, "output of SERVO_OUTPUT_RAW that moves the rudder, for rudder_state; 0 for none", ge=0, le=8
+        1, "output of SERVO_OUTPUT_RAW that moves the rudder, for rudder_state; 0: none", ge=0, le=8
     )
     command_timeout: float = setting(
-        1.0, "commands silent for this long: the vehicle is stopped", unit="s", ge=0.1, le=10.0
+        1.0, "age of the newest command after which the vehicle is stopped", unit="s", ge=0.1, le=10.0
     )
     link_timeout: float = setting(
-        1.0, "vehicle silent for this long: an error in /diagnostics", unit="s", ge=0.1, le=60.0
+        1.0, "silence of the vehicle after which /diagnostics shows an error", unit="s", ge=0.1, le=60.0
     )
     settling: float = setting(
         1.0,

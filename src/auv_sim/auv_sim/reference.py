@@ -1,4 +1,4 @@
-"""docs/parameters.md: every parameter and every key of a file, from the settings classes.
+"""Writes docs/parameters.md: every parameter and every key of a file, from the settings classes.
 
 In the environment: `python3 -m auv_sim.reference > docs/parameters.md`. A test compares the page with what
 this module writes.
@@ -39,7 +39,7 @@ _KINDS = {float: "number", int: "whole number", bool: "true or false", str: "tex
 
 
 class KeyRow(NamedTuple):
-    """One key."""
+    """One key of a settings class."""
 
     name: str
     kind: str
@@ -49,7 +49,7 @@ class KeyRow(NamedTuple):
 
 
 def page() -> str:
-    """The whole page, in Markdown."""
+    """Return the whole page, in Markdown."""
     parts = [_HEAD]
     every, navigating = (_names(cls) for cls in (NodeParameters, NavigationParameters))
     parts += _section("Every node", _parameters(NodeParameters, set()))
@@ -78,7 +78,7 @@ def _cell(text: str) -> str:
 
 
 def _parameters(cls: type[Any], above: set[str]) -> list[KeyRow]:
-    """The rows of a node without those that stand in the section of its base class."""
+    """Return the rows of a node without those of its base class, which have their own section."""
     return [row for row in keys(cls) if row.name not in above and row.kind != _GROUP]
 
 
@@ -87,11 +87,11 @@ def _names(cls: type[Any]) -> set[str]:
 
 
 def keys(cls: type[Any], prefix: str = "") -> Iterator[KeyRow]:
-    """Every key of a settings class, those of nested classes below it.
+    """Yield every key of a settings class, followed by those of nested classes.
 
     Args:
         cls: a settings class.
-        prefix: what stands before its keys.
+        prefix: text in front of its keys.
     """
     hints = typing.get_type_hints(cls)
     for name, info in cls.__pydantic_fields__.items():
@@ -108,7 +108,7 @@ def keys(cls: type[Any], prefix: str = "") -> Iterator[KeyRow]:
 
 
 def _nested(hint: Any) -> tuple[type[Any] | None, bool]:
-    """The settings class in an annotation, and whether the annotation is a list or a mapping of such."""
+    """Return the settings class in an annotation, and whether it is in a list or a mapping."""
     if isinstance(hint, type) and dataclasses.is_dataclass(hint):
         return hint, False
     for part in typing.get_args(hint):

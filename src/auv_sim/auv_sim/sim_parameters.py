@@ -1,4 +1,4 @@
-"""The parameters of the simulator and the recorder, and the table of all nodes' parameter classes."""
+"""The parameters of simulator, recorder and fault relay, and the table of all nodes' parameter classes."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from auv_path_following.parameters import (
 from auv_sim.driver_parameters import MavlinkDriverParameters
 from auv_sim.vehicle.remus import PlantState
 
-#: Speed through the water with which a simulated vehicle begins, m/s.
+#: Initial speed of a simulated vehicle through the water, m/s.
 CRUISE = 1.9
 
 
 @settings
 class InitialPose:
-    """Where the simulated vehicle begins, NED."""
+    """Initial state of the simulated vehicle, NED."""
 
     x: float = setting(0.0, "north", unit="m")
     y: float = setting(0.0, "east", unit="m")
@@ -33,7 +33,7 @@ class InitialPose:
 
     @property
     def state(self) -> PlantState:
-        """For the plant."""
+        """The same as the plant's state."""
         return PlantState(self.x, self.y, self.psi, self.surge, 0.0, 0.0)
 
 
@@ -46,7 +46,7 @@ class ConstantCurrent:
 
     @property
     def value(self) -> Current:
-        """For the plant."""
+        """The same as a vector, m/s, NED."""
         return Current(self.Vx, self.Vy)
 
 
@@ -56,17 +56,19 @@ class PlantParameters(NodeParameters):
 
     vehicle: str = setting("remus100", "vehicle file, or the name of a shipped one")
     initial: InitialPose = setting(factory=InitialPose, doc="initial state")
-    current: ConstantCurrent = setting(factory=ConstantCurrent, doc="water current, on top of the sea's own")
-    sea: str = setting("", "sea file, or the name of a shipped one: what is not ideal; empty: nothing")
-    seed: int = setting(0, "of everything that is random in the sea", ge=0)
-    step: float = setting(0.05, "time between two odometries", unit="s", ge=0.001, le=1.0)
-    speed: float = setting(1.0, "free running: how many times faster than the wall clock", ge=0.01, le=1000.0)
-    hold_until_running: bool = setting(True, "stay at the initial state until the mission runs")
+    current: ConstantCurrent = setting(
+        factory=ConstantCurrent, doc="constant current, added to the sea's own"
+    )
+    sea: str = setting("", "sea file, or the name of a shipped one; empty: an ideal sea")
+    seed: int = setting(0, "seed of all random numbers of the sea", ge=0)
+    step: float = setting(0.05, "period of the odometry", unit="s", ge=0.001, le=1.0)
+    speed: float = setting(1.0, "free running: times real time", ge=0.01, le=1000.0)
+    hold_until_running: bool = setting(True, "hold the initial state until the mission runs")
     publish_at_rest: bool = setting(
-        True, "free running: publish the state while it is held, so that it can be checked"
+        True, "free running: publish the state while it is held, for checks before the mission"
     )
     command_timeout: float = setting(
-        1.0, "without a command for this long: rudder and thrust 0", unit="s", ge=0.1, le=60.0
+        1.0, "age of the newest command after which rudder and thrust are 0", unit="s", ge=0.1, le=60.0
     )
     answer_timeout: float = setting(
         10.0,
@@ -81,10 +83,10 @@ class PlantParameters(NodeParameters):
     body_frame: str = setting("base_link", "frame id of the vehicle; base_link is FLU, base_link_frd FRD")
 
     def check_frames(self, node: str) -> None:
-        """Check that the two frames go together.
+        """Check that the two frames are compatible.
 
         Raises:
-            ConfigurationError: with the node's name, if they do not.
+            ConfigurationError: they are not; it names the node.
         """
         try:
             FrameTable(FrameIds()).of_pose(topics.ODOM.name, self.world_frame, self.body_frame)
@@ -99,27 +101,27 @@ class RecorderParameters(NodeParameters):
 
     directory: str = setting(
         "",
-        "the rosbag2 directory to write; it must not exist yet; empty for bag-DATE-TIME where it was started",
+        "rosbag2 directory to write; it must not exist yet; empty: bag-DATE-TIME in the working directory",
     )
     contract: bool = setting(True, "record the wire contract, /rosout and /parameter_events from the start")
-    topics: str = setting("", "further topics: names, separated by blanks")
-    regex: str = setting("", "further topics: those whose full name matches")
-    exclude: str = setting("", "never those whose full name matches, unless they are named elsewhere")
-    all_topics: bool = setting(False, "every topic that appears")
-    compression: Literal["none", "zstd"] = setting("zstd", "of the chunks: zstd or none")
+    topics: str = setting("", "further topics: names, separated by spaces")
+    regex: str = setting("", "further topics: regular expression for their full names")
+    exclude: str = setting("", "regular expression for full names not to record, unless named elsewhere")
+    all_topics: bool = setting(False, "record every topic that appears")
+    compression: Literal["none", "zstd"] = setting("zstd", "compression of the chunks: zstd or none")
     flush_period: float = setting(
-        0.5, "a crash loses at most so much, of wall time and of recorded time", unit="s", ge=0.05, le=60.0
+        0.5, "longest time, wall and recorded, that a crash loses", unit="s", ge=0.05, le=60.0
     )
-    max_size: int = setting(0, "begin a new file after so many MB; 0 for never", ge=0, le=1_000_000)
+    max_size: int = setting(0, "size at which a new file is begun, MB; 0: never", ge=0, le=1_000_000)
     max_duration: float = setting(
-        0.0, "begin a new file after so much recorded time; 0 for never", unit="s", ge=0.0, le=1e6
+        0.0, "recorded time after which a new file is begun; 0: never", unit="s", ge=0.0, le=1e6
     )
     min_free_space: int = setting(
-        200, "close the recording when so many MB are left on its disk; 0 for never", ge=0, le=1_000_000
+        200, "free space on the disk below which the recording is closed, MB; 0: never", ge=0, le=1_000_000
     )
 
 
-#: What `fault_relay` can do to a topic; `auv_sim.nodes.fault_injection` says what each does.
+#: Faults of `fault_relay`; `auv_sim.nodes.fault_injection` describes each.
 Fault = Literal[
     "none",
     "stop",
@@ -138,24 +140,24 @@ Fault = Literal[
 
 @settings
 class FaultRelayParameters(NodeParameters):
-    """fault_relay. It reads each topic as <topic>_raw; with fault none it only passes on."""
+    """fault_relay. It reads each topic as <topic>_raw; with fault none it only forwards."""
 
     topics: str = setting(
         "odom velocity_through_water current_estimate desired_yaw desired_yaw_rate desired_thrust"
         " rudder_cmd thrust_cmd mission_state",
-        "the topics it stands between, separated by blanks",
+        "the topics that it forwards, separated by spaces",
     )
     fault: Fault = setting(
         "none", "stop, delay, nan, freeze, jump, reverse, flood, frameless, timeless, cut, forge, or none",
         live=True,
     )  # fmt: skip
-    on: str = setting("", "only these of the topics have the fault; all if empty", live=True)
-    delay: float = setting(2.0, "of fault delay", unit="s", ge=0.001, le=600.0, live=True)
-    jump: float = setting(100.0, "of fault jump, in the unit of the topic", live=True)
-    copies: int = setting(100, "of each message in a flood", ge=1, le=10_000, live=True)
+    on: str = setting("", "the topics with the fault; empty: all", live=True)
+    delay: float = setting(2.0, "delay of the fault delay", unit="s", ge=0.001, le=600.0, live=True)
+    jump: float = setting(100.0, "size of the fault jump, in the unit of the topic", live=True)
+    copies: int = setting(100, "copies of each message in the fault flood", ge=1, le=10_000, live=True)
 
 
-#: Node name -> the class of its parameters: what a parameter file may contain.
+#: Node name -> the class of its parameters, which a parameter file may contain.
 SUITE: dict[str, type[Any]] = {
     topics.PLANT: PlantParameters,
     topics.OBSERVER: ObserverParameters,

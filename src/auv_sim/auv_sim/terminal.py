@@ -1,4 +1,4 @@
-"""What commands print: tables, progress, what was written, what to do next."""
+"""Output of the commands: tables, progress, files written, the next command."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from auv_sim.command_line import discard_output
 
 
 class SafeConsole(Console):
-    """A console that shows text from files as it is safe, and does not mind when its reader has gone."""
+    """A console that escapes control characters from files, and continues when its reader has gone."""
 
     def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterable[Segment]:
         """Spell out control characters (terminal escapes from files); rich's own colours stay."""
@@ -29,13 +29,13 @@ class SafeConsole(Console):
                 yield segment._replace(text=printable_lines(segment.text))
 
     def on_broken_pipe(self) -> None:
-        """Go on in silence: a mission flies to its end also under `| head -1`."""
+        """Continue silently: under `| head -1`, too, a mission flies to its end."""
         self.quiet = True
         discard_output()
 
 
 def console(quiet: bool = False, **options: Any) -> Console:
-    """Where tables go: as wide as the terminal; in a pipe or a file wide enough for the widest table."""
+    """Return a console as wide as the terminal; in a pipe or a file, wide enough for the widest table."""
     free = not sys.stdout.isatty() and "COLUMNS" not in os.environ
     options = {"width": 140 if free else None, "highlight": False} | options
     return SafeConsole(quiet=quiet, **options)
@@ -61,16 +61,16 @@ def headed_table(
 
 
 def wrote(console: Console, path: object, what: str) -> None:
-    """Tell what was written, and what it is for; a path may look like markup."""
+    """Print a path that was written, and its purpose; the path may look like markup."""
     console.print(f"  {escape(str(path))}  [dim]{escape(what)}[/dim]", soft_wrap=True, highlight=False)
 
 
 def go_on(console: Console, words: str, line: str) -> None:
-    """Tell the next command, as it can be copied, and what it is for."""
+    """Print the next command, ready to be copied, and its purpose."""
     console.print(f"\n{words}:  {line}", soft_wrap=True, highlight=False, markup=False)
 
 
 def progress_bar(console: Console, disable: bool = False) -> Progress:
-    """What is done, how many of how many, and for how long."""
+    """Return a progress bar: task, count of total, elapsed time."""
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     return Progress(*columns, console=console, disable=disable)

@@ -30,14 +30,14 @@ FULL_RUDDER = math.radians(35.0)
 
 
 class Vehicle:
-    """The far end of the link: says what it is told to, and keeps the commands that come."""
+    """The far end of the link: sends on request, and keeps the commands that arrive."""
 
     def __init__(self, port: int) -> None:
         self.link = MavlinkLink(f"udpout:127.0.0.1:{port}", 1, 1)
         self.stranger = MavlinkLink(f"udpout:127.0.0.1:{port}", 9, 1)
 
     def measure(self, boot_ms: int, yaw: float = 0.0, north: float = 100.0, **changes: float) -> None:
-        """Heading north (unless told otherwise) at 2 m/s and 0.5 m/s to starboard, turning to starboard."""
+        """Heading `yaw` (default north) at 2 m/s and 0.5 m/s to starboard, turning to starboard."""
         attitude = [0.0, 0.0, yaw, 0.0, 0.0, changes.get("r", 0.1)]
         self.link.send(mavlink.MAVLink_attitude_message(boot_ms, *attitude))
         position = [north, 20.0, 0.0, 2.0, 0.5, 0.0]

@@ -1,4 +1,4 @@
-"""The emulated vehicle: what it says, how often, and that it stops by itself."""
+"""The emulated vehicle: its messages, their rates, and its stop without commands."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from pymavlink.dialects.v20 import common as mavlink
 
 from auv_msgs_py.values.types import STOP, Command, Current
 from auv_path_following import vehicle
-from auv_sim.nodes.mavlink.emulator import ANSWERS, BOOT_MS, CHANNELS, LINES, DelayLine, Emulator, MessageKind
+from auv_sim.nodes.mavlink.delay_line import DelayLine, MessageKind
+from auv_sim.nodes.mavlink.emulated_vehicle import ANSWERS, BOOT_MS, KINDS, LINKS, Emulator
 from auv_sim.nodes.mavlink.mapping import CommandLimits, manual_control
 from auv_sim.vehicle.remus import PlantState
 
@@ -32,13 +33,13 @@ def order(emulator: Emulator, rudder: float, thrust: float) -> None:
 
 
 def live(emulator: Emulator, ms: int, command: Command | None = None) -> list[Any]:
-    """Let time pass, with a command every 50 ms; what it said."""
+    """Let time pass, with a command every 50 ms; return what it sent."""
     for k in range(ms // 10):
         if command is not None and k % 5 == 0:
             order(emulator, *command)
         emulator.step()
-    said = [message for _, message in emulator.said]
-    emulator.said.clear()
+    said = [message for _, message in emulator.sent]
+    emulator.sent.clear()
     return said
 
 
@@ -84,7 +85,7 @@ def test_it_answers_timesync_with_its_own_time(emulator: Emulator) -> None:
     live(emulator, 500)
     emulator.hear(mavlink.MAVLink_timesync_message(0, 123))
     emulator.hear(mavlink.MAVLink_timesync_message(99, 123))  # an answer to somebody else
-    ((_, answer),) = emulator.said
+    ((_, answer),) = emulator.sent
     assert (answer.ts1, answer.tc1) == (123, (BOOT_MS + 500) * 1_000_000)
 
 
@@ -101,16 +102,16 @@ def test_a_line_delays_shuffles_and_loses() -> None:
 
 
 def test_every_period_is_a_multiple_of_the_step() -> None:
-    assert all(channel.period % 10 == 0 for channel in CHANNELS.values())
+    assert all(channel.period % 10 == 0 for channel in KINDS.values())
 
 
 def test_messages_of_one_line_keep_their_order() -> None:
     """Signatures have to rise on a line: what overtakes there is refused as a replay."""
-    assert len(set(LINES.values())) == len(CHANNELS) + 1
+    assert len(set(LINKS.values())) == len(KINDS) + 1
     way, dice = DelayLine(0.0, random.Random(3)), random.Random(4)
-    arrived: dict[MessageKind, list[int]] = {channel: [] for channel in LINES}
+    arrived: dict[MessageKind, list[int]] = {channel: [] for channel in LINKS}
     for now in range(0, 20_000, 10):
-        for channel in LINES:
+        for channel in LINKS:
             due = dice.random() < 0.3 if channel is ANSWERS else now % channel.period == 0
             for number in range(int(due) * (1 + (channel is ANSWERS))):
                 way.put(float(now), channel, (channel, 2 * now + number))
@@ -121,4 +122,4 @@ def test_messages_of_one_line_keep_their_order() -> None:
 
 def test_what_the_vehicle_says_at_any_time_has_a_line_of_its_own(emulator: Emulator) -> None:
     emulator.hear(mavlink.MAVLink_timesync_message(0, 5))
-    assert [channel for channel, _ in emulator.said] == [ANSWERS]
+    assert [channel for channel, _ in emulator.sent] == [ANSWERS]

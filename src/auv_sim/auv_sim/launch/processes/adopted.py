@@ -1,4 +1,4 @@
-"""The launcher's side of `loader`: one process that loads for all nodes and becomes them."""
+"""The launcher's side of `loader`: one process that imports for all nodes, then forks into them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from auv_msgs_py.node.start_gate import OPEN
 from auv_sim.launch.outcome import MissionFailed
 from auv_sim.launch.processes.kin import adopt_orphans
 
-#: Arguments of no meaning: the nodes write their own command line in this place, for `ps`.
+#: Unused arguments: the nodes write their own command line over them, for `ps`.
 _ROOM = ("." * 250,)
 
 
@@ -40,7 +40,7 @@ class Adopted:
         return self._code
 
     def wait(self, timeout: float | None = None) -> int:
-        """Wait for its end; returns the exit code.
+        """Wait for its end; return the exit code.
 
         Raises:
             subprocess.TimeoutExpired: it has not ended within `timeout` s.
@@ -63,16 +63,16 @@ class Adopted:
 
 
 class Loader:
-    """The process that loads what the nodes need, and becomes them: `auv_sim.launch.processes.loader`.
+    """The process that imports the nodes' libraries and forks into them: `auv_sim.launch.processes.loader`.
 
-    Start it early: it loads while the launcher reads its files.
+    Start it early: it imports while the launcher reads its files.
     """
 
     def __init__(self) -> None:
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - closed on exit
         # The nodes that the loader leaves behind become children of this process.
         adopt_orphans(True)
-        # Linear algebra needs no threads here, and a process without threads can fork.
+        # Without the threads of linear algebra, which nothing needs here, the process can fork.
         environment = {**os.environ, "PYTHONUNBUFFERED": "1", "OPENBLAS_NUM_THREADS": "1"}
         self._process = subprocess.Popen(  # noqa: S603 - our own interpreter, our own module
             [sys.executable, "-m", "auv_sim.launch.processes.loader", *_ROOM],
@@ -89,7 +89,7 @@ class Loader:
     def fork(
         self, environment: Mapping[str, str], nodes: Sequence[tuple[str, str, Sequence[str], str]]
     ) -> dict[str, int]:
-        """Have it fork the nodes, which wait at their gate once they have loaded.
+        """Fork the nodes, which wait at their gate once they have loaded.
 
         Args:
             environment: variables for all of them.
@@ -99,7 +99,7 @@ class Loader:
             Name -> process id.
 
         Raises:
-            MissionFailed: the loader has ended before.
+            MissionFailed: the loader has ended.
         """
         answer = b""
         with contextlib.suppress(BrokenPipeError):
@@ -117,13 +117,13 @@ class Loader:
         return ids
 
     def at_gate(self) -> bool:
-        """Whether every node has loaded and waits."""
+        """Return whether every node has loaded and waits."""
         with contextlib.suppress(BlockingIOError):
             self._at_gate += len(os.read(self._reports, self._nodes or 1))
         return self._at_gate >= self._nodes
 
     def open_gate(self) -> None:
-        """Let the nodes be made."""
+        """Let the nodes start."""
         with contextlib.suppress(BrokenPipeError):  # all have ended, which `Children.dead` reports
             os.write(self._order, OPEN * self._nodes)
 
@@ -133,7 +133,7 @@ class Loader:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """End it if it has no nodes yet."""
+        """End the loader if it has not forked yet."""
         self._process.kill()
         with self._process:  # closes its pipes and waits
             self._errors.close()

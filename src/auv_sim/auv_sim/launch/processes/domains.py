@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 import socket
 
-#: Domains above reach into the ports that Linux assigns; 0 is the default of every program.
+#: Higher domains use ports that Linux assigns to others; 0 is the default of every program.
 LAST = 101
-#: A domain has ports for so many participants on one machine.
+#: Participants for which a domain has ports on one machine.
 _PARTICIPANTS = 120
 
 
@@ -15,9 +15,9 @@ def free_domain(skip: int = 0) -> int:
     """Return a ROS domain in which no participant of this machine is found.
 
     Args:
-        skip: how many domains to leave out, for a caller that needs several before it uses any.
+        skip: number of domains to leave out, for a caller that needs several before it uses any.
     """
-    # Where to begin depends on the process, so that two that ask at the same moment do not meet.
+    # The first candidate depends on the process, so that two simultaneous callers get different domains.
     begin = os.getpid() + skip
     numbers = [1 + (begin + k) % LAST for k in range(LAST)]
     return next((number for number in numbers if not _is_taken(number, 0)), numbers[0])

@@ -1,4 +1,4 @@
-"""Parents and children as Linux knows them: a process that ends with its parent, one that adopts orphans."""
+"""Parent and child processes under Linux: one that ends with its parent, one that adopts orphans."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ import ctypes
 import signal
 
 _PR_SET_PDEATHSIG, _PR_SET_CHILD_SUBREAPER = 1, 36
-# Found before any fork: a child between fork and exec must not look for libraries.
+# Loaded before any fork: a child between fork and exec must not search for libraries.
 _LIBC = ctypes.CDLL(None)
 
 
 def end_with_parent() -> None:
-    """Have this process end when its parent does, however that ends, even by SIGKILL."""
+    """End this process with its parent, even if that is killed."""
     _LIBC.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
 
 
 def adopt_orphans(adopts: bool) -> None:
-    """Have processes whose parent ends become children of this one, their ancestor, or no longer."""
+    """Adopt descendants whose parent ends as children of this process, or stop doing so."""
     _LIBC.prctl(_PR_SET_CHILD_SUBREAPER, int(adopts))

@@ -1,13 +1,14 @@
-"""One process loads what all nodes of a mission need, then forks one process for each node and ends.
+"""Imports the libraries of all nodes of a mission, forks one process for each node, and ends.
 
-Five interpreters that each import the same libraries are most of a mission's start-up. The forked processes
-share what is loaded here; all that is left to each of them is rclpy. That is not loaded here: its tracing
-library starts threads, and a process with threads must not fork. Should there be a thread nevertheless, a
-node's process begins with an interpreter of its own.
+Five interpreters that import the same libraries take most of a mission's start-up. The forked processes share
+what is loaded here; each of them only imports rclpy. That is not loaded here: its tracing library starts
+threads, and a process with threads must not fork. If there is a thread nevertheless, a node's process starts
+an interpreter of its own.
 
-The launcher (`processes.Loader`) starts this module and speaks with it in lines of JSON:
+The launcher (`adopted.Loader`) starts this module and exchanges lines of JSON with it:
 
-- standard input: the order (`Order`), then what opens the gate of each node (`auv_msgs_py.node.run.OPEN`);
+- standard input: the order (`Order`), then the byte that opens the gate of each node
+  (`auv_msgs_py.node.start_gate.OPEN`);
 - standard output: node name -> process id, then a byte from each node that waits at its gate.
 
 When this process ends, the nodes become children of the launcher, which is their subreaper.
@@ -53,7 +54,7 @@ LOADED = (
 
 
 class Order(NamedTuple):
-    """What the launcher asks for.
+    """The launcher's order.
 
     Attributes:
         environment: variables for all nodes.
@@ -65,18 +66,18 @@ class Order(NamedTuple):
 
 
 def load() -> None:
-    """Import all that nodes share, and fill the caches that their first steps would fill."""
+    """Import the nodes' common libraries, and fill the caches that their first steps would fill."""
     for module in LOADED:
         importlib.import_module(module)
     definitions = importlib.import_module("auv_sim.bags.definitions")
     definitions.typestore()
-    inspect.getmodule(sys._getframe())  # rclpy's loggers ask it for the caller: 60 ms the first time
+    inspect.getmodule(sys._getframe())  # rclpy's loggers use it for the caller: 60 ms the first time
     gc.collect()
     gc.freeze()
 
 
 def main() -> int:
-    """Load, read the order and fork. It returns in each node's process, with the node's exit code."""
+    """Load, read the order and fork. Return in each node's process, with the node's exit code."""
     launcher = os.getppid()
     _end_with(launcher)
     load()
@@ -110,14 +111,14 @@ def _read_line() -> bytes:
 
 
 def _end_with(parent: int) -> None:
-    """Have this process end when its parent does, or at once if that has ended before."""
+    """End this process with its parent, or at once if that has ended."""
     end_with_parent()
     if os.getppid() != parent:
         raise SystemExit(1)
 
 
 def _write_to(log: str) -> int:
-    """Let standard output and standard error go to a file; returns where standard output went before."""
+    """Redirect standard output and error to a file; return a descriptor of the former standard output."""
     before = os.dup(sys.stdout.fileno())
     os.set_inheritable(before, True)
     with Path(log).open("wb") as stream:
@@ -127,7 +128,7 @@ def _write_to(log: str) -> int:
 
 
 def _run(module: str, arguments: Sequence[str], anew: bool) -> int:
-    """Be `python -m module arguments`, with an interpreter of its own if `anew`; returns the exit code."""
+    """Run `python -m module arguments`, in a new interpreter if `anew`; return the exit code."""
     command = [sys.executable, "-m", module, *arguments]
     if anew:
         os.execv(command[0], command)  # noqa: S606 - our own interpreter, our own modules
@@ -138,7 +139,7 @@ def _run(module: str, arguments: Sequence[str], anew: bool) -> int:
 
 
 def _show(command: Sequence[str]) -> None:
-    """Have `ps` and /proc/self/cmdline show this command, as far as it fits in the loader's."""
+    """Show this command in `ps` and /proc/self/cmdline, as far as it fits in the loader's."""
     with contextlib.suppress(OSError, ValueError):
         numbers = Path("/proc/self/stat").read_text().rpartition(")")[2].split()
         begin, end = int(numbers[45]), int(numbers[46])  # arg_start, arg_end: fields 48 and 49 of proc(5)

@@ -1,8 +1,8 @@
-"""On which processor the processes of a lockstep mission run.
+"""The processor on which a lockstep mission runs.
 
-Its nodes wait for each other, so one processor is all that they can use; on one they find each other's
-messages in its cache, and nobody has to be woken across the machine. The recorder, which nobody waits for,
-runs beside them. docs/performance.md has what that is worth.
+Its nodes wait for each other, so they can use only one processor; on one, their messages stay in its cache,
+and no process is woken on another processor. The recorder, for which no node waits, runs beside them.
+docs/performance.md has the gain.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from pathlib import Path
 
 from auv_msgs_py.contract import topics
 
-#: The same for all users of a machine; it goes with the process that holds it.
+#: Abstract socket, the same for all users of a machine; it is released when its process ends.
 _CLAIM = "\0auv-lockstep-processor-{}"
 
 
 class Processor:
-    """One processor for the nodes of a mission that no other mission on this machine has; perhaps none.
+    """One processor for the nodes of a mission that no other mission on this machine uses; perhaps none.
 
     Args:
         usable: processors to choose from; those that this process may use by default.
@@ -29,7 +29,7 @@ class Processor:
     def __init__(self, usable: Iterable[int] | None = None) -> None:
         self._usable = sorted(os.sched_getaffinity(0) if usable is None else usable)
         self._claim: socket.socket | None = None
-        #: Its number; None where there is none to be had, and the system decides.
+        #: Its number; None where none is free, and the system decides.
         self.number = self._claimed() if len(self._usable) > 1 else None
 
     def _claimed(self) -> int | None:
@@ -46,15 +46,15 @@ class Processor:
         return None
 
     def release(self) -> None:
-        """Let another mission have it."""
+        """Release the processor for other missions."""
         if self._claim is not None:
             self._claim.close()
             self._claim = self.number = None
 
     def place(self, processes: dict[str, int]) -> None:
-        """Put running processes where they belong.
+        """Assign running processes to their processors.
 
-        Call it when all of them have come up, which they do sooner on all processors.
+        Call it once all of them have started, which is faster on all processors.
 
         Args:
             processes: node name -> process id.
@@ -67,12 +67,13 @@ class Processor:
 
 
 def _put(pid: int, processors: set[int]) -> None:
-    """All threads of a process; as batch work, who is woken waits until who woke him has said everything."""
+    """Assign all threads of a process; as batch work a woken thread does not preempt the one that woke it."""
     tasks: list[Path] = []
     with contextlib.suppress(OSError):
         tasks += Path(f"/proc/{pid}/task").iterdir()
     for task in tasks:
-        # What has ended meanwhile needs no place; where a container forbids it, all is slower, not different.
+        # Threads may have ended meanwhile; where a container forbids it, the mission is slower, not
+        # different.
         with contextlib.suppress(OSError):
             os.sched_setaffinity(int(task.name), processors)
             os.sched_setscheduler(int(task.name), os.SCHED_BATCH, os.sched_param(0))

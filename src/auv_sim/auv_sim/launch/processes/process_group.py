@@ -1,4 +1,4 @@
-"""Child processes of one mission: started together, watched, and gone together."""
+"""Child processes of one mission: started, watched and stopped together."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Child:
         return self.process.poll()
 
     def last_lines(self, count: int = 6) -> list[str]:
-        """The end of its log."""
+        """Return the last lines of its log."""
         text = self.log.read_text(encoding="utf-8", errors="replace")
         return [line for line in text.splitlines() if line.strip()][-count:]
 
@@ -76,7 +76,7 @@ class Children:
         self._children[name] = Child(name, process, log)
 
     def fork(self, loader: Loader, nodes: Mapping[str, tuple[str, Sequence[str]]]) -> None:
-        """Have nodes forked by `loader`: name -> module and arguments. They wait at the loader's gate."""
+        """Fork nodes by `loader`: name -> module and arguments. They wait at the loader's gate."""
         order = [
             (name, module, list(arguments), str(self._log(name)))
             for name, (module, arguments) in nodes.items()
@@ -96,11 +96,11 @@ class Children:
         return {name: child.process.pid for name, child in self._children.items()}
 
     def dead(self) -> Child | None:
-        """The first child that has ended, if any has."""
+        """Return the first child that has ended, None if all run."""
         return next((child for child in self._children.values() if child.exit_code is not None), None)
 
     def stop(self, names: Sequence[str] | None = None, patience: float = 10.0) -> None:
-        """SIGINT to the named children (all by default); who does not leave within `patience` s is killed."""
+        """Send SIGINT to the named children (default: all); kill those that outlive `patience`, s."""
         chosen = [self._children[name] for name in names or self._children if name in self._children]
         for child in chosen:
             if child.exit_code is None:

@@ -20,7 +20,7 @@ _RECEIVE_BUFFER = 4_000_000
 
 
 def parse_address(text: str, where: str) -> tuple[bool, str, int]:
-    """Parse `udpin:HOST:PORT` (or `udp:`), which waits for the vehicle, or `udpout:HOST:PORT`, which sends to it.
+    """Parse `udpin:HOST:PORT` (or `udp:`), which waits for the vehicle, or `udpout:`, which sends to it.
 
     Returns:
         (whether to wait, host, port).
