@@ -189,7 +189,7 @@ def _find_files(options: Options) -> node_settings.Sources:
 
 def _check(
     options: Options, mission: Mission, hull: Vehicle, settings: node_settings.NodeSettings, mean: Pair
-) -> Verdicts:
+) -> Findings:
     """Check whether the mission can be flown in the current that is configured (m/s, NED)."""
     current = NO_CURRENT
     if options.simulator or options.emulator:
