@@ -84,7 +84,7 @@ class MavlinkDriverNode(SuiteNode):
                 return
             for message in self.link.messages(datagram):
                 try:
-                    self._vehicle.handle(message)
+                    self._vehicle.process(message)
                 except MessageRefused as error:
                     self.health.refuse(error)
 

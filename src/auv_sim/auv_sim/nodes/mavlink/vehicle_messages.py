@@ -65,7 +65,7 @@ class VehicleMessages:
             return self.time.now
         return int(self._node.get_clock().now().nanoseconds)
 
-    def handle(self, message: Any) -> None:
+    def process(self, message: Any) -> None:
         """Process a message of the vehicle; ignore other systems and unknown kinds.
 
         Raises:
