@@ -132,7 +132,7 @@ def _options(argv: Sequence[str] | None) -> Options:
     if options.vehicle_address is not None:
         if options.vehicle_driver is None:
             raise ConfigurationError("--vehicle-address", "no --vehicle-driver", "both")
-        from auv_sim.nodes.mavlink.link import parse_address
+        from auv_sim.nodes.mavlink.transport.link import parse_address
 
         parse_address(options.vehicle_address, "--vehicle-address")
     if options.no_sim and options.vehicle_driver is not None:

@@ -38,8 +38,8 @@ def configure_driver(
         ConfigurationError: a key or a peer that the driver would refuse.
     """
     # Imported only for a driver: MAVLink takes as long to import as all else here.
-    from auv_sim.nodes.mavlink.peer import Configured
-    from auv_sim.nodes.mavlink.signing import load_key
+    from auv_sim.nodes.mavlink.transport.peer import Configured
+    from auv_sim.nodes.mavlink.transport.signing import load_key
 
     given: MavlinkDriverParameters = parameters[driver]
     load_key(given.signing_key, f"{driver}.signing_key")

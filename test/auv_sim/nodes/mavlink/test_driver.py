@@ -22,8 +22,8 @@ from auv_path_following import config_files
 from auv_sim.cli.mission import main
 from auv_sim.launch.vehicle_driver import free_port
 from auv_sim.nodes.mavlink.driver import MavlinkDriverNode
-from auv_sim.nodes.mavlink.link import MavlinkLink
 from auv_sim.nodes.mavlink.mapping import WATER_LOG, water_track
+from auv_sim.nodes.mavlink.transport.link import MavlinkLink
 from node_bench import Bench
 
 FULL_RUDDER = math.radians(35.0)

@@ -16,8 +16,8 @@ from auv_msgs_py.node.runtime import SuiteNode
 from auv_sim.checks.faults.strangers import measure
 from auv_sim.launch.vehicle_driver import free_port
 from auv_sim.nodes.mavlink.driver import MavlinkDriverNode
-from auv_sim.nodes.mavlink.link import MavlinkLink
 from auv_sim.nodes.mavlink.mapping import WATER_LOG, water_track
+from auv_sim.nodes.mavlink.transport.link import MavlinkLink
 from node_bench import Bench
 
 Start = Callable[..., tuple[SuiteNode, MavlinkLink, MavlinkLink]]

@@ -21,11 +21,11 @@ from auv_msgs_py.values.types import STOP
 from auv_path_following import vehicle
 from auv_sim.driver_parameters import MavlinkDriverParameters
 from auv_sim.nodes.mavlink.commands import Commands
-from auv_sim.nodes.mavlink.link import MavlinkLink
-from auv_sim.nodes.mavlink.link_watch import LinkWatch
 from auv_sim.nodes.mavlink.mapping import CommandLimits, heartbeat, manual_control
-from auv_sim.nodes.mavlink.peer import Configured, Peer
-from auv_sim.nodes.mavlink.signing import load_key
+from auv_sim.nodes.mavlink.transport.link import MavlinkLink
+from auv_sim.nodes.mavlink.transport.link_watch import LinkWatch
+from auv_sim.nodes.mavlink.transport.peer import Configured, Peer
+from auv_sim.nodes.mavlink.transport.signing import load_key
 from auv_sim.nodes.mavlink.vehicle_messages import VehicleMessages
 from auv_sim.nodes.mavlink.vehicle_time import FollowedClock
 

@@ -23,9 +23,9 @@ from auv_path_following import vehicle
 from auv_sim.command_line import EXIT_DONE, Parser, command, finite, not_negative, positive
 from auv_sim.nodes.mavlink.delay_line import DelayLine
 from auv_sim.nodes.mavlink.emulated_vehicle import KINDS, LINKS, STEP_MS, UPLINK, Emulator
-from auv_sim.nodes.mavlink.link import STANDARD_PORT, MavlinkLink
 from auv_sim.nodes.mavlink.mapping import WATER_LOG
-from auv_sim.nodes.mavlink.signing import load_key
+from auv_sim.nodes.mavlink.transport.link import STANDARD_PORT, MavlinkLink
+from auv_sim.nodes.mavlink.transport.signing import load_key
 from auv_sim.sim_parameters import CRUISE
 from auv_sim.vehicle.remus import PlantState
 

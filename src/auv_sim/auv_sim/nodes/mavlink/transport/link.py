@@ -9,8 +9,8 @@ from collections.abc import Callable
 from typing import Any
 
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.nodes.mavlink.codec import LARGEST_DATAGRAM, Codec, Frame
-from auv_sim.nodes.mavlink.peer import Address, Peer, text_of
+from auv_sim.nodes.mavlink.transport.codec import LARGEST_DATAGRAM, Codec, Frame
+from auv_sim.nodes.mavlink.transport.peer import Address, Peer, text_of
 
 #: UDP port on which ground stations listen for vehicles.
 STANDARD_PORT = 14550

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from pymavlink.dialects.v20 import common as mavlink
 
-from auv_sim.nodes.mavlink.signing import Reader, keep_time, signing
+from auv_sim.nodes.mavlink.transport.signing import Reader, keep_time, signing
 
 #: Largest datagram that is read, bytes: more than an Ethernet frame holds.
 LARGEST_DATAGRAM = 2048

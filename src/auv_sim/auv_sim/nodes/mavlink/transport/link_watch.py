@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from auv_sim.nodes.mavlink.link import MavlinkLink
-from auv_sim.nodes.mavlink.peer import text_of
+from auv_sim.nodes.mavlink.transport.link import MavlinkLink
+from auv_sim.nodes.mavlink.transport.peer import text_of
 
 #: Time for which damage is reported after it was last seen, s of wall time.
 _RECENT = 5.0

@@ -9,8 +9,8 @@ from pymavlink.dialects.v20 import common as mavlink
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.launch.vehicle_driver import free_port
-from auv_sim.nodes.mavlink.link import MavlinkLink, parse_address
-from auv_sim.nodes.mavlink.peer import Configured, Peer
+from auv_sim.nodes.mavlink.transport.link import MavlinkLink, parse_address
+from auv_sim.nodes.mavlink.transport.peer import Configured, Peer
 
 
 def attitude(boot_ms: int) -> mavlink.MAVLink_attitude_message:

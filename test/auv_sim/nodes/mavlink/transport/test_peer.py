@@ -6,10 +6,10 @@ import pytest
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.launch.vehicle_driver import free_port
-from auv_sim.nodes.mavlink.codec import Frame
-from auv_sim.nodes.mavlink.link import MavlinkLink
-from auv_sim.nodes.mavlink.link_watch import LinkWatch
-from auv_sim.nodes.mavlink.peer import Configured, Peer
+from auv_sim.nodes.mavlink.transport.codec import Frame
+from auv_sim.nodes.mavlink.transport.link import MavlinkLink
+from auv_sim.nodes.mavlink.transport.link_watch import LinkWatch
+from auv_sim.nodes.mavlink.transport.peer import Configured, Peer
 
 VEHICLE, OTHER = ("10.0.0.2", 14550), ("10.0.0.9", 4711)
 

@@ -1,0 +1,1 @@
+"""MAVLink over UDP: datagrams, signatures, the peer and the link to it."""
