@@ -70,7 +70,7 @@ def _with_covariance(path: str, fields: dict[str, int]) -> dict[str, int]:
 
 _STAMPED = "header.stamp", ("header.frame_id",)
 
-#: ROS type -> its layout. The contract's other types have arrays of variable length or are not numbers.
+#: ROS type -> its layout. The contract's other types have arrays of variable length, or no such fields.
 LAYOUTS: dict[str, Layout] = {
     "std_msgs/msg/Float64": Layout("", (), {"data": 1}),
     "rosgraph_msgs/msg/Clock": Layout("clock", (), {}),
