@@ -23,17 +23,16 @@ from mcap.records import (
     Chunk,
     ChunkIndex,
     DataEnd,
-    Footer,
     Header,
     McapRecord,
     Metadata,
     MetadataIndex,
     Schema,
     Statistics,
-    SummaryOffset,
 )
 
 from auv_sim.bags.writing.journal import Journal
+from auv_sim.bags.writing.mcap_summary import ChunkIndexes, Group, summary
 
 Compression = Literal["none", "zstd"]
 
@@ -44,26 +43,6 @@ MESSAGE_HEAD = struct.Struct("<BQHIQQ")
 _MESSAGE_FIXED = MESSAGE_HEAD.size - 9
 #: opcode, length, channel, bytes of the entries that follow.
 _INDEX_HEAD = struct.Struct("<BQHI")
-
-
-class _ChunkIndexes:
-    """The chunk indexes for the end of the file, compressed: a recorder makes 7,200 an hour."""
-
-    def __init__(self) -> None:
-        self.count = 0
-        self._packer = zlib.compressobj()
-        self._packed = bytearray()
-
-    def append(self, index: ChunkIndex) -> None:
-        builder = RecordBuilder()
-        index.write(builder)
-        self._packed += self._packer.compress(builder.end())  # type: ignore[no-untyped-call]
-        self.count += 1
-
-    def write(self, builder: RecordBuilder) -> None:
-        """Write all of them; call once, as the last."""
-        self._packed += self._packer.flush()
-        builder.write(zlib.decompress(bytes(self._packed)))
 
 
 class McapFile:
@@ -86,7 +65,7 @@ class McapFile:
         self._chunk_size = chunk_size
         self._schemas: list[Schema] = []
         self._channels: list[Channel] = []
-        self._chunks = _ChunkIndexes()
+        self._chunks = ChunkIndexes()
         self._metadata: list[MetadataIndex] = []
         self._attachments: list[AttachmentIndex] = []
         self._counts: dict[int, int] = {}
@@ -178,34 +157,15 @@ class McapFile:
             metadata_count=len(self._metadata),
             schema_count=len(self._schemas),
         )
-        groups: list[tuple[Opcode, list[McapRecord | _ChunkIndexes]]] = [
-            (Opcode.SCHEMA, [*self._schemas]),
-            (Opcode.CHANNEL, [*self._channels]),
+        groups: list[Group] = [
+            (Opcode.SCHEMA, self._schemas),
+            (Opcode.CHANNEL, self._channels),
             (Opcode.STATISTICS, [statistics]),
             (Opcode.CHUNK_INDEX, [self._chunks] if self._chunks.count else []),
-            (Opcode.ATTACHMENT_INDEX, [*self._attachments]),
-            (Opcode.METADATA_INDEX, [*self._metadata]),
+            (Opcode.ATTACHMENT_INDEX, self._attachments),
+            (Opcode.METADATA_INDEX, self._metadata),
         ]
-        start = self.journal.position
-        builder = RecordBuilder()
-        offsets = []
-        for opcode, records in groups:
-            begin = builder.count
-            for record in records:
-                record.write(builder)
-            if records:
-                length = builder.count - begin
-                offsets.append(
-                    SummaryOffset(group_opcode=opcode, group_start=start + begin, group_length=length)
-                )
-        offset_start = start + builder.count
-        for offset in offsets:
-            offset.write(builder)
-        summary: bytes = builder.end()  # type: ignore[no-untyped-call]
-        head = struct.pack("<BQQQ", Opcode.FOOTER, 20, start, offset_start)
-        crc = zlib.crc32(head, zlib.crc32(summary))
-        self.journal.write(summary)
-        self._put(Footer(summary_start=start, summary_offset_start=offset_start, summary_crc=crc))
+        self.journal.write(summary(self.journal.position, groups))
         self.journal.write(MAGIC)
 
     def _put(self, record: McapRecord) -> None:
