@@ -24,7 +24,7 @@ from auv_sim.bags.writing.intake import Taken, Timestamps, drain
 from auv_sim.bags.writing.selection import Selection
 from auv_sim.sim_parameters import RecorderParameters
 
-#: Asked for before anything else; only granted to those who may.
+#: Requested niceness; the system grants it to root only.
 _PRIORITY = -10
 #: How often everything that has come is fetched unless the simulator asks for it, s.
 _POLL = 0.02
@@ -67,7 +67,7 @@ class RecorderNode(SuiteNode):
         self._last = self._flushed = self._polled = time.monotonic()
         self._flushed_ns = 0
         self._progress = self.advertise(topics.RECORDED_STEPS) if p.lockstep else None
-        self._told = 0
+        self._reported = 0
         self.close_gate()
         self.selection = Selection(self, p, self.writer)
         per_step = {self.resolve_topic_name(topic.name) for topic in topics.PER_STEP}
@@ -97,8 +97,8 @@ class RecorderNode(SuiteNode):
         for text in self.selection.look_around():
             self.get_logger().warning(text)
         lost = self.lost
-        told = ", ".join(f"{number} of {name}" for name, number in lost.items())
-        self.health.warn("lost", f"messages lost: {told}" if lost else "")
+        text = ", ".join(f"{number} of {name}" for name, number in lost.items())
+        self.health.warn("lost", f"messages lost: {text}" if lost else "")
 
     def _poll_unless_asked(self) -> None:
         """Fetch, unless the simulator has just asked for it."""
@@ -140,12 +140,12 @@ class RecorderNode(SuiteNode):
             self.time_is(times.now or 0)
 
     def _report_progress(self) -> None:
-        """Tell the newest count, once somebody can hear it: those before it do not matter."""
+        """Publish the number of complete steps, from the moment the simulator's reader is matched."""
         if self._progress is None:
             return
         steps = min((channel.count for channel in self._per_step), default=0)
-        if steps - self._told >= topics.RECORDING_REPORT and not self.gate_waits_for():
-            self._told = steps
+        if steps - self._reported >= topics.RECORDING_REPORT and not self.gate_waits_for():
+            self._reported = steps
             self._progress.publish(UInt64(data=steps))
 
     def _flush(self) -> None:
@@ -184,7 +184,7 @@ class RecorderNode(SuiteNode):
 
 
 def _configuration(directory: Path) -> dict[str, str]:
-    """The configuration that the launcher wrote beside the bag, so that the bag alone tells everything."""
+    """Return the configuration that the launcher wrote beside the bag: the bag then needs no other file."""
     return texts_below(directory.parent / "config")
 
 

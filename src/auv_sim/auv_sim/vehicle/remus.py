@@ -110,7 +110,7 @@ def planar_step(
     config: PlanarHull, state: PlantState, inputs: HullInputs, dt: float
 ) -> tuple[PlantState, PlantState]:
     """One Runge-Kutta step, written flat; the output is the state."""
-    hull = config[:]  # plain: unpacking a plain tuple takes a quarter of the time of a named one
+    hull = config[:]  # a plain tuple, which unpacks four times as fast as a named one
     x, y, psi, ur, vr, r = state
     (begin, middle, end), thrust, (Vx, Vy) = inputs
     half, sixth = 0.5 * dt, dt / 6.0

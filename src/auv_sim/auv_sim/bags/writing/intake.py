@@ -40,7 +40,7 @@ class PolledTopic:
     """A raw subscription that is emptied when it suits the recorder.
 
     Args:
-        node: who subscribes.
+        node: the recorder.
         name: full topic name.
         type_name: ROS type.
         profile: the QoS to ask for.
