@@ -6,10 +6,10 @@ import math
 from typing import Literal
 
 import pydantic
-from pydantic_core import PydanticCustomError
 
 from auv_msgs_py.settings import yaml_file
 from auv_msgs_py.settings.schema import setting, settings
+from auv_msgs_py.settings.validators import unfit
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.pure import numbers
 from auv_path_following import config_files
@@ -59,11 +59,7 @@ class Hull:
         }
         for formula, value in minors.items():
             if not value > 0.0:
-                context = {
-                    "found": f"{formula} = {value:g}",
-                    "expected": "greater than 0, or Eq. (18) cannot hold",
-                }
-                raise PydanticCustomError("unfit", "mass matrix", context)
+                raise unfit(f"{formula} = {value:g}", "greater than 0, or Eq. (18) cannot hold")
         return self
 
 
@@ -123,11 +119,10 @@ class Vehicle:
     @pydantic.model_validator(mode="after")
     def _is_known_well_enough(self) -> Vehicle:
         if self.hull is None and (self.cruise is None or self.turning is None):
-            context = {
-                "found": "nothing under hull, and not both of cruise and turning",
-                "expected": "a mapping under hull, or what was measured under cruise and turning",
-            }
-            raise PydanticCustomError("unfit", "vehicle", context)
+            raise unfit(
+                "nothing under hull, and not both of cruise and turning",
+                "a mapping under hull, or what was measured under cruise and turning",
+            )
         return self
 
     @pydantic.model_validator(mode="after")
@@ -136,8 +131,7 @@ class Vehicle:
             found = (
                 f"percent with {'a hull' if self.hull is not None else f'thrust_max: {self.thrust_max:g}'}"
             )
-            context = {"found": found, "expected": "thrust_max: 100 and no hull, whose coefficients need N"}
-            raise PydanticCustomError("unfit", "thrust_unit", context)
+            raise unfit(found, "thrust_max: 100 and no hull, whose coefficients need N")
         return self
 
     @property

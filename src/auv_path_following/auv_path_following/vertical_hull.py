@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import pydantic
-from pydantic_core import PydanticCustomError
 
 from auv_msgs_py.settings.schema import setting, settings
+from auv_msgs_py.settings.validators import unfit
 from auv_msgs_py.values.pure import numbers
 
 
@@ -62,9 +62,5 @@ class VerticalHull:
     @pydantic.model_validator(mode="after")
     def _roll_is_damped(self) -> VerticalHull:
         if not (self.Kpp < 0.0 or self.Kup < 0.0):
-            context = {
-                "found": "Kpp = 0 and Kup = 0",
-                "expected": "one of them below 0: roll has to be damped",
-            }
-            raise PydanticCustomError("unfit", "roll damping", context)
+            raise unfit("Kpp = 0 and Kup = 0", "one of them below 0: roll has to be damped")
         return self

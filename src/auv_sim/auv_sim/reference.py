@@ -13,7 +13,7 @@ import typing
 from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
-from auv_path_following.missions.mission_file import MissionSpec
+from auv_path_following.missions.mission_spec import MissionSpec
 from auv_path_following.parameters import NavigationParameters, NodeParameters
 from auv_path_following.vehicle import Vehicle
 from auv_sim.sim_parameters import SUITE, FaultRelayParameters

@@ -18,7 +18,7 @@ from auv_path_following.curves.kinds.reverse import Reversed
 from auv_path_following.curves.kinds.spline import Spline
 from auv_path_following.guidance.acceptance import Cornering, acceptance_radius, corner_of
 from auv_path_following.guidance.switching import SwitchingConfig, circles_of, radius_at, reached
-from auv_path_following.missions.mission_file import MissionSwitching
+from auv_path_following.missions.mission_spec import MissionSwitching
 
 #: A corner (G0) at (40, 0), a smooth joint (G1) at (40, 20), and the end.
 PATH = CompositePath(

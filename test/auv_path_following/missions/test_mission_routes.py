@@ -104,7 +104,7 @@ def test_a_speed_becomes_the_thrust_that_the_vehicle_needs(loaded):
 
 
 @pytest.mark.parametrize(
-    ("wish", "expected"),
+    ("own", "expected"),
     [
         ("", ("all", 4.0)),
         ("switching: {mode: off}\n", ("off", 4.0)),
@@ -112,8 +112,8 @@ def test_a_speed_becomes_the_thrust_that_the_vehicle_needs(loaded):
         ("switching: {mode: g0, radius: 3}\n", ("g0", 3.0)),
     ],
 )
-def test_the_missions_switching_goes_before_the_parameters(loaded, wish, expected):
-    mission = loaded(HEAD + "frame: ned\n" + wish + "loiter: {centre: [0, 0], radius: 20}\n")
+def test_the_missions_switching_goes_before_the_parameters(loaded, own, expected):
+    mission = loaded(HEAD + "frame: ned\n" + own + "loiter: {centre: [0, 0], radius: 20}\n")
     guidance = PathFollowerConfig(switching=SwitchingConfig(mode="all", radius=4.0))
     parameters = GuidanceParameters(guidance=guidance)
     switching = parameters.with_mission_overrides(mission).guidance.switching

@@ -1,4 +1,4 @@
-"""A waypoint file in the place of a mission file: the mission that is assumed around it."""
+"""A waypoint file instead of a mission file: the mission that is assumed around it."""
 
 from __future__ import annotations
 
@@ -8,25 +8,25 @@ from typing import Any
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.missions import waypoint_files
 
-#: Speed through the water that is assumed, m/s.
+#: Assumed speed through the water, m/s.
 SPEED = 1.5
-#: JSON and text may also be mission files, as YAML.
+#: Suffixes of waypoint files that mission files (YAML) may have too.
 _AMBIGUOUS = (".json", ".txt")
 
 
 def is_bare(source: Path) -> bool:
-    """Whether a file is a waypoint file."""
+    """Return whether a file is a waypoint file."""
     suffix = source.suffix.lower()
     return suffix in waypoint_files.SUFFIXES and suffix not in _AMBIGUOUS
 
 
 def notice(mission: dict[str, Any], source: Path, speed: float) -> str:
-    """Say what is assumed.
+    """Return a line that says what is assumed.
 
     Args:
-        mission: of `assumed`.
+        mission: as `assumed` returns it.
         source: the waypoint file.
-        speed: that is flown, m/s.
+        speed: flown through the water, m/s.
     """
     words = ["straight legs (smoothing linear)", f"speed {speed:g} m/s"]
     if origin := mission.get("origin"):
@@ -35,10 +35,10 @@ def notice(mission: dict[str, Any], source: Path, speed: float) -> str:
 
 
 def assumed(source: Path) -> dict[str, Any]:
-    """The mission file that goes straight from waypoint to waypoint, at the file's speed or `SPEED`.
+    """Return a mission with straight legs between the waypoints, at the file's speed or `SPEED`.
 
     Raises:
-        ConfigurationError: the file cannot be read, or holds no one route.
+        ConfigurationError: the file cannot be read, or holds no single route.
     """
     content = waypoint_files.read(source)
     try:

@@ -1,4 +1,4 @@
-"""What a waypoint file brings beside the route: one speed, and a geofence."""
+"""Speed and geofence that a waypoint file contains beside the route."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from auv_path_following.missions.site import Point, Site
 
 
 def speed(site: Site, thrust: float | None, asked: float | None) -> float | None:
-    """Return the mission's speed through the water, m/s: as asked for, else that of its waypoint file.
+    """Return the mission's speed through the water, m/s: its own, else that of its waypoint file.
 
     Args:
-        site: with the files that were read.
-        thrust: that the mission asks for, N; it leaves no room for a speed.
-        asked: speed that the mission asks for, m/s.
+        site: with the files read.
+        thrust: of the mission, N; it excludes a speed.
+        asked: speed of the mission, m/s.
 
     Raises:
         ConfigurationError: neither the mission nor a file has one.
@@ -31,7 +31,7 @@ def speed(site: Site, thrust: float | None, asked: float | None) -> float | None
 
 
 def geofence(site: Site) -> list[Point]:
-    """Place the corners (north, east), m, of the one inclusion fence of the route's file; empty without."""
+    """Return the corners (north, east), m, of the one inclusion fence of the route's file; empty without."""
     for path, content in list(site.files.items()):
         name = path.relative_to(site.folder).as_posix()
         if len(content.fences) == 1:
@@ -46,11 +46,11 @@ def geofence(site: Site) -> list[Point]:
 
 
 def leave_geofence(site: Site, taken: str = "") -> None:
-    """Note the inclusion fences that give way to the mission's own geofence.
+    """Note the inclusion fences that the mission's own geofence replaces.
 
     Args:
         site: with the files that were read.
-        taken: the file that the geofence comes from; empty where it stands in the mission file.
+        taken: file of the geofence; empty where its corners are in the mission file.
     """
     for path, content in site.files.items():
         if content.fences and path != site.folder / taken:

@@ -12,21 +12,20 @@ from auv_msgs_py.settings.schema import setting, settings
 
 Array = npt.NDArray[np.float64]
 
-#: A point further from the origin than this is taken for a mistake; at this distance the plane is
-#: 4 m off along 100 km.
+#: Largest distance of a point from the origin, m; there the plane is 4 m off along 100 km.
 FARTHEST = 100e3
 
 
 @settings
 class Origin:
-    """Where north 0, east 0 is; the vehicle's navigation has to use the same one."""
+    """Position of north 0, east 0; the vehicle's navigation has to use the same one."""
 
     latitude_deg: float = setting(doc="latitude, WGS 84, north positive", unit="deg", gt=-89.9, lt=89.9)
     longitude_deg: float = setting(doc="longitude, WGS 84, east positive", unit="deg", ge=-180.0, le=180.0)
 
 
 def to_ned(origin: Origin, latitude: Any, longitude: Any) -> tuple[Array, Array]:
-    """North and east (m) of points at sea level.
+    """Return north and east (m) of points at sea level.
 
     Args:
         origin: of the plane.
@@ -40,7 +39,7 @@ def to_ned(origin: Origin, latitude: Any, longitude: Any) -> tuple[Array, Array]
 
 
 def to_geodetic(origin: Origin, north: Any, east: Any) -> tuple[Array, Array]:
-    """Latitude and longitude (deg) of the points at sea level at north, east: undoes `to_ned`.
+    """Return latitude and longitude (deg) of the points at sea level at north, east; inverse of `to_ned`.
 
     Args:
         origin: of the plane.
@@ -49,7 +48,7 @@ def to_geodetic(origin: Origin, north: Any, east: Any) -> tuple[Array, Array]:
     at = origin.latitude_deg, origin.longitude_deg
     north, east = np.asarray(north, float), np.asarray(east, float)
     down = np.zeros_like(north)
-    for _ in range(4):  # the plane rises above the sea: go down until the height is 0
+    for _ in range(4):  # the plane is above the sea: go down until the height is 0
         latitude, longitude, height = pymap3d.ned2geodetic(north, east, down, *at, 0.0)
         down = down + height
     return latitude, longitude

@@ -1,4 +1,4 @@
-"""The limits of a mission: where it may go, how far off, how long, how slowly. No ROS, no clock."""
+"""The limits of a mission: area, distance from the path, duration, speeds. No ROS, no clock."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _CHORDS = 6
 @numbers
 @settings
 class LimitsConfig:
-    """Limits that end a mission. 0 is no limit; of parameters and mission file the stricter counts."""
+    """Limits that end a mission. 0 is no limit; of parameters and mission file the stricter value counts."""
 
     path_distance: float = setting(
         0.0, "largest distance from the virtual point, once the vehicle was within it; 0: any", unit="m",
@@ -37,11 +37,11 @@ class LimitsConfig:
     )  # fmt: skip
     duration: float = setting(0.0, "longest mission; 0: any", unit="s", ge=0.0, live=True)
     ground_speed: float = setting(
-        0.0, "lowest speed over ground; 0: any. Below it the current is too strong to make way", unit="m/s",
+        0.0, "lowest speed over ground; 0: any. Below it the current is too strong", unit="m/s",
         ge=0.0, live=True,
     )  # fmt: skip
     ground_speed_window: float = setting(
-        30.0, "time over which the speed over ground is taken", unit="s", ge=2.0, le=3600.0, live=True
+        30.0, "time over which the speed over ground is averaged", unit="s", ge=2.0, le=3600.0, live=True
     )
     path_speed: float = setting(
         0.0,
@@ -52,11 +52,11 @@ class LimitsConfig:
         live=True,
     )
     path_speed_window: float = setting(
-        60.0, "time over which the speed along the path is taken", unit="s", ge=2.0, le=3600.0, live=True
+        60.0, "time over which the speed along the path is averaged", unit="s", ge=2.0, le=3600.0, live=True
     )
 
     def stricter(self, other: LimitsConfig) -> LimitsConfig:
-        """Both hold; a window comes with the higher speed."""
+        """Return the limits where both apply; a window belongs to the higher speed."""
         ground = other if other.ground_speed > self.ground_speed else self
         along = other if other.path_speed > self.path_speed else self
         return dataclasses.replace(
@@ -75,10 +75,10 @@ def _stricter(one: float, other: float) -> float:
 
 
 class Marks(NamedTuple):
-    """A place at the corners of the chords into which the last seconds are divided; the newest last.
+    """Positions at the ends of the chords of one window; the newest last.
 
     Attributes:
-        corners: so far, at most `_CHORDS` + 1.
+        corners: number so far, at most `_CHORDS` + 1.
         time: since the first one, s.
         times, xs, ys: of the corners, s and m.
     """
@@ -96,7 +96,7 @@ _NO_MARKS = Marks(0, 0.0, _NONE, _NONE, _NONE)
 
 @pure
 def marked(marks: Marks, x: float, y: float, dt: float, window: float) -> tuple[Marks, bool]:
-    """Add a place, `dt` s after the last; return the corners, and whether a full window's chord has ended."""
+    """Add a position `dt` s after the last; return the marks, and whether a full window's chord ended."""
     count, time, times, xs, ys = marks
     time += dt
     if count > 0 and time - times[-1] < window / _CHORDS:
@@ -109,14 +109,14 @@ def marked(marks: Marks, x: float, y: float, dt: float, window: float) -> tuple[
 
 
 class MissionLimits(NamedTuple):
-    """Configuration: the limits, and the corners (north, east), m, of the area that must not be left."""
+    """Configuration: the limits, and the corners (north, east), m, of the geofence."""
 
     values: LimitsConfig
     geofence: Any
 
 
 class NoLimits(NamedTuple):
-    """Configuration of a flight that never has limits: not even its time is counted."""
+    """Configuration of a flight without limits: not even its time is counted."""
 
 
 class LimitsState(NamedTuple):
@@ -138,12 +138,12 @@ class LimitsState(NamedTuple):
     to_go: Marks = _NO_MARKS
 
 
-#: The state when a mission begins.
+#: The state at the beginning of a mission.
 BEGINNING = LimitsState()
 
 
-#: Measured pose (NED); its place as seen from the virtual point, xe and ye, and the path to go, m; whether
-#: the mission holds: only its time counts; whether it was stopped until now: speeds are measured anew.
+#: Measured pose (NED); xe and ye from the virtual point, and the path to go, m; whether the mission holds
+#: (then only its time counts); whether the vehicle rested until now (then the speed windows begin again).
 LimitsInputs = tuple[Navigation, float, float, float, bool, bool]
 
 

@@ -1,4 +1,4 @@
-"""The life of a mission: idle, running, holding, complete, aborted. No ROS, no clock of its own."""
+"""The transitions between the states of a mission, as pure functions. No ROS, no clock of its own."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _WORDS = {
 
 
 class Reason(NamedTuple):
-    """Why a mission is in its state: one of the causes, and the numbers of its wording."""
+    """Reason of a state: one of the causes, and the numbers of its text."""
 
     cause: int = WAITS
     found: float = 0.0
@@ -53,7 +53,7 @@ def words(reason: Reason, detail: str = "") -> str:
 
     Args:
         reason: the reason.
-        detail: what is known of lost navigation.
+        detail: of lost navigation.
     """
     text = _WORDS[reason.cause].format(found=reason.found, over=reason.over, bound=reason.bound)
     of_navigation = reason.cause in (NAVIGATION_LOST, HELD_TOO_LONG)
@@ -62,7 +62,7 @@ def words(reason: Reason, detail: str = "") -> str:
 
 @settings
 class HoldingConfig:
-    """How long a running mission bears missing navigation, in ROS time."""
+    """Response of a running mission to missing navigation, in ROS time."""
 
     hold_after: float = setting(
         1.0,
@@ -78,7 +78,7 @@ class HoldingConfig:
 
 
 class MissionStatus(NamedTuple):
-    """State and reason; while holding, `since` when (ROS time, s), else NaN."""
+    """State and reason; `since`: ROS time at which a hold began, s, else NaN."""
 
     state: int = IDLE
     reason: Reason = NO_REASON
@@ -93,7 +93,7 @@ def is_under_way(mission: MissionStatus) -> bool:
 
 @pure
 def started(mission: MissionStatus) -> MissionStatus:
-    """Begin (anew) from idle, complete or aborted; a mission that is under way is unchanged."""
+    """Start from idle, complete or aborted; a mission that is under way is unchanged."""
     if is_under_way(mission):
         return mission
     return MissionStatus(RUNNING, Reason(STARTED, 0.0, 0.0, 0.0), math.nan)
@@ -101,7 +101,7 @@ def started(mission: MissionStatus) -> MissionStatus:
 
 @pure
 def aborted(mission: MissionStatus, reason: Reason) -> MissionStatus:
-    """End a mission, begun or not; the first reason stays, and a completed one stays complete."""
+    """End a mission, started or not; one that has ended is unchanged."""
     if mission.state == COMPLETE or mission.state == ABORTED:
         return mission
     return MissionStatus(ABORTED, reason, math.nan)
@@ -133,7 +133,7 @@ def navigation_back(mission: MissionStatus) -> MissionStatus:
 
 @pure
 def waited(mission: MissionStatus, abort_after: float, now: float) -> MissionStatus:
-    """Let time pass; holding for longer than `abort_after` s aborts. `now` is ROS time, s."""
+    """Abort a mission that has held for longer than `abort_after` s. `now` is ROS time, s."""
     if mission.state != HOLDING:
         return mission
     if now < mission.since:  # the clock went back

@@ -1,4 +1,4 @@
-"""Waypoints and generators as they stand in a mission file."""
+"""The waypoints and generators of a mission file, one class for each."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ from typing import Annotated, NamedTuple
 import pydantic
 
 from auv_msgs_py.settings.schema import Pair, setting, settings
+from auv_msgs_py.settings.validators import exactly_one, unfit
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.curves.segment import Segment
 from auv_path_following.missions.routes import generators, survey
 from auv_path_following.missions.routes.smoothing import Smoothing, smooth
-from auv_path_following.missions.segment_specs import Turn, exactly_one, unfit
+from auv_path_following.missions.segment_specs import Turn
 from auv_path_following.missions.site import Site, within
 
 
@@ -29,7 +30,7 @@ class Route(NamedTuple):
 
 @contextmanager
 def _named_as_in(file: str | None) -> Iterator[None]:
-    """Say `file: NAME: point 3` where an error says `points[2]`, if the points come from a file."""
+    """Name `file: NAME: point 3` in place of `points[2]` in an error, if the points come from a file."""
     try:
         yield
     except ConfigurationError as error:
@@ -54,24 +55,24 @@ class GeofenceFile:
     feature: str | None = setting(None, "name of the fence or polygon to take")
 
     def build(self, site: Site) -> list[Pair]:
-        """The corners (north, east), m."""
+        """Return the corners (north, east), m."""
         return site.read(self.file, "geofence", self.feature).points
 
 
 @settings
 class WaypointsSpec:
-    """`waypoints`: points to pass, and how to go round their corners."""
+    """`waypoints`: points to pass, and how their corners are rounded."""
 
     points: tuple[Pair, ...] | None = setting(None, "the waypoints")
-    file: str | None = setting(None, "in place of points: a waypoint file beside the mission file")
+    file: str | None = setting(None, "instead of points: a waypoint file beside the mission file")
     feature: str | None = setting(None, "with file: name of the line or polygon to take")
     smoothing: Smoothing = setting(doc="how corners are rounded")
     closed: bool | None = setting(
-        None, "go on from the last waypoint to the first one (default: only round the outline of a polygon)"
+        None, "return from the last waypoint to the first (default: only for the outline of a polygon)"
     )
 
     def build(self, site: Site) -> Route:
-        """The subpaths along the waypoints."""
+        """Return the subpaths along the waypoints."""
         points, outline = site.given(self.points, self.file, self.feature, "points", "waypoints")
         closed = outline if self.closed is None else self.closed
         if outline and not closed:
@@ -85,16 +86,14 @@ class SurveySpec:
     """`survey`: a lawnmower pattern over a polygon."""
 
     polygon: tuple[Pair, ...] | None = setting(None, "the polygon's corners, in order")
-    file: str | None = setting(None, "in place of polygon: a waypoint file beside the mission file")
+    file: str | None = setting(None, "instead of polygon: a waypoint file beside the mission file")
     feature: str | None = setting(None, "with file: name of the polygon to take")
     spacing: float | None = setting(None, "largest distance between legs", unit="m", gt=0.0)
-    swath: float | None = setting(None, "in place of spacing: width that the sensor sees", unit="m", gt=0.0)
-    overlap: float = setting(0.0, "with swath: share of it that the next leg sees again", ge=0.0, le=0.95)
+    swath: float | None = setting(None, "instead of spacing: width that the sensor covers", unit="m", gt=0.0)
+    overlap: float = setting(0.0, "with swath: share of it that the next leg covers again", ge=0.0, le=0.95)
     heading_deg: float = setting(doc="course of the first leg, clockwise from north", unit="deg")
-    run_out: float = setting(0.0, "how far legs go on beyond the polygon", unit="m", ge=0.0, le=10000.0)
-    smoothing: Smoothing = setting(
-        doc="how to come from leg to leg; dubins keeps all legs straight to their ends"
-    )
+    run_out: float = setting(0.0, "length of the legs beyond the polygon", unit="m", ge=0.0, le=10000.0)
+    smoothing: Smoothing = setting(doc="turns between legs; dubins keeps all legs straight to their ends")
 
     @pydantic.model_validator(mode="after")
     def _has_one_spacing(self) -> SurveySpec:
@@ -104,7 +103,7 @@ class SurveySpec:
         return self
 
     def build(self, site: Site) -> Route:
-        """The survey's legs and turns."""
+        """Return the survey's legs and turns."""
         polygon, _ = site.given(self.polygon, self.file, self.feature, "polygon", "survey")
         spacing = self.spacing if self.spacing is not None else (self.swath or 0.0) * (1.0 - self.overlap)
         with _named_as_in(self.file):
@@ -127,12 +126,12 @@ class SpiralSpec:
     centre: Pair = setting(doc="centre")
     inner_radius: float = setting(0.0, "distance from the centre at which it starts", unit="m", ge=0.0)
     spacing: float = setting(doc="distance between neighbouring turns", unit="m", gt=0.0)
-    turns: float = setting(doc="how many turns", gt=0.0, le=1000.0)
+    turns: float = setting(doc="number of turns", gt=0.0, le=1000.0)
     bearing_deg: float = setting(0.0, "bearing of the start, seen from the centre", unit="deg")
     turn: Turn = setting(1, "1 to starboard, -1 to port")
 
     def build(self, site: Site) -> Route:
-        """The spiral's turns."""
+        """Return the spiral's turns."""
         with within("centre"):
             centre = site.point(self.centre)
         bearing = math.radians(self.bearing_deg)
@@ -159,7 +158,7 @@ class FigureOfEightSpec:
         return self
 
     def build(self, site: Site) -> Route:
-        """The loops and the lines."""
+        """Return the loops and the lines."""
         with within("centre"):
             centre = site.point(self.centre)
         axis = math.radians(self.axis_deg)
@@ -168,16 +167,16 @@ class FigureOfEightSpec:
 
 @settings
 class LoiterSpec:
-    """`loiter`: round a circle."""
+    """`loiter`: around a circle."""
 
     centre: Pair = setting(doc="centre")
     radius: float = setting(doc="radius", unit="m", gt=0.0)
-    turns: Annotated[int, pydantic.Field(ge=1, le=1000)] = setting(1, "how many turns")
+    turns: Annotated[int, pydantic.Field(ge=1, le=1000)] = setting(1, "number of turns")
     bearing_deg: float = setting(0.0, "bearing of the start, seen from the centre", unit="deg")
     turn: Turn = setting(1, "1 to starboard, -1 to port")
 
     def build(self, site: Site) -> Route:
-        """The circle, once for each turn."""
+        """Return the circle, once for each turn."""
         with within("centre"):
             centre = site.point(self.centre)
         made = generators.loiter(centre, self.radius, self.turns, math.radians(self.bearing_deg), self.turn)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import pydantic
-from pydantic_core import PydanticCustomError
 
 from auv_msgs_py.settings.schema import Pair, setting, settings
+from auv_msgs_py.settings.validators import exactly_one, no_boolean, unfit
 from auv_path_following.curves.kinds.arc import Arc
 from auv_path_following.curves.kinds.clothoid import Clothoid
 from auv_path_following.curves.kinds.fermat import FermatSpiral, MirroredFermatSpiral
@@ -19,33 +19,7 @@ from auv_path_following.curves.kinds.spline import Spline
 from auv_path_following.curves.segment import Segment
 from auv_path_following.missions.site import Site, within
 
-
-def no_boolean(value: Any) -> Any:
-    """For literals of numbers: Python takes True for 1."""
-    if isinstance(value, bool):
-        raise PydanticCustomError("int_type", "a whole number")
-    return value
-
-
 Turn = Annotated[Literal[1, -1], pydantic.BeforeValidator(no_boolean)]
-
-
-def unfit(found: str, expected: str) -> PydanticCustomError:
-    """The error of keys that do not belong together."""
-    return PydanticCustomError("unfit", "keys that do not fit", {"found": found, "expected": expected})
-
-
-def exactly_one(spec: Any, names: tuple[str, ...], what: str) -> str:
-    """The one of these fields that is given.
-
-    Raises:
-        PydanticCustomError: none is, or several are.
-    """
-    given = [name for name in names if getattr(spec, name) is not None]
-    if len(given) != 1:
-        listed = f" ({', '.join(given)})" if given else ""
-        raise unfit(f"{len(given)} {what}{listed}", f"exactly one of {', '.join(names)}")
-    return given[0]
 
 
 @settings
@@ -57,7 +31,7 @@ class LineSpec:
     course_deg: float = setting(doc="course, clockwise from north", unit="deg")
 
     def build(self, site: Site) -> Segment:
-        """The segment it describes."""
+        """Return the segment that it describes."""
         return Line(*_placed(site, "start", self.start), self.length, math.radians(self.course_deg))
 
 
@@ -77,7 +51,7 @@ class ArcSpec:
         return self
 
     def build(self, site: Site) -> Segment:
-        """The segment it describes."""
+        """Return the segment that it describes."""
         centre = _placed(site, "centre", self.centre)
         return Arc(*centre, self.radius, math.radians(self.from_deg), math.radians(self.to_deg))
 
@@ -93,7 +67,7 @@ class FermatSpec:
     turn: Turn = setting(doc="rho: 1 to starboard, -1 to port")
 
     def build(self, site: Site) -> Segment:
-        """The segment it describes."""
+        """Return the segment that it describes."""
         start, chi = _placed(site, "start", self.start), math.radians(self.course_deg)
         return FermatSpiral(*start, self.scale, self.theta_end, chi, self.turn)
 
@@ -111,14 +85,14 @@ class FermatMirroredSpec:
     turn: Turn = setting(doc="rho: 1 to starboard, -1 to port")
 
     def build(self, site: Site) -> Segment:
-        """The segment it describes."""
+        """Return the segment that it describes."""
         end, chi = _placed(site, "end", self.end), math.radians(self.course_deg)
         return MirroredFermatSpiral(*end, self.scale, self.theta_end, chi, self.turn)
 
 
 @settings
 class ClothoidSpec:
-    """`clothoid`: curvature changes evenly along the way."""
+    """`clothoid`: curvature changes linearly along the way."""
 
     start: Pair = setting(doc="where it starts")
     course_deg: float = setting(doc="course at the start, clockwise from north", unit="deg")
@@ -134,7 +108,7 @@ class ClothoidSpec:
         return self
 
     def build(self, site: Site) -> Segment:
-        """The segment it describes."""
+        """Return the segment that it describes."""
         start, chi = _placed(site, "start", self.start), math.radians(self.course_deg)
         return Clothoid(*start, self.length, chi, self.start_curvature, self.end_curvature)
 
@@ -151,7 +125,7 @@ class PolynomialSpec:
     )
 
     def build(self, site: Site) -> Segment:
-        """The segment it describes."""
+        """Return the segment that it describes."""
         return Polynomial(self.north, self.east)
 
 
@@ -168,7 +142,7 @@ class SplineSpec:
     )
 
     def build(self, site: Site) -> Segment:
-        """The segment it describes."""
+        """Return the segment that it describes."""
         with within("points", joined=""):
             points = site.points(self.points)
         courses = (
@@ -198,12 +172,12 @@ class SegmentSpec:
         return self
 
     def kind(self) -> str:
-        """Which of them it is."""
+        """Return the kind of the segment."""
         names = tuple(field.name for field in dataclasses.fields(self))
         return exactly_one(self, names, "kinds of segment")
 
     def build(self, site: Site) -> Segment:
-        """The segment it describes."""
+        """Return the segment that it describes."""
         kind = self.kind()
         spec: _Specs = getattr(self, kind)
         with within(kind):

@@ -1,4 +1,4 @@
-"""Where a mission file's points are: its axes, its origin and its folder."""
+"""Placing the points of a mission file: its axes, its origin and its folder."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from auv_path_following.missions.waypoint_files.content import MOST_POINTS
 Point = tuple[float, float]
 Frame = Literal["ned", "enu", "wgs84"]
 
-#: Any larger number in a mission is taken for a mistake; a northing of UTM is smaller. m, deg, s, N.
+#: Largest number in a mission, m, deg, s or N; a northing of UTM is smaller.
 LARGEST = 1e7
-#: Points of a file that follow each other more closely than this are one, m.
+#: Consecutive points of a file within this distance are one point, m.
 _SAME = 1e-3
 
 
@@ -31,7 +31,7 @@ class Given(NamedTuple):
 
     Attributes:
         points: (north, east), m.
-        outline: whether they are the outline of a polygon, which has no end.
+        outline: whether they are the outline of a polygon, which is closed.
     """
 
     points: list[Point]
@@ -40,14 +40,14 @@ class Given(NamedTuple):
 
 @dataclass(frozen=True)
 class Site:
-    """What is needed to place a point.
+    """Axes, origin and folder of a mission file.
 
     Attributes:
         frame: `ned` [north, east] m, `enu` [east, north] m, or `wgs84` [latitude, longitude] deg.
         origin: of the plane; required for degrees.
         folder: of the mission file.
-        files: waypoint files that were read so far, and what they hold.
-        notices: what was not taken of them, one line each.
+        files: waypoint files read so far, and their content.
+        notices: parts of them that were not taken, one line each.
     """
 
     frame: Frame
@@ -57,7 +57,7 @@ class Site:
     notices: list[str] = field(default_factory=list)
 
     def points(self, pairs: Sequence[Point]) -> list[Point]:
-        """Pairs as they stand in the file -> (north, east), m.
+        """Convert pairs of the file to (north, east), m.
 
         Raises:
             ConfigurationError: degrees out of range, or too far from the origin; names the item.
@@ -73,7 +73,7 @@ class Site:
         return self._placed(pairs, lambda k: f"[{k}]")
 
     def point(self, pair: Point) -> Point:
-        """One pair -> (north, east), m."""
+        """Convert one pair to (north, east), m."""
         try:
             return self.points([pair])[0]
         except ConfigurationError as error:
@@ -97,7 +97,7 @@ class Site:
         return placed
 
     def read(self, name: str, use: Use, feature: str | None = None) -> Given:
-        """Place what a waypoint file in the mission file's folder holds for `use`.
+        """Place the points for `use` of a waypoint file in the mission file's folder.
 
         Raises:
             ConfigurationError: it is elsewhere, missing, not understood, or does not fit; names the feature.
@@ -108,7 +108,7 @@ class Site:
             raise ConfigurationError("file", repr(name), expected)
         path = self.folder / relative
         if not Path(os.path.realpath(path)).is_relative_to(os.path.realpath(self.folder)):
-            # Messages quote what a file holds: a link must not make them quote any file of the machine.
+            # Messages quote files: a link must not make them quote an arbitrary file of the machine.
             expected = "a file in the mission file's own folder, not a link that leads out of it"
             raise ConfigurationError("file", repr(name), expected)
         with within("file", joined=": "):
@@ -137,7 +137,7 @@ class Site:
     def given(
         self, pairs: Sequence[Point] | None, file: str | None, feature: str | None, key: str, use: Use
     ) -> Given:
-        """The points of a key or of the file that stands in its place.
+        """Return the points of a key, or of the file given instead.
 
         Raises:
             ConfigurationError: both are given or neither is; a point is wrong.
@@ -156,7 +156,7 @@ class Site:
 
 
 def check_size(item: Any, place: str = "") -> None:
-    """Refuse a number that no mission has, wherever it stands in the file."""
+    """Refuse a number above `LARGEST`, anywhere in the file."""
     if dataclasses.is_dataclass(item):
         for field in dataclasses.fields(item):
             check_size(getattr(item, field.name), f"{place}.{field.name}" if place else field.name)
@@ -176,7 +176,7 @@ def _check_metres(points: Sequence[Point]) -> None:
 
 @contextmanager
 def within(key: str, joined: str = ".") -> Iterator[None]:
-    """Put `key` in front of the place of a `ConfigurationError`."""
+    """Prefix the place of a `ConfigurationError` with `key`."""
     try:
         yield
     except ConfigurationError as error:

@@ -123,8 +123,8 @@ def test_dubins_passes_every_waypoint_half_way_round_its_corner(points):
 
 
 def test_dubins_keeps_the_courses_at_its_ends():
-    wish = Smoothing(kind="dubins", radius=10.0, start_course_deg=-90.0, end_course_deg=135.0)
-    path = CompositePath(smooth([(0, 0), (80, 20), (120, 90)], wish))
+    dubins = Smoothing(kind="dubins", radius=10.0, start_course_deg=-90.0, end_course_deg=135.0)
+    path = CompositePath(smooth([(0, 0), (80, 20), (120, 90)], dubins))
     assert path.start_pose[2] == pytest.approx(-math.pi / 2)
     assert path.evaluate(path.n - 1, 1.0).chi == pytest.approx(math.radians(135.0))
 
@@ -172,7 +172,7 @@ def test_the_spirals_angle_solves_its_equation(turn):
 
 
 @pytest.mark.parametrize(
-    ("points", "wish", "where", "said"),
+    ("points", "keys", "where", "said"),
     [
         ([(0, 0), (30, 0), (30, 30)], {"kind": "circular", "radius": 40}, "points[1]", "10.000 m too much"),
         (
@@ -197,8 +197,8 @@ def test_the_spirals_angle_solves_its_equation(turn):
         ([(0, 0), (1, 1)], {"kind": "linear", "end_course_deg": 1}, "smoothing", "dubins and spline"),
     ],
 )
-def test_what_does_not_fit_says_where_and_by_how_much(points, wish, where, said):
+def test_what_does_not_fit_says_where_and_by_how_much(points, keys, where, said):
     with pytest.raises(ConfigurationError) as caught:
-        smooth(points, Smoothing(**{k: float(v) if isinstance(v, int) else v for k, v in wish.items()}))
+        smooth(points, Smoothing(**{k: float(v) if isinstance(v, int) else v for k, v in keys.items()}))
     assert caught.value.where == where
     assert said in str(caught.value)

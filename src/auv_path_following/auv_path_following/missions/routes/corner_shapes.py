@@ -1,7 +1,7 @@
-"""Rounding one corner: three shapes, each symmetric about the waypoint and of any size.
+"""Round one corner: three shapes, each symmetric about the waypoint and of any size.
 
-All are scaled copies of one curve per course change, so a shape is known by its reach: how far before
-the waypoint it starts, divided by its tightest radius.
+For a given course change all sizes are scaled copies of one curve, so its reach describes a shape: the
+distance from its start to the waypoint, divided by its tightest radius.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ FERMAT_PEAK = math.sqrt(0.5 * math.sqrt(7.0) - 1.25)
 
 
 class WaypointCorner(NamedTuple):
-    """A waypoint as the smoother sees it.
+    """A waypoint with the legs before and after it.
 
     Attributes:
         x, y: the waypoint (north, east), m.
@@ -41,11 +41,11 @@ class WaypointCorner(NamedTuple):
         return 1 if self.turn > 0.0 else -1
 
     def start(self, distance: float) -> tuple[float, float]:
-        """The point `distance` before the waypoint, m."""
+        """Return the point `distance` (m) before the waypoint."""
         return self.x - distance * math.cos(self.chi_in), self.y - distance * math.sin(self.chi_in)
 
     def end(self, distance: float) -> tuple[float, float]:
-        """The point `distance` behind the waypoint, m."""
+        """Return the point `distance` (m) behind the waypoint."""
         return self.x + distance * math.cos(self.chi_out), self.y + distance * math.sin(self.chi_out)
 
 
@@ -101,7 +101,7 @@ def _clothoid(corner: WaypointCorner, distance: float) -> list[Segment]:
 
 @lru_cache(maxsize=65536)
 def fermat_theta_end(turn: float) -> float:
-    """theta_end of each of two spirals that together change the course by `turn`, rad (Lekkas).
+    """Return theta_end of each of two spirals that together change the course by `turn`, rad (Lekkas).
 
     Solves theta + atan(2 theta) = turn / 2 by Newton's method.
     """
@@ -117,13 +117,13 @@ def fermat_theta_end(turn: float) -> float:
 
 
 def fermat_curvature(theta: float) -> float:
-    """Curvature of Fermat's spiral at polar angle theta (rad) times its scale k, Eq. (8) for Eq. (12)."""
+    """Return curvature times scale k of Fermat's spiral at polar angle theta (rad), Eq. (8) for Eq. (12)."""
     square = 4.0 * theta * theta
     return 2.0 * math.sqrt(theta) * (3.0 + square) / math.sqrt(1.0 + square) ** 3
 
 
 def _fermat_unit_distance(turn: float) -> float:
-    """Distance from the waypoint to the spiral's outer end, divided by the scale k."""
+    """Return the distance from the waypoint to the spiral's outer end, divided by the scale k."""
     theta = fermat_theta_end(turn)
     return math.sqrt(theta) * (math.cos(theta) + math.sin(theta) * math.tan(0.5 * turn))
 

@@ -17,13 +17,13 @@ Point = tuple[float, float]
 def spiral(
     centre: Point, inner_radius: float, spacing: float, turns: float, bearing: float, turn: int
 ) -> list[Segment]:
-    """Outwards around a point, one subpath for each turn.
+    """Return a spiral outwards around a point, one subpath for each turn.
 
     Args:
         centre: north, east, m.
         inner_radius: distance from the centre at which it starts, m, not negative.
         spacing: distance between neighbouring turns, m.
-        turns: how many, not necessarily whole.
+        turns: number of turns, not necessarily whole.
         bearing: of the start as seen from the centre, rad.
         turn: 1 to starboard, -1 to port.
     """
@@ -39,7 +39,7 @@ def spiral(
 
 
 def figure_of_eight(centre: Point, radius: float, separation: float, chi: float) -> list[Segment]:
-    """Two loops and the crossing lines between them; closed; starts with the first loop, to starboard.
+    """Return two loops and the crossing lines between them, closed; the first loop is first, to starboard.
 
     Args:
         centre: of the crossing (north, east), m.
@@ -66,12 +66,12 @@ def figure_of_eight(centre: Point, radius: float, separation: float, chi: float)
 
 
 def loiter(centre: Point, radius: float, turns: int, bearing: float, turn: int) -> list[Segment]:
-    """Round a circle, one subpath for each turn.
+    """Return a circle, one subpath for each turn.
 
     Args:
         centre: north, east, m.
         radius: m.
-        turns: how many.
+        turns: number of turns.
         bearing: of the start as seen from the centre, rad.
         turn: 1 to starboard, -1 to port.
     """

@@ -20,9 +20,9 @@ Point = tuple[float, float]
 
 #: Gap allowed at the joints of what is built here, m.
 TOLERANCE = 1e-9
-#: A smaller change of course is no corner, rad.
+#: Smallest change of course that is a corner, rad.
 _STRAIGHT = 1e-9
-#: A larger one is a way back, which no curve through the corner can round, rad.
+#: Largest change of course that a curve can round, rad.
 _BACK = math.pi - 1e-3
 
 Kind = Literal["linear", "circular", "dubins", "clothoid", "fermat", "spline"]
@@ -40,7 +40,7 @@ class Smoothing:
     )
     radius: float | None = setting(None, "tightest radius of every corner", unit="m", gt=0.0)
     distance: float | None = setting(
-        None, "in place of a radius: how far before and behind a waypoint the legs are left", unit="m", gt=0.0
+        None, "instead of a radius: distance from a waypoint at which the legs end", unit="m", gt=0.0
     )
     start_course_deg: float | None = setting(
         None, "course at the first waypoint (dubins, spline)", unit="deg"
@@ -49,12 +49,12 @@ class Smoothing:
 
 
 def smooth(points: Sequence[Point], smoothing: Smoothing, closed: bool = False) -> list[Segment]:
-    """The subpaths along waypoints.
+    """Return the subpaths along waypoints.
 
     Args:
         points: waypoints (north, east), m.
-        smoothing: what to do at the corners.
-        closed: go on from the last waypoint to the first one, rounding every corner.
+        smoothing: shape of the corners.
+        closed: whether to return from the last waypoint to the first, rounding every corner.
 
     Returns:
         Segments that meet within `TOLERANCE`. Closed and rounded, they begin where the first waypoint's
@@ -114,7 +114,7 @@ def _end_courses(smoothing: Smoothing) -> tuple[float | None, float | None]:
 
 
 def _leg(way: list[Point], i: int) -> tuple[float, float]:
-    """Length (m) and course (rad) from waypoint i to the next one."""
+    """Return length (m) and course (rad) of the leg from waypoint i to the next one."""
     j = (i + 1) % len(way)
     north, east = way[j][0] - way[i][0], way[j][1] - way[i][1]
     length = math.hypot(north, east)
@@ -124,7 +124,7 @@ def _leg(way: list[Point], i: int) -> tuple[float, float]:
 
 
 def _corner(way: list[Point], legs: list[tuple[float, float]], i: int) -> WaypointCorner | None:
-    """Waypoint i with the legs before and after it; None when they are in line."""
+    """Return waypoint i with the legs before and after it; None when they are in line."""
     chi_in, chi_out = legs[i - 1][1], legs[i][1]
     turn = wrap(chi_out - chi_in)
     if abs(turn) < _STRAIGHT:
@@ -169,7 +169,7 @@ def _check_room(i: int, j: int, length: float, distance: list[float], smoothing:
     if missing <= TOLERANCE:
         return
     tight = i if distance[i] > distance[j] else j
-    wish = (
+    size = (
         f"radius of {smoothing.radius:g} m"
         if smoothing.radius is not None
         else f"distance of {smoothing.distance:g} m"
@@ -177,7 +177,7 @@ def _check_room(i: int, j: int, length: float, distance: list[float], smoothing:
     rounded = [f"{distance[k]:.3f} m at points[{k}]" for k in (i, j) if distance[k] > 0.0]
     raise ConfigurationError(
         f"points[{tight}]",
-        f"a corner that does not fit: the {smoothing.kind} {wish} takes {' and '.join(rounded)} of a leg of"
+        f"a corner that does not fit: the {smoothing.kind} {size} takes {' and '.join(rounded)} of a leg of"
         f" {length:.3f} m, {missing:.3f} m too much",
         "a smaller one, or waypoints further apart",
     )
@@ -186,7 +186,7 @@ def _check_room(i: int, j: int, length: float, distance: list[float], smoothing:
 def _dubins(
     way: list[Point], legs: list[tuple[float, float]], smoothing: Smoothing, closed: bool
 ) -> list[Segment]:
-    """Through every waypoint, half way round its corner there."""
+    """Return Dubins paths through all waypoints, with the mean of both legs' courses at each."""
     radius = smoothing.radius or math.nan
     courses = []
     for i in range(len(way)):

@@ -1,4 +1,4 @@
-"""A lawnmower survey: parallel legs that together see all of a polygon."""
+"""A lawnmower survey: parallel legs that together cover a polygon."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MOST_LEGS = 20_000
 
 
 def legs(polygon: Sequence[Point], spacing: float, chi: float, run_out: float = 0.0) -> list[Leg]:
-    """The legs of a survey, from port to starboard of the course `chi`, every second one the other way.
+    """Return the legs of a survey, from port to starboard of the course `chi`, in alternating directions.
 
     The polygon is cut into strips along `chi`, all of one width and not wider than `spacing`. Each leg runs
     along the middle of its strip and covers the strip's whole part of the polygon, bays included.
@@ -30,7 +30,7 @@ def legs(polygon: Sequence[Point], spacing: float, chi: float, run_out: float = 
         polygon: its corners in order (north, east), m.
         spacing: largest distance between neighbouring legs, m.
         chi: course of the first leg, rad.
-        run_out: how far each leg goes on beyond the polygon at both ends, m.
+        run_out: length of each leg beyond the polygon, at both ends, m.
 
     Raises:
         ConfigurationError: fewer than three corners, no area, or too many legs.
@@ -69,7 +69,7 @@ def _area(along: np.ndarray, across: np.ndarray) -> float:
 def _extents(
     along: np.ndarray, across: np.ndarray, low: float, strip: float, count: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Where the polygon begins and ends along each strip: its corners and its edges' crossings count."""
+    """Return where the polygon begins and ends along each strip, by its corners and its edges' crossings."""
     start, end = np.full(count, np.inf), np.full(count, -np.inf)
 
     def take(strips: np.ndarray, at: np.ndarray) -> None:
@@ -90,14 +90,14 @@ def _extents(
 
 
 def path(way: Sequence[Leg], turns: Smoothing) -> list[Segment]:
-    """The legs joined by turns.
+    """Return the legs, joined by turns.
 
     With dubins every leg is flown to its end, straight, and the turn lies outside; the other kinds round
     the corners of the way from leg to leg.
 
     Args:
         way: the legs.
-        turns: how to come from one to the next.
+        turns: kind of the turns.
 
     Raises:
         ConfigurationError: a turn does not fit, or keys that do not belong to a survey.

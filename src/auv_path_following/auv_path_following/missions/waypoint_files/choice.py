@@ -1,4 +1,4 @@
-"""Which shape of a file a mission takes, and what is said of the others."""
+"""Choose the shape of a file that a mission takes, and list the others."""
 
 from __future__ import annotations
 
@@ -34,12 +34,12 @@ _SPLIT = "a polygon without holes: split it into parts around the hole, one miss
 
 
 class Chosen(NamedTuple):
-    """What is taken of a file.
+    """The chosen part of a file.
 
     Attributes:
         points: as in `FileShape`.
-        outline: whether they are the outline of a polygon, which has no end.
-        notices: what is not taken, one line each.
+        outline: whether they are the outline of a polygon, which is closed.
+        notices: parts that are not taken, one line each.
     """
 
     points: list[Point]
@@ -54,7 +54,7 @@ def choose(content: Content, use: Use, feature: str | None = None) -> Chosen:
 
     Args:
         content: of the file.
-        use: what for.
+        use: purpose of the shape.
         feature: name of the shape to take; None where the file holds only one.
 
     Raises:
@@ -62,11 +62,11 @@ def choose(content: Content, use: Use, feature: str | None = None) -> Chosen:
     """
     pool = _pool(content, use)
     named = labels(pool)
-    wanted = [k for k, shape in enumerate(pool) if feature in (None, named[k], shape.name)]
-    if feature is not None and not wanted:
+    matching = [k for k, shape in enumerate(pool) if feature in (None, named[k], shape.name)]
+    if feature is not None and not matching:
         raise ConfigurationError("", f"no feature {shown(feature)}", f"one of {_names(named)}")
     for kind in _FIRST[use]:
-        chosen = [k for k in wanted if pool[k].kind == kind]
+        chosen = [k for k in matching if pool[k].kind == kind]
         if len(chosen) > 1 and kind != "point":
             found = f"{len(chosen)} {kind}s ({_names(named[k] for k in chosen)})"
             raise ConfigurationError("", found, "one, or `feature: NAME`")

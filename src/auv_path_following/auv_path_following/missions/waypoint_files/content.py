@@ -1,4 +1,4 @@
-"""What a waypoint file holds, whatever its format."""
+"""Content of a waypoint file of any format."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from auv_msgs_py.values.errors import ConfigurationError
 Point = tuple[float, float]
 Kind = Literal["line", "polygon", "point"]
 
-#: Points, and items of a mission, of one file at most; a path through so many is checked in some seconds.
+#: Most points, or items of a mission, of one file; a path through so many is checked in a few seconds.
 MOST_POINTS = 50_000
-#: Lists and objects of a JSON file at most: each takes some 100 bytes of memory.
+#: Most lists and objects of a JSON file: each takes about 100 bytes of memory.
 _MOST_LISTS = 1_000_000
 #: A longer list of names or numbers is cut in messages.
 _LISTED = 12
@@ -33,8 +33,8 @@ class FileShape:
         points: (latitude, longitude), deg, or (north, east), m; a polygon's outer ring, not closed.
         holes: inner rings of a polygon.
         heights: smallest and largest height, depth or altitude, m, where any is not 0.
-        notices: what is not taken if this shape is, one line each.
-        refusal: why the shape must not be flown as it stands; None if it can be.
+        notices: what is not taken with this shape, one line each.
+        refusal: why the shape must not be flown; None if it can be.
     """
 
     kind: Kind
@@ -48,15 +48,15 @@ class FileShape:
 
 @dataclass
 class Content:
-    """What a file holds.
+    """Content of a file.
 
     Attributes:
         shapes: in the order of the file.
         in_degrees: whether points are (latitude, longitude) in degrees, else (north, east) in metres.
         areas: polygons of survey patterns, whose transects are part of a shape.
-        fences: areas that must not be left.
-        speed: the one speed, m/s, that holds for the whole route; None without one.
-        notices: what is never taken, one line each.
+        fences: inclusion fences.
+        speed: the one speed of the whole route, m/s; None without one.
+        notices: parts that are never taken, one line each.
     """
 
     shapes: list[FileShape] = field(default_factory=list)
@@ -84,7 +84,7 @@ S = TypeVar("S", bound=Sized)
 
 
 def bounded(parts: S) -> S:
-    """Pass on a list that is about to become points.
+    """Return a list that will become points, if it is short enough.
 
     Raises:
         ConfigurationError: it is too long, which is refused before it takes more memory.

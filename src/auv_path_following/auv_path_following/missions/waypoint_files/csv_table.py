@@ -61,7 +61,7 @@ def read(data: bytes) -> Content:
 
 
 def _text(data: bytes) -> str:
-    """The text; what is not Unicode is taken for the Windows code page of western Europe."""
+    """Return the text: Unicode, else the Windows code page of western Europe."""
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         return data.decode("utf-16", "replace")
     try:
@@ -71,7 +71,7 @@ def _text(data: bytes) -> str:
 
 
 def _columns(head: Sequence[str], line: str) -> tuple[bool, int, int]:
-    """Whether points are in degrees, and the two columns."""
+    """Return whether points are in degrees, and the two columns."""
     at: dict[str, list[int]] = {}
     for k, name in enumerate(head):
         if meaning := _meaning(name):
@@ -91,7 +91,7 @@ def _columns(head: Sequence[str], line: str) -> tuple[bool, int, int]:
 
 
 def _meaning(name: str) -> str | None:
-    """What a column is: `Latitude (deg)`, `lat_dd` and `LAT` are latitude; None for any other."""
+    """Return the meaning of a column, e.g. latitude for `Latitude (deg)`, `LAT`; None for others."""
     first, *units = _WORD.findall(name.lower()) or [""]
     meaning = _NAMES.get(first)
     return meaning if meaning and all(unit in _UNITS[meaning] for unit in units) else None
@@ -111,6 +111,6 @@ def _point(row: Sequence[str], columns: tuple[int, int], width: int, number: int
 
 
 def _number(cell: str) -> float:
-    """A number with a decimal point or, alone, a decimal comma."""
+    """Return a number with a decimal point or a single decimal comma."""
     text = cell.strip()
     return decimal(text.replace(",", ".") if text.count(",") == 1 and "." not in text else text)

@@ -51,7 +51,7 @@ def read(data: bytes) -> Content:
 
 
 def _geometries(document: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Every single geometry with the name of its feature, in the order of the file."""
+    """Yield every geometry with the name of its feature, in the order of the file."""
     waiting: list[tuple[str, Any]] = [("", document)]
     while waiting:
         name, item = waiting.pop()

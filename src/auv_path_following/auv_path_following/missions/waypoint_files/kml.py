@@ -106,7 +106,7 @@ def _places(element: Element) -> list[list[float]]:
 def _place(text: str, separator: str | None) -> list[float]:
     """longitude, latitude, height -> [latitude, longitude, height]."""
     parts = text.split(separator)
-    if not 2 <= len(parts) <= 3:  # more: positions that are not apart, of which the first would remain
+    if not 2 <= len(parts) <= 3:  # more: positions without a space between them
         raise ValueError(f"{len(parts)} numbers in {text!r:.40}")
     longitude, latitude, *height = map(decimal, parts)
     return [latitude, longitude, *height]

@@ -1,4 +1,4 @@
-"""MAVLink mission items: which are passed, which are left out with a line, which are refused."""
+"""MAVLink mission items: waypoints, items left out with a notice, and items refused."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from auv_path_following.missions.waypoint_files.content import (
     shape,
 )
 
-#: MAV_FRAMEs of positions in degrees; they differ in what a height is above.
+#: MAV_FRAMEs of positions in degrees; they differ in the reference of a height.
 _GLOBAL_FRAMES = (0, 3, 5, 6, 10, 11)
-#: Commands up to this one move the vehicle, later ones do something on the way, but for those below.
+#: Commands up to this one move the vehicle; of the later ones only `_MOVING` do.
 _LAST_NAVIGATION = 95
 _WAYPOINT, _SPEED = 16, 178
 _FENCE_VERTEX = 5001
-#: More kinds of commands are counted in one line.
+#: Most kinds of commands that are listed; the others are counted.
 _MOST_KINDS = 30
 
-#: Passed as waypoints -> what the vehicle would do there beyond passing.
+#: Commands taken as waypoints -> what the vehicle would do there besides passing.
 _PASSED = {
     _WAYPOINT: "",
     82: "",
@@ -36,9 +36,9 @@ _PASSED = {
     19: "waiting",
     31: "circling to a height",
 }
-#: Behind these a mission does not go on.
+#: Commands after which a mission ends.
 _ENDS = {17: "waiting without end", 20: "return to launch", 21: "landing", 85: "landing"}
-#: Left out: they do not change where the path goes.
+#: Commands that are left out: they do not change the path.
 _LEFT_OUT = {
     20: "return to launch",
     21: "landing",
@@ -69,7 +69,7 @@ _LEFT_OUT = {
     5004: "exclusion circle",
     5100: "rally point",
 }
-#: Refused, although later than the last navigation command: they move the vehicle.
+#: Later commands that are refused because they move the vehicle.
 _MOVING = {
     177: "jump",
     190: "rally landing",
@@ -123,8 +123,8 @@ class Item(NamedTuple):
 def follow(items: Iterable[Item], content: Content) -> None:
     """Add the line through a list of items, the one speed along it, and its inclusion fences.
 
-    A command that would lead the vehicle elsewhere makes the line's `refusal`; every other one that is not
-    taken gets a notice.
+    A command that would lead the vehicle elsewhere becomes the line's `refusal`; any other that is not taken
+    gets a notice.
     """
     walk = _Walk()
     refusal = None
@@ -209,7 +209,7 @@ class _Walk:
         self.left_out.setdefault(what, []).append(item.label)
 
     def whole_speed(self) -> float | None:
-        """Return the speed from the first waypoint, where the path begins, to the last, if it is one."""
+        """Return the speed from the first waypoint to the last, if it is constant."""
         if any(passed > 1 for passed, _, _ in self.speeds):
             return None
         return self.speeds[-1][1] if self.speeds else None

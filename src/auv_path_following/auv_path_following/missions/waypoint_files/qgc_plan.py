@@ -30,17 +30,17 @@ def read(data: bytes) -> Content:
 
 
 def is_plan(document: dict[str, Any]) -> bool:
-    """Whether a JSON document says that it is a plan."""
+    """Return whether a JSON document is a plan."""
     return document.get("fileType") == "Plan" or _is_old(document)
 
 
 def _is_old(document: dict[str, Any]) -> bool:
-    """Whether it is a .mission file, which QGroundControl wrote before plans."""
+    """Return whether it is a .mission file, which QGroundControl wrote before plans."""
     return "mission" not in document and "plannedHomePosition" in document
 
 
 def content(document: dict[str, Any]) -> Content:
-    """Sort out what a plan holds.
+    """Return the content of a plan.
 
     Raises:
         ConfigurationError: as `read`.
@@ -66,10 +66,10 @@ def _list(holder: Any, key: str) -> list[Any]:
 
 
 def _items(items: list[Any]) -> Iterator[Item]:
-    """Every simple item; survey and corridor patterns hold their own.
+    """Yield every simple item, those of survey and corridor patterns included.
 
     Raises:
-        ConfigurationError: an item is none, or a pattern cannot be followed.
+        ConfigurationError: an item is malformed, or a pattern cannot be followed.
     """
     for position, item in enumerate(items, start=1):
         if not isinstance(item, dict):

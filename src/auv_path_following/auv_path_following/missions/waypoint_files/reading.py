@@ -1,4 +1,4 @@
-"""Opens a waypoint file, chooses the reader by the suffix, and checks what came out."""
+"""Read a waypoint file with the reader of its suffix, and check its content."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def read(path: Path, called: str | None = None) -> Content:
 
     Args:
         path: the file.
-        called: what messages call it; the path if None.
+        called: its name in messages; the path if None.
 
     Raises:
         ConfigurationError: one line with the file, what was found and what was expected.

@@ -1,4 +1,4 @@
-"""XML of other programs, without document types: they declare entities, which can grow without bound."""
+"""Read XML of other programs; document types are refused, because their entities can grow without bound."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from xml.etree import ElementTree
 
 from auv_msgs_py.values.errors import ConfigurationError
 
-#: Fed to the parser piece by piece, so that it stops soon after a document type.
+#: Bytes fed to the parser at a time, so that it stops soon after a document type.
 _PIECE = 65536
 
 
-#: A file of more elements is refused: each takes some 200 bytes of memory.
+#: Most elements of a file: each takes about 200 bytes of memory.
 _MOST_ELEMENTS = 400_000
 
 
@@ -55,10 +55,10 @@ def parse(data: bytes, what: str, roots: tuple[str, ...]) -> ElementTree.Element
 
 
 def local(element: ElementTree.Element) -> str:
-    """An element's name without its namespace."""
+    """Return an element's name without its namespace."""
     return str(element.tag).rsplit("}", 1)[-1]
 
 
 def text_of(element: ElementTree.Element, child: str) -> str:
-    """The text of a child; empty where there is none."""
+    """Return the text of a child; empty where there is none."""
     return (element.findtext(f"{{*}}{child}") or "").strip()

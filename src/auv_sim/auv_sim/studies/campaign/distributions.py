@@ -9,7 +9,7 @@ import numpy as np
 import pydantic
 
 from auv_msgs_py.settings.schema import Pair, setting, settings
-from auv_path_following.missions.segment_specs import exactly_one, unfit
+from auv_msgs_py.settings.validators import exactly_one, unfit
 
 #: A value of a study: a number, a switch, or the name of a law, a mission, a file.
 Value = float | bool | str

@@ -10,7 +10,7 @@ import pydantic
 
 from auv_msgs_py.settings import yaml_file
 from auv_msgs_py.settings.schema import setting, settings
-from auv_path_following.missions.segment_specs import no_boolean, unfit
+from auv_msgs_py.settings.validators import no_boolean, unfit
 from auv_sim.flight.batch.flight_figures import Flights
 from auv_sim.flight.least_share import LEAST_SHARE
 from auv_sim.studies.campaign.distributions import Distribution
