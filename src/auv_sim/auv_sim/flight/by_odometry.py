@@ -1,6 +1,6 @@
-"""The distance to the path as the vehicle's own odometry has it, beside the true one.
+"""The distance to the path by the vehicle's own odometry, beside the true one.
 
-In a sea the navigator errs, and guidance follows the path that the odometry shows: the distance that it
+In a sea the navigator errs, and guidance follows the path relative to the odometry: the distance that it
 reports is smaller than the true one, by which a mission is judged.
 """
 
@@ -29,7 +29,7 @@ class ByOdometry(NamedTuple):
 
 
 def by_odometry(run: Run, path: CompositePath) -> ByOdometry | None:
-    """Judge a run by its odometry; None where the truth was not recorded, so that there is but one distance.
+    """Judge a run by its odometry; None where the truth was not recorded, so that there is only one distance.
 
     Args:
         run: the flown mission.

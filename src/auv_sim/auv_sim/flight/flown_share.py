@@ -1,4 +1,4 @@
-"""How much of the path was really flown: the share, and the stretches that were missed.
+"""The share of the path that was flown, and the stretches that were missed.
 
 The path counts as equal cells of at most `SPACING` of path length. A cell is flown when, between two
 consecutive rows of the run under way,
@@ -51,13 +51,19 @@ _CHUNK = 2048
 _LISTED = 6
 
 
+#: Columns of `Cells.knots` and of `Cells.cells`.
+KNOT_S, KNOT_METRES = range(2)
+CELL_X, CELL_Y, CELL_NORTH, CELL_EAST, CELL_REACH = range(5)
+
+
 class Cells(NamedTuple):
-    """A path cut into cells of equal length, as plain arrays that compiled code reads as well.
+    """A path divided into cells of equal length, as plain arrays that compiled code reads, too.
 
     Attributes:
         spacing: length of a cell, m.
-        knots: shape (m, 2), s of Eq. (1) and the metres of path before it.
-        cells: shape (n, 5), the middles: x, y (NED, m), the unit tangent (north, east) and the reach (m).
+        knots: shape (m, 2), KNOT_S: s of Eq. (1); KNOT_METRES: the metres of path before it.
+        cells: shape (n, 5), CELL_X, CELL_Y: the middles, NED, m; CELL_NORTH, CELL_EAST: the unit tangent;
+            CELL_REACH: the reach, m.
     """
 
     spacing: float
@@ -77,10 +83,10 @@ class Stretch(NamedTuple):
 
 @dataclass(frozen=True)
 class FlownShare:
-    """How much of the path was flown, as this module defines it.
+    """The share of the path that was flown, as this module defines it.
 
     Attributes:
-        share: of the path from where the mission began, without what was skipped, 0 to 1; NaN without any.
+        share: of the path from the mission's start, without skipped stretches, 0 to 1; NaN without any path.
         missed: stretches that were not flown.
         skipped: stretches that a rejoin after a hold skipped.
     """
@@ -91,35 +97,37 @@ class FlownShare:
 
 
 def listed(stretches: tuple[Stretch, ...]) -> str:
-    """Stretches for people; only the first of many."""
+    """Return the stretches as text; only the first of many."""
     more = len(stretches) - _LISTED
     words = [str(stretch) for stretch in stretches[:_LISTED]] + ([f"{more} more"] if more > 0 else [])
     return " and ".join(filter(None, (", ".join(words[:-1]), words[-1]))) if words else "nothing"
 
 
 def percent(share: float) -> str:
-    """A share of the path in percent; rounded down, because 98.996 % is less than 99 %."""
+    """Return a share in percent, rounded down, because 98.996 % is less than 99 %."""
     return "-" if math.isnan(share) else f"{math.floor(1e4 * share) / 100.0:.2f} %"
 
 
 def cells_of(path: CompositePath) -> Cells:
-    """Cut a path into cells."""
+    """Divide a path into cells."""
     knots = _knots(path)
     n = max(1, math.ceil(path.length / SPACING))
     spacing = path.length / n
-    s = np.interp((np.arange(n) + 0.5) * spacing, knots[:, 1], knots[:, 0])
+    s = np.interp((np.arange(n) + 0.5) * spacing, knots[:, KNOT_METRES], knots[:, KNOT_S])
     subpath = np.minimum(s.astype(np.int64), path.n - 1)
     cells = np.empty((n, 5))
     for i, rows in _groups(subpath):
         p: Any = path.evaluate(i, s[rows] - i)
-        cells[rows, 0], cells[rows, 1], cells[rows, 2], cells[rows, 3] = p.x, p.y, p.dx, p.dy
-    cells[:, 2:4] /= np.hypot(cells[:, 2], cells[:, 3])[:, None]
-    cells[:, 4] = np.where(_at_corners(path, subpath, cells), REACH_AT_CORNERS, REACH)
+        cells[rows, CELL_X], cells[rows, CELL_Y] = p.x, p.y
+        cells[rows, CELL_NORTH], cells[rows, CELL_EAST] = p.dx, p.dy
+    tangent = cells[:, CELL_NORTH : CELL_EAST + 1]
+    tangent /= np.hypot(cells[:, CELL_NORTH], cells[:, CELL_EAST])[:, None]
+    cells[:, CELL_REACH] = np.where(_at_corners(path, subpath, cells), REACH_AT_CORNERS, REACH)
     return Cells(spacing, knots, cells)
 
 
 def _knots(path: CompositePath) -> Array:
-    """Metres of path over s: exact at the joints, by the midpoint rule between them."""
+    """Return metres of path over s: exact at the joints, by the midpoint rule between them."""
     s, metres = [np.zeros(1)], [np.zeros(1)]
     for i, segment in enumerate(path.segments):
         n = max(1, math.ceil(segment.length / _KNOT_SPACING))
@@ -134,7 +142,7 @@ def _knots(path: CompositePath) -> Array:
 
 
 def _groups(subpath: npt.NDArray[np.int64]) -> list[tuple[int, slice]]:
-    """The rows of each subpath that has any; `subpath` is sorted."""
+    """Return the rows of each subpath that has any; `subpath` is sorted."""
     first = np.flatnonzero(np.diff(subpath, prepend=-1))
     ends = [*first[1:].tolist(), len(subpath)]
     return [(int(subpath[a]), slice(a, b)) for a, b in zip(first.tolist(), ends, strict=True)]
@@ -145,19 +153,19 @@ def _at_corners(path: CompositePath, subpath: npt.NDArray[np.int64], cells: Arra
     for joint in path.joints:
         if joint.geometric == "G0":
             first, end = np.searchsorted(subpath, (joint.index - 1, joint.index + 1))
-            x, y = cells[first:end, 0], cells[first:end, 1]
+            x, y = cells[first:end, CELL_X], cells[first:end, CELL_Y]
             near[first:end] |= np.hypot(x - joint.x, y - joint.y) <= CORNER_RADIUS
     return near
 
 
 def middles_of(cells: Cells) -> Array:
-    """The middles of the cells, shape (n,), m of path."""
+    """Return the middles of the cells, shape (n,), m of path."""
     middles: Array = (np.arange(len(cells.cells), dtype=np.float64) + 0.5) * cells.spacing
     return middles
 
 
 def flown_share(run: Run, path: CompositePath, begin: float = 0.0) -> FlownShare:
-    """How much of the path a run flew.
+    """Return the share of the path that a run flew.
 
     Args:
         run: its rows under way, as `metrics.under_way` selects them.
@@ -165,12 +173,12 @@ def flown_share(run: Run, path: CompositePath, begin: float = 0.0) -> FlownShare
         begin: s of Eq. (1) at which the mission began.
     """
     cells = cells_of(path)
-    metres = np.interp(run.s, cells.knots[:, 0], cells.knots[:, 1])
+    metres = np.interp(run.s, cells.knots[:, KNOT_S], cells.knots[:, KNOT_METRES])
     return share_of(cells, _flown(cells, metres, *run.track), _skipped(cells, metres, run.held > 0.0), begin)
 
 
 def _flown(cells: Cells, metres: Array, x: Array, y: Array) -> Flags:
-    """Which cells a track passes.
+    """Return which cells a track passes.
 
     Args:
         cells: the path, n cells.
@@ -181,7 +189,7 @@ def _flown(cells: Cells, metres: Array, x: Array, y: Array) -> Flags:
         shape (n,).
     """
     flags = np.zeros(len(cells.cells), bool)
-    cx, cy = np.ascontiguousarray(cells.cells[:, 0]), np.ascontiguousarray(cells.cells[:, 1])
+    cx, cy = (np.ascontiguousarray(cells.cells[:, column]) for column in (CELL_X, CELL_Y))
     first, last = window(cells, metres[:-1])
     longest = np.hypot(np.diff(x), np.diff(y)) + REACH_AT_CORNERS
     for start in range(0, len(first), _CHUNK):
@@ -197,7 +205,7 @@ def _flown(cells: Cells, metres: Array, x: Array, y: Array) -> Flags:
 
 
 def _passed(cell: Array, x: Array, y: Array, k: npt.NDArray[np.int64]) -> Flags:
-    """Whether the track passes each cell, shape (m, 5), between rows k and k + 1."""
+    """Return whether the track passes each cell, shape (m, 5), between rows k and k + 1."""
     cx, cy, north, east, reach = cell.T
     x0, y0 = x[k], y[k]
     dx, dy = x[k + 1] - x0, y[k + 1] - y0
@@ -211,7 +219,7 @@ def _passed(cell: Array, x: Array, y: Array, k: npt.NDArray[np.int64]) -> Flags:
 
 
 def window(cells: Cells, metres: Any) -> tuple[Any, Any]:
-    """The first and the last cell that can be flown with the virtual point at `metres` of path."""
+    """Return the first and the last cell that can be flown with the virtual point at `metres` of path."""
     first = np.ceil((metres - BEHIND) / cells.spacing - 0.5)
     last = np.floor((metres + AHEAD) / cells.spacing - 0.5)
     most = len(cells.cells) - 1
@@ -219,7 +227,7 @@ def window(cells: Cells, metres: Any) -> tuple[Any, Any]:
 
 
 def _skipped(cells: Cells, metres: Array, held: Flags) -> Flags:
-    """Which cells lie between where the virtual point rested in a hold and where it went on."""
+    """Return which cells lie between the virtual point's place in a hold and where it continued."""
     middles = middles_of(cells)
     flags = np.zeros(len(middles), bool)
     edges = np.flatnonzero(np.diff(held.astype(np.int8), prepend=0, append=0)).tolist()
@@ -230,7 +238,7 @@ def _skipped(cells: Cells, metres: Array, held: Flags) -> Flags:
 
 
 def share_of(cells: Cells, flown: Flags, skipped: Flags | None = None, begin: float = 0.0) -> FlownShare:
-    """The share and the stretches from what each cell is.
+    """Return the share and the stretches from the state of each cell.
 
     Args:
         cells: the path.
@@ -238,7 +246,7 @@ def share_of(cells: Cells, flown: Flags, skipped: Flags | None = None, begin: fl
         skipped: shape (n,), whether a rejoin after a hold passed it over.
         begin: s of Eq. (1) at which the mission began.
     """
-    start = float(np.interp(begin, cells.knots[:, 0], cells.knots[:, 1]))
+    start = float(np.interp(begin, cells.knots[:, KNOT_S], cells.knots[:, KNOT_METRES]))
     asked = middles_of(cells) >= start
     left_out = asked & ~flown & skipped if skipped is not None else np.zeros(len(flown), bool)
     counted = asked & ~left_out

@@ -1,4 +1,4 @@
-"""How much of its path a mission has to fly."""
+"""The least share of its path that a mission has to fly."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ from auv_sim.flight.flown_share import CORNER_RADIUS, Stretch, flown_share, list
 from auv_sim.flight.least_share import LEAST_SHARE
 from auv_sim.flight.run_record import Column, Run
 
-#: The current estimate is judged from so long after the start, s.
+#: Time after the start from which the current estimate is judged, s.
 OBSERVER_SETTLING_TIME = 15.0
 
 
@@ -74,7 +74,7 @@ class MissionSummary:
     Attributes:
         completed: whether the virtual point reached the end of the path.
         flown_share: share of the path that was flown, 0 to 1, as `flown_share` defines it.
-        missed: stretches that were not flown, from where to where, m of path.
+        missed: stretches that were not flown, m of path.
         skipped: stretches that a rejoin after a hold skipped, m of path; they are not among the missed ones.
         steps: odometries in the run.
         duration: s.
@@ -112,17 +112,17 @@ class MissionSummary:
     navigation_error: float
 
     def to_json(self) -> str:
-        """Strict JSON, indented; NaN becomes null."""
+        """Return strict JSON, indented; NaN becomes null."""
         return json.dumps(without_nan(dataclasses.asdict(self)), indent=2, allow_nan=False)
 
     def outcome(self, least_share: float = LEAST_SHARE) -> str:
-        """How the mission ended: complete, incomplete (too little was flown), or short of the path's end."""
+        """Return how the mission ended: complete, incomplete (too little flown), or not at the end."""
         if not self.completed:
             return "end of the path not reached"
         return "incomplete" if self.shortfall(least_share) else "complete"
 
     def shortfall(self, least_share: float = LEAST_SHARE) -> str:
-        """Why a mission is incomplete, with the stretches that were missed; empty if enough was flown."""
+        """Return why a mission is incomplete, with the missed stretches; empty if enough was flown."""
         if self.flown_share >= least_share:
             return ""
         return (
@@ -131,7 +131,7 @@ class MissionSummary:
         )
 
     def flown_line(self) -> str:
-        """The flown share and the stretches that were missed or skipped, for people."""
+        """Return the flown share and the stretches that were missed or skipped, as text."""
         parts = [f"flown: {percent(self.flown_share)} of the path"]
         parts += [f"missed {listed(self.missed)}"] if self.missed else []
         parts += [f"skipped after a hold {listed(self.skipped)}"] if self.skipped else []
@@ -139,7 +139,7 @@ class MissionSummary:
 
 
 def summarise(run: Run, path: CompositePath, begin: float = 0.0) -> MissionSummary:
-    """Judge a run against the path it followed: by where the vehicle really was, if that is known.
+    """Judge a run against the path it followed, by the true positions where they are known.
 
     Only the rows under way count (see `under_way`). Averages are over rows. What happens between two
     rows belongs to the subpath of the earlier one.
@@ -203,21 +203,21 @@ def farthest(parts: Sequence[Part], most: int) -> list[Part]:
 
     Args:
         parts: all of them, in the path's order.
-        most: at most so many; those that were not reached come last.
+        most: most parts to return; those that were not reached rank last.
     """
     ranked = sorted(range(len(parts)), key=lambda k: -np.nan_to_num(parts[k].largest_distance, nan=-1.0))
     return [parts[k] for k in sorted(ranked[:most])]
 
 
 def _near(joint: Joint, x: Column, y: Column, i: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """The rows around a joint. The path may pass there again later: only the two subpaths that meet count."""
+    """Return the rows around a joint, on the two subpaths that meet; the path may pass there again later."""
     near: NDArray[np.bool_] = np.hypot(x - joint.x, y - joint.y) <= CORNER_RADIUS
     near &= (i == joint.index - 1) | (i == joint.index)
     return near
 
 
 def under_way(run: Run, n: int) -> Run:
-    """The rows in which the mission runs.
+    """Return the rows in which the mission runs.
 
     From the first row with a known s (and with thrust, where the thrust is known) to the one in which s
     reaches the end of the path.
@@ -261,7 +261,7 @@ def _sum(values: Column) -> float:
 
 
 def without_nan(value: Any) -> Any:
-    """Plain data with null where a number is not finite, for strict JSON."""
+    """Return plain data with null where a number is not finite, for strict JSON."""
     if isinstance(value, dict):
         return {key: without_nan(item) for key, item in value.items()}
     if isinstance(value, list | tuple):

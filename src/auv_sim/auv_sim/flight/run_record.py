@@ -1,4 +1,4 @@
-"""A flown mission as columns of numbers: what metrics, pictures and comparisons work on."""
+"""A flown mission as columns of numbers, the input of metrics, pictures and comparisons."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from auv_sim.flight.signals import SIGNALS
+
 Column = NDArray[np.float64]
 
 _REQUIRED = ("t", "x", "y", "psi")
@@ -19,21 +21,21 @@ _REQUIRED = ("t", "x", "y", "psi")
 class Run:
     """One row for each odometry. Every column has shape (n,); NaN stands where the source has no value.
 
-    NED and FRD, SI units, radians, in the paper's symbols.
+    NED and FRD, SI units, radians, in the paper's symbols; `signals.SIGNALS` has unit and source of each.
 
     Attributes:
         t: stamp of the odometry, s.
         x, y, psi, r: position (north, east), heading and its rate.
         ur, vr: velocity through the water, body frame, Eq. (16).
         rudder: measured rudder angle (positive to port).
-        rudder_cmd, thrust_cmd: what the autopilot asked for (rad, N).
+        rudder_cmd, thrust_cmd: commands of the autopilot (rad, N).
         psi_d, r_d: desired heading, Eq. (24), and its feed-forward rate.
         xe, ye: path-following errors, Eq. (20).
         psi_e: heading error wrap(psi - psi_d).
         s: path parameter, Eq. (1), in [0, number of subpaths].
         Vx_est, Vy_est: current estimate, Eq. (35) (north, east).
         Vx_true, Vy_true: the true current, from a simulator only.
-        x_true, y_true, psi_true: where the vehicle really was, from a simulator whose navigation errs.
+        x_true, y_true, psi_true: true pose, from a simulator whose navigation errs.
         held: 1 where the mission held at the row or since the row before, else 0.
     """
 
@@ -72,8 +74,7 @@ class Run:
         Raises:
             ValueError: an unknown or a missing column, or columns of different lengths.
         """
-        names = [field.name for field in dataclasses.fields(cls)]
-        if unknown := sorted(set(columns) - set(names)):
+        if unknown := sorted(set(columns) - set(SIGNALS)):
             raise ValueError(f"unknown columns {', '.join(unknown)}")
         if missing := sorted(set(_REQUIRED) - set(columns)):
             raise ValueError(f"missing columns {', '.join(missing)}")
@@ -81,7 +82,7 @@ class Run:
         n = arrays["t"].size
         if wrong := {name: array.shape for name, array in arrays.items() if array.shape != (n,)}:
             raise ValueError(f"columns of another shape than t's ({n},): {wrong}")
-        return cls(**{name: arrays[name] if name in arrays else np.full(n, np.nan) for name in names})
+        return cls(**{name: arrays[name] if name in arrays else np.full(n, np.nan) for name in SIGNALS})
 
     @property
     def steps(self) -> int:
@@ -90,12 +91,12 @@ class Run:
 
     @property
     def track(self) -> tuple[Column, Column]:
-        """The truest position there is, (north, east): the truth where it was told, else the odometry's."""
-        told = np.isfinite(self.x_true)
-        return np.where(told, self.x_true, self.x), np.where(told, self.y_true, self.y)
+        """The best position known, (north, east), m: the truth where it was recorded, else the odometry's."""
+        has_truth = np.isfinite(self.x_true)
+        return np.where(has_truth, self.x_true, self.x), np.where(has_truth, self.y_true, self.y)
 
     def subpath(self, n: int) -> NDArray[np.int64]:
-        """The active subpath of each row, counted from 0: min(floor(s), n - 1); -1 where s is NaN.
+        """Return the active subpath of each row, counted from 0: min(floor(s), n - 1); -1 where s is NaN.
 
         Args:
             n: number of subpaths of the path.
@@ -105,5 +106,5 @@ class Run:
         return np.where(known, np.clip(index, 0, n - 1), -1)
 
     def select(self, rows: Any) -> Run:
-        """The rows that a mask, a slice or an index array picks."""
+        """Return the rows that a mask, a slice or an index array picks."""
         return Run(**{field.name: getattr(self, field.name)[rows] for field in dataclasses.fields(self)})

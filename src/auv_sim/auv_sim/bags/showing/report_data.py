@@ -20,8 +20,7 @@ from auv_sim.flight.by_odometry import ByOdometry
 from auv_sim.flight.flown_share import percent
 from auv_sim.flight.metrics import MissionSummary, SubpathSummary
 from auv_sim.flight.run_record import Run
-
-_DEGREES = ("psi", "psi_true", "r", "rudder", "rudder_cmd", "psi_d", "r_d", "psi_e")
+from auv_sim.flight.signals import ANGLES, SIGNALS
 
 
 def page_data(flight: RecordedMission, events: list[Event], title: str) -> dict[str, Any]:
@@ -58,10 +57,10 @@ def _columns(flight: RecordedMission) -> dict[str, NDArray[np.float64]]:
     run = flight.run
     assert run is not None
     columns: dict[str, NDArray[np.float64]] = {}
-    for name in Run.__dataclass_fields__:
+    for name in SIGNALS:
         values = getattr(run, name)
         if np.isfinite(values).any():
-            columns[name] = np.degrees(values) if name in _DEGREES else values
+            columns[name] = np.degrees(values) if name in ANGLES else values
     columns["t"] = run.t - run.t[0]
     rudder = columns.get("rudder", columns.get("rudder_cmd"))
     if rudder is not None and run.steps > 1:

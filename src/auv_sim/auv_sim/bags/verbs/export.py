@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import importlib
 from pathlib import Path
 
@@ -16,13 +17,7 @@ from auv_sim.bags.reading.load import run_of
 from auv_sim.bags.verbs.arguments import add_choice
 from auv_sim.command_line import say, target
 from auv_sim.flight.run_record import Run
-
-_UNITS = {
-    "t": "s", "x": "m", "y": "m", "psi": "rad", "r": "rad/s", "ur": "m/s", "vr": "m/s", "rudder": "rad",
-    "rudder_cmd": "rad", "thrust_cmd": "N", "psi_d": "rad", "r_d": "rad/s", "xe": "m", "ye": "m",
-    "psi_e": "rad", "s": "-", "Vx_est": "m/s", "Vy_est": "m/s", "Vx_true": "m/s", "Vy_true": "m/s",
-    "x_true": "m", "y_true": "m", "psi_true": "rad", "held": "-",
-}  # fmt: skip
+from auv_sim.flight.signals import SIGNALS
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -31,19 +26,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", type=target, metavar="FILE", help="*.csv or *.parquet (default: beside the recording, CSV)"
     )
-    parser.add_argument("--rate", type=float, metavar="HZ", help="resample to so many rows a second instead")
+    parser.add_argument("--rate", type=float, metavar="HZ", help="resample to this number of rows a second")
     add_choice(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Write the table and say where."""
+    """Write the table and print its place."""
     bag = read_bag(arguments.bag, odometry=arguments.odometry)
     for note in bag.notes:
         say(f"damaged: {note}")
     flown = run_of(bag, arguments.namespace)
     if arguments.rate is not None:
         flown = _resampled(flown, arguments.rate)
-    columns = {f"{name} [{_UNITS[name]}]": getattr(flown, name) for name in Run.__dataclass_fields__}
+    columns = {f"{name} [{signal.unit}]": getattr(flown, name) for name, signal in SIGNALS.items()}
     file = arguments.out or bag.path.parent / f"{bag.path.stem}.csv"
     try:
         if file.suffix == ".csv":
@@ -59,18 +54,18 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _resampled(flown: Run, rate: float) -> Run:
-    """The newest row at each of the new times, so that no value is invented."""
+    """Return the newest row at each of the new times, without interpolation."""
     if not 0.0 < rate <= 1e6:
         raise ConfigurationError("--rate", f"{rate:g}", "a number greater than 0")
     count = int((flown.t[-1] - flown.t[0]) * rate + 1e-9) + 1
     times = flown.t[0] + np.arange(count) / rate
     rows = np.searchsorted(flown.t, times + 1e-9, side="right") - 1
     picked = flown.select(rows)
-    return Run(**{name: getattr(picked, name) for name in Run.__dataclass_fields__ if name != "t"}, t=times)
+    return dataclasses.replace(picked, t=times)
 
 
 def _write_csv(columns: dict[str, NDArray[np.float64]], file: Path) -> None:
-    """Every digit that is there; an unknown value is an empty cell."""
+    """Write every digit; an unknown value is an empty cell."""
     with replacing(file) as draft, draft.open("w", encoding="utf-8", newline="\n") as stream:
         stream.write(",".join(columns) + "\n")
         for row in zip(*(column.tolist() for column in columns.values()), strict=True):

@@ -1,4 +1,4 @@
-"""Compiles the batch engine's functions where Numba is installed; without it they run as they stand."""
+"""Compiles the batch engine's functions where Numba is installed; without it they run as Python."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ try:
 except ImportError:
     numba = None
 
-#: Where the functions are that end up in compiled code: (package, folder).
+#: Source files of the functions in compiled code: (package, pattern).
 _COMPILED_FROM = (
     (auv_msgs_py, "values/*.py"),
     (auv_msgs_py, "contract/*.py"),
@@ -45,14 +45,14 @@ _OPTIONS: Any = {"error_model": "numpy", "forceinline": True}
 
 
 def compiled(function: F) -> F:
-    """The function as machine code that leaves the interpreter to other threads, kept from run to run."""
+    """Compile a function to machine code that releases the interpreter's lock, cached from run to run."""
     if numba is None:
         return function
     return numba.njit(nogil=True, cache=True, error_model="numpy")(function)  # type: ignore[no-any-return]
 
 
 def overloads(function: Callable[..., Any]) -> Callable[[F], F]:
-    """Decorate what makes the compiled form of a function, given the types of its arguments."""
+    """Decorate the maker of a function's compiled form, given the types of its arguments."""
 
     def decorate(maker: F) -> F:
         if numba is not None:
@@ -66,7 +66,7 @@ _taken_over: set[int] = set()
 
 
 def take_over_pure() -> None:
-    """Let compiled code call every pure function defined so far, and choose steps by configuration."""
+    """Make pure functions defined so far callable from compiled code, with steps chosen by configuration."""
     if numba is None:
         return
     for function in PURE:
@@ -80,7 +80,7 @@ def take_over_pure() -> None:
 
 
 def _chooser(steps: Mapping[type[Any], Step]) -> Callable[..., Any]:
-    """Return what picks a step while a caller is compiled: its type has the configuration's class."""
+    """Return what picks a step while a caller is compiled, by the class of the configuration."""
 
     def choose(config: Any, state: Any, inputs: Any, dt: Any) -> Any:
         return steps.get(getattr(config, "instance_class", type(None)))
@@ -89,7 +89,7 @@ def _chooser(steps: Mapping[type[Any], Step]) -> Callable[..., Any]:
 
 
 def files_of(sources: Iterable[tuple[ModuleType, str]]) -> list[Path]:
-    """The files of packages that match a pattern, in order."""
+    """Return the files of packages that match a pattern, in order."""
     return [
         path
         for package, pattern in sources
@@ -98,7 +98,7 @@ def files_of(sources: Iterable[tuple[ModuleType, str]]) -> list[Path]:
 
 
 def digest_of(files: Iterable[Path]) -> str:
-    """Names what stands in these files."""
+    """Return a digest of the files' content."""
     digest = hashlib.sha256()
     for path in files:
         digest.update(path.read_bytes() + b"\0")
@@ -106,8 +106,8 @@ def digest_of(files: Iterable[Path]) -> str:
 
 
 if COMPILED:
-    # Numba looks at the file of the compiled function only, not at the others whose functions it calls: so
-    # the compiled code of every version of the laws gets a folder of its own.
+    # Numba checks only the file of the compiled function, not those of the functions that it calls. So the
+    # compiled code of every version of the laws has its own folder.
     _HOME = os.path.expanduser("~")  # noqa: PTH111 - Path.expanduser() raises where there is no home
     _CACHES = Path(_HOME) / ".cache" if _HOME != "~" else Path(tempfile.gettempdir())
     _BASE = os.environ.get("NUMBA_CACHE_DIR") or _CACHES / "auv_sim"

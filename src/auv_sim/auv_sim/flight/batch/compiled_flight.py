@@ -1,4 +1,4 @@
-"""Whole flights in compiled code: the pilot and the plant of `closed_loop.fly`, many flights a call."""
+"""Whole flights in compiled code: pilot and plant of `closed_loop.fly`, many flights a call."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from auv_sim.flight.batch.compiled import compiled, take_over_pure
 from auv_sim.flight.batch.config_rows import unpack
 from auv_sim.flight.batch.distance import Outlines, distance_to
 from auv_sim.flight.batch.flown_cells import pass_cells
+from auv_sim.flight.batch.track_row import TRACK_COLUMNS, fill_row
 from auv_sim.flight.flown_share import Cells
 from auv_sim.vehicle.actuator import ServoState
 from auv_sim.vehicle.remus import Afloat, PlantState
@@ -29,16 +30,13 @@ take_over_pure()
 Array = npt.NDArray[np.float64]
 Flags = npt.NDArray[np.bool_]
 
-#: Columns of a track, in the order of `closed_loop`'s; the first is the number of the odometry.
-TRACK_COLUMNS = 23
-
 
 class FlightConfig(NamedTuple):
-    """Everything that decides a flight but its path, its start and its current.
+    """Configuration of a flight, without its path, its start and its current.
 
     Attributes:
         pilot: observer, guidance, autopilot.
-        plant: the vehicle that is simulated.
+        plant: the simulated vehicle.
         dt: between two odometries, s.
         steps: at most this many odometries.
     """
@@ -58,7 +56,7 @@ class Course(NamedTuple):
 
 
 class Scratch(NamedTuple):
-    """Tables that a flight writes: rows of its approach, and the cells that it flew, shape (cells,)."""
+    """Tables that a flight writes: rows of its approach, and whether each cell was flown, shape (cells,)."""
 
     approach: Array
     flown: Flags
@@ -79,7 +77,7 @@ def fly_many(
     Args:
         example: a flight of the same layout.
         configs: shape (k, numbers), `rows.flat` of different flights.
-        which: shape (n,), the row of each flight in `configs`.
+        which: shape (n,), each flight's row in `configs`.
         starts: shape (n, 6), first states of the hulls.
         currents: shape (n, 2), NED, m/s.
         course: the path.
@@ -89,7 +87,7 @@ def fly_many(
     none = np.empty((0, TRACK_COLUMNS))
     for k in range(len(which)):
         flight = unpack(example, configs[which[k]])
-        row = starts[k]
+        row = starts[k]  # the fields of PlantState
         start = Afloat(PlantState(row[0], row[1], row[2], row[3], row[4], row[5]), ServoState(0.0))
         current = Current(currents[k, 0], currents[k, 1])
         fly_one(
@@ -141,15 +139,7 @@ def fly_one(
             off = estimate.Vx - current.Vx, estimate.Vy - current.Vy
             tally.count(whole, subpaths, i, s, k * c.dt, distance, guided.psi_e, off[0], off[1])
         if every > 0 and k % every == 0:
-            row = track[k // every]
-            row[0], row[1], row[2], row[3] = k, navigation.x, navigation.y, navigation.psi
-            row[4], row[5], row[6], row[7] = navigation.r, seen.water.ur, seen.water.vr, seen.rudder
-            row[8], row[9] = command, thrust
-            row[10], row[11] = guided.psi_d, guided.r_d
-            row[12], row[13], row[14] = guided.xe, guided.ye, guided.psi_e
-            row[15], row[16], row[17] = s, estimate.Vx, estimate.Vy
-            row[18], row[19] = current.Vx, current.Vy
-            row[20], row[21], row[22] = state.x, state.y, state.psi
+            fill_row(track[k // every], k, navigation, seen, guided, estimate, command, thrust)
         if finished or not finite:
             odometries = k + 1
             break
@@ -175,8 +165,8 @@ def fly_one(
 def _clearance(curve: PathRows, outlines: Outlines, i: int, x: float, y: float) -> float:
     """Closest distance to the subpaths before and after subpath i, m.
 
-    The distance of a track counts them, too (`CompositePath.distance`), but they are seldom nearer: less the
-    way covered since, this is how far the vehicle can go before the next look.
+    The distance of a track includes them (`CompositePath.distance`), but they are seldom nearer: reduced by
+    the distance covered since, this bounds how far the vehicle can go before they must be evaluated again.
     """
     closest = math.inf
     if i > 0:

@@ -26,7 +26,7 @@ def _numbers(config: Any) -> Iterator[float]:
 
 
 def layout_of(config: Any) -> Any:
-    """Return what decides the type of a configuration in compiled code: its classes and kinds of numbers."""
+    """Return the type of a configuration in compiled code: its classes and kinds of numbers."""
     if not isinstance(config, tuple):
         return type(config)
     return type(config), *[layout_of(value) for value in config]

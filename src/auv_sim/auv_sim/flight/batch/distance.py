@@ -1,4 +1,4 @@
-"""How far a vehicle is from a subpath, in compiled code: what a track is judged by."""
+"""Distance of a vehicle from a subpath, in compiled code."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ class Outlines(NamedTuple):
     """Points along those subpaths to which the distance has no formula.
 
     Attributes:
-        span: shape (n, 2), where the points of each subpath begin and end in `point`.
-        point: shape (points, 3), t, x, y: close enough to each other to show every valley of the distance.
+        span: shape (n, 2), begin and end of each subpath's points in `point`.
+        point: shape (points, 3), t, x, y, dense enough to resolve every minimum of the distance.
     """
 
     span: npt.NDArray[np.int64]
@@ -96,7 +96,7 @@ def distance_to(path: PathRows, outlines: Outlines, i: int, x: float, y: float) 
 
 @compiled
 def _valley(path: PathRows, row: Any, x: float, y: float, t: float, low: float, high: float) -> float:
-    """Return the least distance between t = low and t = high: Newton's method, held inside by bisection."""
+    """Return the least distance between t = low and t = high, by Newton's method guarded by bisection."""
     for _ in range(_STEPS):
         p_x, p_y, dx, dy, ddx, ddy = evaluate(path, row, t)
         ex, ey = p_x - x, p_y - y

@@ -1,4 +1,4 @@
-"""Flies many scenarios of `closed_loop` and keeps their figures: the same pilot, many times as fast.
+"""Flies many scenarios of `closed_loop` for their figures: the same pilot, many times as fast.
 
     flights = fly([Scenario(...), Scenario(...), ...])
     print(flights.completed.mean(), flights.rms_distance.max())
@@ -22,10 +22,9 @@ from auv_path_following import vehicle
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.kinds.line import Line
 from auv_sim.flight import closed_loop
-from auv_sim.flight.batch import tally
+from auv_sim.flight.batch import tally, track_row
 from auv_sim.flight.batch.compiled import COMPILED
 from auv_sim.flight.batch.compiled_flight import (
-    TRACK_COLUMNS,
     Course,
     FlightConfig,
     fly_many,
@@ -44,9 +43,6 @@ from auv_sim.vehicle.draws import Draws
 from auv_sim.vehicle.remus import PlantState, plant_at
 from auv_sim.vehicle.sea import Sea
 
-_TRACK = ("x", "y", "psi", "r", "ur", "vr", "rudder", "rudder_cmd", "thrust_cmd", "psi_d", "r_d",
-          "xe", "ye", "psi_e", "s", "Vx_est", "Vy_est", "Vx_true", "Vy_true")  # fmt: skip
-_TRUTH = ("x_true", "y_true", "psi_true")
 #: Flights of one compiled call.
 _CHUNK = 64
 
@@ -54,12 +50,12 @@ Done = Callable[[int], None]
 
 
 def fly(scenarios: Sequence[Scenario], threads: int = 1, done: Done | None = None) -> Flights:
-    """Fly them all.
+    """Fly all scenarios.
 
     Args:
         scenarios: what to fly.
-        threads: how many fly at the same time; more than one helps where `compiled.COMPILED`.
-        done: called with the number of odometries of each flight, some time after it, from any thread.
+        threads: flights at the same time; more than one is faster where `compiled.COMPILED`.
+        done: called with the number of odometries of each flight, after it, from any thread.
 
     Returns:
         One row for each scenario, in their order.
@@ -67,7 +63,7 @@ def fly(scenarios: Sequence[Scenario], threads: int = 1, done: Done | None = Non
     Raises:
         ConfigurationError: a scenario that cannot be flown.
     """
-    # Mistakes are found before the first flight.
+    # Errors are found before the first flight.
     chunks = _chunks(scenarios, -(-len(scenarios) // (4 * threads)))
 
     def one(chunk: _Chunk) -> tuple[Sequence[int], dict[str, Any]]:
@@ -147,10 +143,10 @@ def _chunks(scenarios: Sequence[Scenario], largest: int) -> list[_Chunk]:
 
 
 def compile_once(at_sea: bool = False) -> None:
-    """Compile now what the first flight would: a pool's processes then find it done.
+    """Compile now what the first flight would, for the processes of a pool.
 
     Args:
-        at_sea: what flights at sea need; else what those without one need.
+        at_sea: whether for flights at sea; else for those without one.
     """
     line = CompositePath([Line(0.0, 0.0, 10.0, 0.0)])
     water = Sea(name="still") if at_sea else None
@@ -173,8 +169,8 @@ def track(scenario: Scenario, every: int = 1) -> Run:
     if scenario.sea is not None and not COMPILED:
         return closed_loop.fly(scenario).select(slice(None, None, every))
     *_, rows = _flown(scenario, course_of(scenario.path), flight_of(scenario), every)
-    t = [(topics.FIRST_STAMP_NS + int(k) * scenario.step_ns) * 1e-9 for k in rows[:, 0]]
-    names = _TRACK if scenario.sea is None else (*_TRACK, *_TRUTH)
+    t = [(topics.FIRST_STAMP_NS + int(k) * scenario.step_ns) * 1e-9 for k in rows[:, track_row.NUMBER]]
+    names = track_row.TRACK if scenario.sea is None else (*track_row.TRACK, *track_row.TRUTH)
     return Run.from_columns({"t": t} | {name: rows[:, j] for j, name in enumerate(names, 1)})
 
 
@@ -197,7 +193,7 @@ def _flown(scenario: Scenario, course: Course, flight: FlightConfig, every: int)
     steps, scratch = _likely_steps(scenario, flight), scratch_of(course)
     while True:
         steps = min(steps, flight.steps)
-        kept = np.empty((math.ceil(steps / every) if every else 0, TRACK_COLUMNS))
+        kept = np.empty((math.ceil(steps / every) if every else 0, track_row.TRACK_COLUMNS))
         vehicle: Any = flight.plant
         state: Any = plant_at(start)
         if scenario.sea is not None:
@@ -210,7 +206,7 @@ def _flown(scenario: Scenario, course: Course, flight: FlightConfig, every: int)
             )  # fmt: skip
         if steps == flight.steps or end[tally.ODOMETRIES] < steps:
             return whole, subpaths, end, kept[: math.ceil(end[tally.ODOMETRIES] / every)] if every else kept
-        steps *= 2  # from the beginning: the same seed is the same flight
+        steps *= 2  # from the start: the same seed gives the same flight
 
 
 def _likely_steps(scenario: Scenario, flight: FlightConfig) -> int:

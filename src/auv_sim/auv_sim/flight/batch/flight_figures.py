@@ -1,4 +1,4 @@
-"""The figures of many flights, one row each."""
+"""The figures of many flights, a row each."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from auv_sim.flight.batch import tally
 
 Column = npt.NDArray[np.float64]
 
-#: Units of the figures that are one number for each flight; what is not here has none.
+#: Units of the figures with one number a flight; the others have none.
 UNITS = {
     "duration": "s",
     "rms_distance": "m",
@@ -38,25 +38,25 @@ UNITS = {
 class Flights:
     """One row for each flight. Every column has shape (n,); NaN where a flight ended before.
 
-    Distances are to the path and in m, as in `analysis.metrics`; `subpath_*` have shape (n, most subpaths).
+    Distances are to the path and in m, as in `flight.metrics`; `subpath_*` have shape (n, most subpaths).
 
     Attributes:
         completed: whether the end of the path was reached.
-        flown_share: share of the path that was flown, 0 to 1, as `analysis.flown_share` defines it.
-        finite: whether the state stayed finite; a flight in which it did not has ended there.
+        flown_share: share of the path that was flown, 0 to 1, as `flight.flown_share` defines it.
+        finite: whether the state stayed finite; a flight ends where it does not.
         steps: odometries.
         duration: s.
         progress: s of Eq. (1) at the end, in [0, number of subpaths].
         rms_distance, largest_distance: over the whole flight.
         late_rms_distance, late_largest_distance: from `time_to_path` on.
-        time_to_path: when the path was joined, as `tally.ARRIVED` defines it, s.
+        time_to_path: time until the path was joined, as `tally.ARRIVED` defines it, s.
         rms_heading_error: deg.
         distance_covered: m.
         rudder_travel: deg; rudder_travel_per_metre: deg/m.
         rms_rudder_rate, largest_rudder_rate: of the command, deg/s.
         saturated: share of the commands at the stop.
         current_estimate_error: the largest after the observer has settled, m/s.
-        last_x, last_y: where it ended, NED, m.
+        last_x, last_y: last position, NED, m.
         subpath_rms_distance, subpath_largest_distance, subpath_duration: of each subpath (m, m, s).
     """
 

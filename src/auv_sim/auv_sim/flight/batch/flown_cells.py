@@ -1,4 +1,4 @@
-"""Which cells of the path a flight passes: the compiled side of `analysis.flown_share`."""
+"""Cells of the path that a flight passes: the compiled side of `flight.flown_share`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,19 @@ import numpy as np
 import numpy.typing as npt
 
 from auv_sim.flight.batch.compiled import compiled
-from auv_sim.flight.flown_share import AHEAD, BEHIND, LEAST_ADVANCE, Cells
+from auv_sim.flight.flown_share import (
+    AHEAD,
+    BEHIND,
+    CELL_EAST,
+    CELL_NORTH,
+    CELL_REACH,
+    CELL_X,
+    CELL_Y,
+    KNOT_METRES,
+    KNOT_S,
+    LEAST_ADVANCE,
+    Cells,
+)
 
 
 @compiled
@@ -20,8 +32,8 @@ def pass_cells(
     Args:
         cells: the path.
         flown: shape (cells,); written.
-        s: of the virtual point when the step began, Eq. (1).
-        x0, y0, x1, y1: where the step began and ended, NED, m.
+        s: of the virtual point at the begin of the step, Eq. (1).
+        x0, y0, x1, y1: begin and end of the step, NED, m.
     """
     metres = _metres_at(cells, s)
     dx, dy = x1 - x0, y1 - y0
@@ -33,9 +45,9 @@ def pass_cells(
     last = min(math.floor((metres + AHEAD) / cells.spacing - 0.5), len(flown) - 1)
     middle = cells.cells
     for k in range(first, last + 1):
-        if flown[k] or middle[k, 2] * dx + middle[k, 3] * dy < least:
+        if flown[k] or middle[k, CELL_NORTH] * dx + middle[k, CELL_EAST] * dy < least:
             continue
-        cx, cy, reach = middle[k, 0], middle[k, 1], middle[k, 4]
+        cx, cy, reach = middle[k, CELL_X], middle[k, CELL_Y], middle[k, CELL_REACH]
         u = min(max(((cx - x0) * dx + (cy - y0) * dy) / squared, 0.0), 1.0)
         off_x, off_y = x0 + u * dx - cx, y0 + u * dy - cy
         flown[k] = off_x * off_x + off_y * off_y <= reach * reach
@@ -43,14 +55,15 @@ def pass_cells(
 
 @compiled
 def _metres_at(cells: Cells, s: float) -> float:
-    """Metres of path before s, as `numpy.interp` has them."""
+    """Return the metres of path before s, as `numpy.interp` does."""
     knots = cells.knots
     low, high = 0, len(knots) - 1
     while high - low > 1:
         centre = (low + high) // 2
-        if s >= knots[centre, 0]:
+        if s >= knots[centre, KNOT_S]:
             low = centre
         else:
             high = centre
-    share = min(max((s - knots[low, 0]) / (knots[high, 0] - knots[low, 0]), 0.0), 1.0)
-    return float(knots[low, 1] + share * (knots[high, 1] - knots[low, 1]))
+    begin, end = knots[low], knots[high]
+    share = min(max((s - begin[KNOT_S]) / (end[KNOT_S] - begin[KNOT_S]), 0.0), 1.0)
+    return float(begin[KNOT_METRES] + share * (end[KNOT_METRES] - begin[KNOT_METRES]))

@@ -1,4 +1,4 @@
-"""The figures of one flight from its track: what `flights.figures_of` has from tallies."""
+"""The figures of one flight from its track, as `flight_figures.figures_of` derives them from tallies."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from auv_sim.flight.run_record import Run
 
 
 def judged(run: Run, scenario: Scenario) -> dict[str, Any]:
-    """A flight's figures by the names of `Flights`.
+    """Return a flight's figures by the names of `Flights`.
 
     Args:
-        run: every odometry of it, as `closed_loop.fly` gives it.
-        scenario: what was flown.
+        run: every odometry of the flight, from `closed_loop.fly`.
+        scenario: of the flight.
     """
     path = scenario.path
     x, y = run.track

@@ -1,6 +1,7 @@
-"""Arithmetic that compilers and C libraries round otherwise than Python, as Python rounds it.
+"""Arithmetic rounded as in Python, where compilers and C libraries round differently.
 
-A last bit is nothing in still water. At sea a dead band and a saturated controller make centimetres of it.
+In still water a last bit is irrelevant. At sea a dead band and a saturated controller amplify it to
+centimetres.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ def hypot(x: float, y: float) -> float:
         for term in (sign * high * high, sign * 2.0 * high * low):
             before = total
             total += term
-            # What this sum has lost, whichever of both is larger.
+            # The rounding error of this sum, whichever of both is larger.
             part = total - before
             rest += (before - (total - part)) + (term - part)
         rest += sign * low * low

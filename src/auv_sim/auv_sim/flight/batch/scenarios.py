@@ -15,10 +15,10 @@ from auv_sim.vehicle.remus import plant_of
 
 
 def flight_of(scenario: Scenario) -> FlightConfig:
-    """Return everything that decides a flight but its path, its start and its current.
+    """Return the configuration of a flight, without its path, its start and its current.
 
     Raises:
-        ConfigurationError: something that a flight cannot be made of: no hull, no thrust.
+        ConfigurationError: no hull, or no thrust.
     """
     if not scenario.thrust > 0.0:
         raise ConfigurationError("thrust", f"{scenario.thrust:g}", "a number greater than 0")
@@ -31,7 +31,7 @@ def flight_of(scenario: Scenario) -> FlightConfig:
 
 
 class Preparation:
-    """The flights of many scenarios; scenarios that share all settings share one.
+    """The configurations of many scenarios; scenarios that share all settings share one.
 
     Attributes:
         flights: all different ones.

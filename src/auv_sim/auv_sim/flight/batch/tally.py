@@ -1,4 +1,4 @@
-"""What is kept of a flight while it is flown: sums, largest values and times instead of a track."""
+"""Tallies of a flight while it is flown: sums, largest values and times instead of a track."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import numpy.typing as npt
 from auv_sim.flight.batch.compiled import compiled
 from auv_sim.flight.metrics import OBSERVER_SETTLING_TIME
 
-#: The path is joined when the vehicle first is this near to it while s > 0, m: an approach to the path's
-#: start, with s = 0, may cross the path. From here on the `late_*` figures count.
+#: Distance at which the path counts as joined, the first time with s > 0, m: an approach to the path's start,
+#: with s = 0, may cross the path. The `late_*` figures count from there.
 ARRIVED = 1.0
 
 # Rows of a subpath's tally.
@@ -30,7 +30,7 @@ Array = npt.NDArray[np.float64]
 
 @compiled
 def begin(whole: Array, subpaths: Array) -> None:
-    """Nothing counted yet."""
+    """Reset the tallies."""
     whole[:] = 0.0
     subpaths[:] = 0.0
     subpaths[:, LARGEST] = -math.inf
@@ -50,7 +50,7 @@ def count(
     error_Vx: float,
     error_Vy: float,
 ) -> None:
-    """One odometry: `elapsed` s after the start, at s of Eq. (1), `distance` m from the path."""
+    """Count an odometry `elapsed` s after the start, at s of Eq. (1), `distance` m from the path."""
     subpaths[i, ROWS] += 1.0
     subpaths[i, SQUARES] += distance * distance
     subpaths[i, LARGEST] = max(subpaths[i, LARGEST], distance)
@@ -68,7 +68,7 @@ def count(
 
 @compiled
 def count_step(subpaths: Array, i: int, dt: float, travel: float, covered: float) -> None:
-    """The way from one odometry to the next; `travel` is the rudder's, rad, `covered` in m."""
+    """Count the motion from one odometry to the next; `travel` of the rudder in rad, `covered` in m."""
     subpaths[i, DURATION] += dt
     subpaths[i, TRAVEL] += travel
     subpaths[i, COVERED] += covered
@@ -76,7 +76,7 @@ def count_step(subpaths: Array, i: int, dt: float, travel: float, covered: float
 
 @compiled
 def count_command(whole: Array, rate: float, saturated: bool) -> None:
-    """How fast the command moved from one odometry to the next, rad/s; whether it stands at the stop."""
+    """Count the rate of the command between two odometries, rad/s, and whether it is at the stop."""
     whole[COMMANDS] += 1.0
     whole[RATE_SQUARES] += rate * rate
     whole[RATE_LARGEST] = max(whole[RATE_LARGEST], abs(rate))

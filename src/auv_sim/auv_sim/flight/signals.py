@@ -1,0 +1,58 @@
+"""The signals of a run: unit, meaning and source of each, for `Run`, exports, reports and batch."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from auv_msgs_py.contract import topics
+
+
+class Signal(NamedTuple):
+    """One column of a `Run`.
+
+    Attributes:
+        unit: SI; "-" for a number without one.
+        meaning: one line; angles in NED and FRD.
+        source: the topic that a recording takes it from.
+    """
+
+    unit: str
+    meaning: str
+    source: str
+
+
+_ODOM, _TRUE_ODOM, _WATER = topics.ODOM.name, topics.TRUE_ODOM.name, topics.WATER_VELOCITY.name
+_ERROR, _ESTIMATE, _TRUE = topics.PATH_ERROR.name, topics.CURRENT_ESTIMATE.name, topics.TRUE_CURRENT.name
+
+#: Name -> signal, in the order of `Run`'s columns.
+SIGNALS: dict[str, Signal] = {
+    "t": Signal("s", "stamp of the odometry", _ODOM),
+    "x": Signal("m", "position north", _ODOM),
+    "y": Signal("m", "position east", _ODOM),
+    "psi": Signal("rad", "heading", _ODOM),
+    "r": Signal("rad/s", "rate of the heading", _ODOM),
+    "ur": Signal("m/s", "surge through the water, Eq. (16)", _WATER),
+    "vr": Signal("m/s", "sway through the water, Eq. (16)", _WATER),
+    "rudder": Signal("rad", "measured rudder angle, positive to port", topics.RUDDER_STATE.name),
+    "rudder_cmd": Signal("rad", "commanded rudder angle, positive to port", topics.RUDDER_CMD.name),
+    "thrust_cmd": Signal("N", "commanded thrust", topics.THRUST_CMD.name),
+    "psi_d": Signal("rad", "desired heading, Eq. (24)", topics.DESIRED_YAW.name),
+    "r_d": Signal("rad/s", "feed-forward rate of the desired heading", topics.DESIRED_YAW_RATE.name),
+    "xe": Signal("m", "along-track error, Eq. (20)", _ERROR),
+    "ye": Signal("m", "cross-track error, Eq. (20)", _ERROR),
+    "psi_e": Signal("rad", "heading error wrap(psi - psi_d)", _ERROR),
+    "s": Signal("-", "path parameter, Eq. (1), in [0, number of subpaths]", topics.PATH_PARAMETER.name),
+    "Vx_est": Signal("m/s", "current estimate north, Eq. (35)", _ESTIMATE),
+    "Vy_est": Signal("m/s", "current estimate east, Eq. (35)", _ESTIMATE),
+    "Vx_true": Signal("m/s", "true current north, of a simulator", _TRUE),
+    "Vy_true": Signal("m/s", "true current east, of a simulator", _TRUE),
+    "x_true": Signal("m", "true position north, of a simulator whose navigation errs", _TRUE_ODOM),
+    "y_true": Signal("m", "true position east, of a simulator whose navigation errs", _TRUE_ODOM),
+    "psi_true": Signal("rad", "true heading, of a simulator whose navigation errs", _TRUE_ODOM),
+    "held": Signal(
+        "-", "1 where the mission held at the row or since the row before, else 0", topics.MISSION_STATE.name
+    ),
+}
+
+#: Signals that people read in degrees.
+ANGLES = tuple(name for name, signal in SIGNALS.items() if signal.unit.startswith("rad"))
