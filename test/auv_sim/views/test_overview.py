@@ -69,3 +69,17 @@ def test_a_bare_recording_is_drawn_as_well(tmp_path: Path) -> None:
     for name, run in (("bare", flown()), ("never_started", flown(thrust_cmd=np.zeros(flown().steps)))):
         draw(run, PATH, summarise(run, PATH), tmp_path / f"{name}.png", "costs $5 and $6 {x}_y")
         assert pixels(tmp_path / f"{name}.png").std() > 5.0
+
+
+def test_the_longest_line_of_facts_fits(tmp_path: Path) -> None:
+    """That of a flight at sea: the odometry's error stands in it as well."""
+    n = flown().steps
+    run = flown(
+        x_true=flown().x + 0.123, y_true=flown().y, psi_true=flown().psi,
+        thrust_cmd=np.full(n, 6.48), Vx_est=np.full(n, 0.1), Vy_est=np.full(n, 0.2),
+        Vx_true=np.full(n, 0.1), Vy_true=np.full(n, 0.2), ye=np.zeros(n),
+    )  # fmt: skip
+    draw(run, PATH, summarise(run, PATH), tmp_path / "a.png", "a title")
+    facts = pixels(tmp_path / "a.png")[68:90]
+    written = np.flatnonzero((facts < 250).any(axis=(0, 2)))
+    assert 1400 < written.max() < 1590

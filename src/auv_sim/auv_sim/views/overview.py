@@ -18,6 +18,8 @@ from auv_sim.views.track_panel import table, track
 
 _SIZE_INCHES = (16.0, 10.0)
 _DOTS_PER_INCH = 100
+#: Longest line of facts in letters of 12 points that fits the width.
+_HEADLINE = 180
 
 
 def draw(
@@ -83,5 +85,6 @@ def _headline(figure: Figure, summary: MissionSummary, title: str) -> None:
         fact(summary.current_estimate_error, "current estimate within {:.4f} m/s"),
     ]
     figure.text(0.05, 0.957, title, fontsize=18, fontweight="bold", color=INK, va="center", parse_math=False)
-    told = "   ·   ".join(text for text in facts if text)
-    figure.text(0.05, 0.921, told, fontsize=12, color=MUTED, va="center")
+    line = "   ·   ".join(text for text in facts if text)
+    size = min(12.0, 12.0 * _HEADLINE / len(line))  # the longest lines, of flights at sea, in smaller letters
+    figure.text(0.05, 0.921, line, fontsize=size, color=MUTED, va="center")

@@ -31,10 +31,6 @@ _LONG_AGO = 10_000_000_000
 #: What messages are sorted by.
 _WHEN = itemgetter(0, 1, 2)
 
-#: One message: when it was sent (ns, the machine's clock), 0 for /clock and 1 for all else, its publisher's
-#: number of it, when it was received (ns), its topic, its bytes.
-Taken = tuple[int, int, int, int, "PolledTopic", bytes]
-
 
 class PolledTopic:
     """A raw subscription that is emptied when it suits the recorder.
@@ -96,6 +92,11 @@ class PolledTopic:
             received = info["received_timestamp"]
             sequence = info.get("publication_sequence_number") or 0
             batch.append((info["source_timestamp"] or received, order, sequence, received, self, data))
+
+
+#: One message: when it was sent (ns, the machine's clock), 0 for /clock and 1 for all else, its publisher's
+#: number of it, when it was received (ns), its topic, its bytes.
+Taken = tuple[int, int, int, int, PolledTopic, bytes]
 
 
 class Timestamps:
