@@ -13,7 +13,9 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
+from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.frames import FrameIds, FrameTable
 from auv_msgs_py.node.graph_look import GraphLook
 from auv_msgs_py.values.errors import SuiteError
@@ -92,16 +94,23 @@ def wrong_frames(_: Path) -> str:
 
 
 def no_answer(_: Path) -> str:
+    heard: list[tuple[Any, Callable[[Any], None]]] = []
+    timers: list[Callable[[], None]] = []
     simulator: Any = SimpleNamespace(
         parameters=SimpleNamespace(recorded=False, answer_timeout=0.0), mission_running=True, steps=7,
-        stamp=1_350_000_000, fault="", listen=lambda *_: None, create_timer=lambda *_, **__: None,
-        gate_waits_for=lambda: "", publish_step=lambda: None, advance=lambda _: None,
+        stamp=1_350_000_000, fault="", gate_waits_for=lambda: "", publish_step=lambda: None,
+        advance=lambda _: None, listen=lambda topic, callback: heard.append((topic, callback)),
+        create_timer=lambda _, callback, **__: timers.append(callback),
     )  # fmt: skip
     simulator.fail = lambda text: setattr(simulator, "fault", text)
-    lockstep = Lockstep(simulator)
-    lockstep.on_mission_state()
-    lockstep._waits["heading_autopilot"] = float("inf"), "desired_yaw"
-    lockstep._check()
+    Lockstep(simulator).on_mission_state()
+    waits = [KeyValue(key="waiting_for", value="desired_yaw")]
+    status = DiagnosticStatus(hardware_id="heading_autopilot", values=waits)
+    for topic, callback in heard:
+        if topic is topics.DIAGNOSTICS:
+            callback(DiagnosticArray(status=[status]))
+    for callback in timers:
+        callback()
     return str(simulator.fault)
 
 
