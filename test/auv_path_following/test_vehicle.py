@@ -119,7 +119,7 @@ def test_a_missing_vehicle_names_the_shipped_ones():
 
 
 MEASURED = """
-name: nobody identified it
+name: unidentified
 length: 2.0
 thrust_max: 10
 rudder: {max_angle_deg: 25, max_rate_deg_s: 10}
@@ -134,7 +134,7 @@ def test_a_measured_vehicle_does_without_a_hull(tmp_path):
     measured = vehicle.load(str(path))
     assert measured.speed_at(8.0) == pytest.approx(2.0)
     assert measured.thrust_at(1.0) == pytest.approx(2.0)
-    with pytest.raises(ConfigurationError, match="nobody identified it: hull: found nothing"):
+    with pytest.raises(ConfigurationError, match="unidentified: hull: found nothing"):
         _ = measured.coefficients
 
 

@@ -1,4 +1,4 @@
-"""Finds mission, vehicle and parameter files: a path, or the name of one that is shipped."""
+"""Find mission, vehicle and parameter files by path or by the name of a shipped one."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ _WORD: dict[Kind, str] = {
 
 
 def shipped(kind: Kind) -> dict[str, Path]:
-    """The files that come with the suite, by their names without suffix."""
+    """Return the shipped files by name without suffix."""
     folder = Path(str(resources.files("auv_path_following"))) / "config" / kind
     return {path.stem: path for path in sorted(folder.glob("*.yaml"))}
 
 
 def find(kind: Kind, name_or_path: str) -> Path:
-    """The file that a person means.
+    """Return the file of a path or name.
 
     Args:
-        kind: which sort of file is wanted.
+        kind: of the file.
         name_or_path: an existing file wins; else the name of a shipped one, with or without ``.yaml``.
 
     Raises:
-        ConfigurationError: neither; it lists the shipped names.
+        ConfigurationError: there is neither; lists the shipped names.
     """
     path = user_files.from_home(name_or_path)
     exists = user_files.exists(path)

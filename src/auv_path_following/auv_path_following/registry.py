@@ -1,4 +1,4 @@
-"""What a registered law consists of, and the settings and the step that follow from a list of laws.
+"""Registered laws, and the settings and the step derived from a list of them.
 
 A new law is one file with its `LAW`, one entry in the list of its kind and one test. Parameters, allowed
 names, a change of gains in flight, the compiled dispatch and the rows of docs/parameters.md follow.
@@ -26,7 +26,7 @@ class Law(NamedTuple):
 
     Attributes:
         name: in parameter files and on the command line.
-        doc: a few words for the documentation.
+        doc: name in the documentation.
         Settings: its gains, a settings class.
         Config: class of its configuration, a named tuple of numbers.
         initial: its state at the beginning, a named tuple of numbers.
@@ -49,18 +49,18 @@ def law_of(laws: Sequence[Law], name: str) -> Law:
 
 
 def chosen_step(laws: Sequence[Law]) -> Step:
-    """Return the step of whichever law a configuration belongs to."""
+    """Return the step that calls the law of its configuration."""
     return dispatched({law.Config: law.step for law in laws})
 
 
 @dataclass_transform(frozen_default=True, kw_only_default=True)
 def law_settings(key: str, doc: str, laws: Sequence[Law]) -> Callable[[type[T]], type[T]]:
-    """Make a class the settings of a choice among laws: the choice, the gains of each law, its own fields.
+    """Decorate a settings class with a choice among laws: adds the choice and the gains of each law.
 
     Args:
         key: name of the choice; the first law is the default.
         doc: what is chosen.
-        laws: all there are.
+        laws: to choose from.
     """
     names = [law.name for law in laws]
     listed = " or ".join([", ".join(names[:-1]), names[-1]])

@@ -1,4 +1,4 @@
-"""What is known about a vehicle: hull coefficients, rudder and thruster limits, from its file."""
+"""The vehicle file: hull coefficients, limits of rudder and thruster, measured speed and turning."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class Hull:
 
 @settings
 class Rudder:
-    """What the rudder can do, the same to both sides."""
+    """Limits of the rudder, equal to both sides."""
 
     max_angle_deg: float = setting(doc="largest angle", unit="deg", gt=0.0, lt=90.0)
     max_rate_deg_s: float = setting(doc="largest rate", unit="deg/s", gt=0.0)
@@ -83,14 +83,14 @@ class Rudder:
 
 @settings
 class Turning:
-    """What was measured of the vehicle's turning, in place of what its hull's coefficients give."""
+    """Measured turning ability, used instead of the hull's coefficients."""
 
     radius: float = setting(doc="radius of a steady turn with full rudder", unit="m", gt=0.0)
 
 
 @settings
 class Cruise:
-    """What was measured straight ahead, in place of what the hull's drag gives."""
+    """Measured speed straight ahead, used instead of the hull's drag."""
 
     thrust: float = setting(doc="steady thrust", unit="N", gt=0.0)
     speed: float = setting(doc="steady speed through the water at this thrust", unit="m/s", gt=0.0)
@@ -98,9 +98,9 @@ class Cruise:
 
 @settings
 class Vehicle:
-    """One vehicle. The plant reads it, and so may a model-based controller, each for itself."""
+    """One vehicle, as plant or as a controller's model."""
 
-    name: str = setting(doc="what people call it")
+    name: str = setting(doc="name of the vehicle")
     length: float = setting(doc="length of the hull", unit="m", gt=0.0)
     thrust_max: float = setting(doc="largest thrust", unit="N", gt=0.0)
     thrust_unit: Literal["N", "percent"] = setting(
@@ -109,12 +109,10 @@ class Vehicle:
     )
     rudder: Rudder = setting(doc="limits of the rudder")
     hull: Hull | None = setting(
-        None, "coefficients of the hull; a real vehicle can do without, if it was measured"
+        None, "coefficients of the hull; not needed for a real vehicle with cruise and turning"
     )
-    cruise: Cruise | None = setting(None, "measured speed at a thrust; from the hull where it is not given")
-    turning: Turning | None = setting(
-        None, "measured turning ability; found from the hull where it is not given"
-    )
+    cruise: Cruise | None = setting(None, "measured speed at a thrust; from the hull if left out")
+    turning: Turning | None = setting(None, "measured turning ability; from the hull if left out")
 
     @pydantic.model_validator(mode="after")
     def _is_known_well_enough(self) -> Vehicle:
@@ -136,12 +134,12 @@ class Vehicle:
 
     @property
     def thrust_symbol(self) -> str:
-        """The unit of thrust as it stands behind a number."""
+        """Unit symbol of thrust."""
         return "%" if self.thrust_unit == "percent" else "N"
 
     @property
     def coefficients(self) -> Hull:
-        """The hull, where a simulator or a model needs it.
+        """Hull coefficients, for a simulator or a model.
 
         Raises:
             ConfigurationError: the vehicle file has none.
@@ -160,16 +158,16 @@ class Vehicle:
         return -self.coefficients.Xuu
 
     def speed_at(self, thrust: float) -> float:
-        """Steady speed through the water straight ahead, m/s, at a thrust in N: Eq. (19) with SX = 0."""
+        """Return the steady speed through the water straight ahead (m/s) at a thrust (N), Eq. (19)."""
         return math.sqrt(max(thrust, 0.0) / self._drag)
 
     @property
     def top_speed(self) -> float:
-        """Speed through the water with all thrust there is, m/s."""
+        """Speed through the water at full thrust, m/s."""
         return self.speed_at(self.thrust_max)
 
     def thrust_at(self, speed: float) -> float:
-        """Thrust, N, for a steady speed through the water straight ahead, m/s: inverse of `speed_at`."""
+        """Return the thrust (N) for a steady speed through the water (m/s): inverse of `speed_at`."""
         return self._drag * speed * speed
 
 

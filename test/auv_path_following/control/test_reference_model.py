@@ -41,11 +41,11 @@ def model(**changes):
     st.lists(st.tuples(angles, st.floats(-0.1, 0.1)), min_size=5, max_size=60),
     st.sampled_from([0.02, 0.05, 0.1]),
 )
-def test_rate_acceleration_and_jerk_stay_within_their_limits(wanted, dt):
+def test_rate_acceleration_and_jerk_stay_within_their_limits(requests, dt):
     reference = model()
     limits = reference.config.limits
     last = reference.update((0.3, 0.0, 0.3, 0.0), 0.0)
-    for psi_d, r_d in wanted:
+    for psi_d, r_d in requests:
         shaped = reference.update((0.3, 0.0, psi_d, r_d), dt)
         assert abs(shaped.acceleration) <= limits.acceleration * (1 + 1e-9)
         assert abs(shaped.acceleration - last.acceleration) <= limits.jerk * dt * (1 + 1e-9)
@@ -59,10 +59,10 @@ def test_rate_acceleration_and_jerk_stay_within_their_limits(wanted, dt):
 
 @settings(deadline=None, max_examples=40)
 @given(st.lists(angles, min_size=5, max_size=60))
-def test_what_is_fed_forward_are_the_exact_derivatives(wanted):
+def test_what_is_fed_forward_are_the_exact_derivatives(requests):
     reference = model()
     last = reference.update((0.0, 0.1, 0.0, 0.0), 0.0)
-    for psi_d in wanted:
+    for psi_d in requests:
         shaped = reference.update((0.0, 0.0, psi_d, 0.0), DT)
         assert shaped.rate == pytest.approx(last.rate + last.acceleration * DT, abs=1e-12)
         moved = last.rate * DT + 0.5 * last.acceleration * DT * DT

@@ -50,7 +50,7 @@ def test_rest_is_always_allowed():
         assert watch.allowed(0.1 * k, "aborted", 0.45) == REST
 
 
-def test_a_foreign_guidance_that_tells_no_state_is_obeyed():
+def test_a_foreign_guidance_without_a_state_is_obeyed():
     watch = ReferenceWatch()
     for k in range(20):
         watch.put(DRIVE, 0.1 * k)

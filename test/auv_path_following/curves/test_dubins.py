@@ -1,4 +1,4 @@
-"""Dubins paths against a search that knows nothing of their formulas."""
+"""Dubins paths against a search without their formulas."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def _length(segments) -> float:
 @settings(deadline=None, max_examples=30, phases=(Phase.explicit, Phase.generate))
 @given(poses, poses, radii)
 def test_it_is_as_short_as_the_best_that_a_search_finds(start, end, radius):
-    assume(math.dist(start[:2], end[:2]) > 0.1)  # the search cannot tell no turn from a whole circle
+    assume(math.dist(start[:2], end[:2]) > 0.1)  # for the search no turn and a whole circle are alike
     found = _length(dubins.connect(start, end, radius))
     assert found == pytest.approx(_searched(start, end, radius), rel=1e-6, abs=1e-4)
 

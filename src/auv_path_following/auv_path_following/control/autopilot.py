@@ -1,4 +1,4 @@
-"""The heading autopilot: derives what a controller needs and is the last guard before the rudder."""
+"""The heading autopilot: inputs for the controller, and the limits of rudder and thrust."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def prepare(config: AutopilotConfig, vehicle: Vehicle) -> Autopilot:
         vehicle: hull, rudder and thruster that the autopilot assumes.
 
     Raises:
-        ConfigurationError: gains that need what the vehicle's file does not have.
+        ConfigurationError: the gains need values that the vehicle's file does not have.
     """
     law = law_of(CONTROLLERS, config.controller)
     controller = law.prepare(getattr(config, law.name), vehicle)
@@ -85,7 +85,7 @@ def prepare(config: AutopilotConfig, vehicle: Vehicle) -> Autopilot:
 
 
 class AutopilotState(NamedTuple):
-    """Whether it has begun, the last r_d (rad/s), and the states of filter, reference and controller."""
+    """Whether it has started, the last r_d (rad/s), and the states of filter, reference and controller."""
 
     begun: bool
     r_d: float
@@ -109,7 +109,7 @@ class AutopilotOutput(NamedTuple):
 
 @pure
 def first_state(config: Autopilot) -> AutopilotState:
-    """Return the state in which nothing was measured yet and the rudder is neutral."""
+    """Return the state before the first measurement: the rudder is neutral."""
     return AutopilotState(
         False,
         0.0,
@@ -125,15 +125,15 @@ def steer(
 ) -> tuple[AutopilotState, Command, Signals]:
     """Turn a reference into rudder and thrust.
 
-    dr/dt is from `derivative`, d r_d/dt is the difference of the inputs; a shaped reference has its
-    own. Outside a running mission (thrust 0) the rudder is neutral and the controller forgets, so that a new
-    start begins clean. A rudder that is not finite is a stop.
+    dr/dt comes from `derivative`, d r_d/dt from differences of the inputs or from the shaped reference.
+    Outside a running mission (thrust 0) the rudder is neutral and the controller is reset. A rudder angle
+    that is not finite is a stop.
 
     Args:
         config: of controller, filter and reference.
         state: of the last step.
         navigation: measured heading and yaw rate, NED.
-        reference: request of guidance; thrust 0: no mission is running.
+        reference: from guidance; thrust 0: no mission is running.
         dt: seconds since the last step (0 on the first one).
     """
     begun, last_r_d, slope, shaped, controller = state
@@ -174,7 +174,7 @@ class HeadingAutopilot:
         config: controller, gains and reference.
 
     Raises:
-        ConfigurationError: gains that need what the vehicle's file does not have.
+        ConfigurationError: the gains need values that the vehicle's file does not have.
     """
 
     def __init__(self, vehicle: Vehicle, config: AutopilotConfig | None = None) -> None:
@@ -183,10 +183,10 @@ class HeadingAutopilot:
         self.state = first_state(self.config)
 
     def configure(self, config: AutopilotConfig) -> None:
-        """Take new gains; the rudder stays where it is unless the controller is another one.
+        """Take new gains; the rudder stays where it is unless the controller changes.
 
         Raises:
-            ConfigurationError: as at the beginning; nothing has changed then.
+            ConfigurationError: as the constructor; nothing is changed.
         """
         prepared = prepare(config, self.vehicle)
         if type(prepared.controller) is not type(self.config.controller):
@@ -194,15 +194,15 @@ class HeadingAutopilot:
         self.config = prepared
 
     def reset(self) -> None:
-        """Forget all state."""
+        """Reset the state."""
         self.state = first_state(self.config)
 
     def update(self, navigation: Navigation, reference: Reference, dt: float) -> AutopilotOutput:
-        """Take one step: `steer`.
+        """Take one step, see `steer`.
 
         Args:
             navigation: measured heading and yaw rate, NED.
-            reference: what guidance requests; thrust 0 means that no mission is running.
+            reference: from guidance; thrust 0 means that no mission is running.
             dt: seconds since the last update (0 on the first one).
         """
         self.state, command, signals = steer(self.config, self.state, navigation, reference, dt)

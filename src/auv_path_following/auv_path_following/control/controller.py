@@ -1,4 +1,4 @@
-"""What every heading controller sees and answers: from the heading error to the rudder."""
+"""Inputs and output of every heading controller: from the heading error to the rudder."""
 
 from __future__ import annotations
 

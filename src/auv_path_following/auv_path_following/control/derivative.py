@@ -1,4 +1,4 @@
-"""dr/dt for NISM when the gyro is noisy: a second-order low-pass that gives the derivative of what it passes.
+"""dr/dt for NISM with a noisy gyro: a second-order low-pass with the derivative of its output.
 
 Eq. (45) needs d psi_e'/dt, and the paper does not say where it comes from. Differences of two measurements
 multiply the gyro's noise by sqrt(2)/dt, 28 times at 20 Hz. This filter,
@@ -24,7 +24,7 @@ class DerivativeConfig:
 
     bandwidth: float = setting(
         0.0,
-        "w of the filter behind dr/dt; 0: no filter, differences of what is measured",
+        "w of the filter behind dr/dt; 0: no filter, differences of measurements",
         unit="rad/s",
         ge=0.0,
         le=1000.0,
@@ -33,7 +33,7 @@ class DerivativeConfig:
 
 
 class DerivativeState(NamedTuple):
-    """The last sample, the derivative, and e + 2 e'/w of what the filter still lags behind by."""
+    """The last sample, the derivative, and e + 2 e'/w of the filter's remaining lag e."""
 
     seen: bool = False
     last: float = 0.0
@@ -47,8 +47,8 @@ def derivative(
 ) -> tuple[DerivativeState, float]:
     """Return the rate of change of a sampled signal, 1/s of its unit.
 
-    With a bandwidth it is that of the signal behind two equal first-order lags, solved exactly between two
-    samples (the signal taken as straight), so there is no step at which it becomes unstable.
+    With a bandwidth, the signal first passes two equal first-order lags, solved exactly between two samples
+    (the signal assumed linear), so that the filter is stable at any step.
 
     Args:
         config: bandwidth.

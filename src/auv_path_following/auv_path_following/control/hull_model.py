@@ -31,7 +31,7 @@ class SteadyTurn(NamedTuple):
 
 
 def tightest_turn(vehicle: Vehicle, thrust: float | None = None) -> SteadyTurn:
-    """Return the vehicle's tightest steady turn; a radius measured and given in its file takes precedence.
+    """Return the vehicle's tightest steady turn; a measured radius in its file takes precedence.
 
     The radius does not depend on the thrust: all forces of Eq. (19) grow with the square of the speeds, so a
     turn at another thrust is the same turn at another speed.
@@ -49,8 +49,8 @@ def tightest_turn(vehicle: Vehicle, thrust: float | None = None) -> SteadyTurn:
     return SteadyTurn(vehicle.turning.radius, vehicle.speed_at(thrust), "measured")
 
 
-#: b L^2/u^2 of torpedoes of length L at the speed u, with b = |dr/dt per rad|: the least of 14 (the largest
-#: has 3.1), and what lies a factor of 1.8 from either end.
+#: b L^2/u^2 of torpedoes of length L at the speed u, with b = |dr/dt per rad|: the least of 14 vehicles (the
+#: largest is 3.1), and the value a factor of about 1.8 from either end.
 LEAST_EFFECT, TYPICAL_EFFECT = 1.0, 1.8
 
 
@@ -102,7 +102,7 @@ _LONGEST_SWAY_STEP = 0.05
 
 @pure
 def sway_after(model: SwayYaw, ur: float, vr: float, r: float, rudder: float, dt: float) -> float:
-    """Return vr (m/s) after `dt` seconds with yaw rate and rudder held: the model in place of a sensor."""
+    """Return vr (m/s) after `dt` seconds with yaw rate and rudder held: a model instead of a sensor."""
     steps = max(1, math.ceil(dt / _LONGEST_SWAY_STEP - 1e-9))
     push = rudder_gain(model, ur)[0] * rudder
     for _ in range(steps):
@@ -111,7 +111,7 @@ def sway_after(model: SwayYaw, ur: float, vr: float, r: float, rudder: float, dt
 
 
 class HullModel:
-    """Eqs. (18), (19) as a controller's own model; the plant may be another hull.
+    """Eqs. (18), (19) as the controller's model; the plant may have another hull.
 
     Args:
         vehicle: the hull that the controller assumes.
@@ -142,7 +142,7 @@ class HullModel:
         """Return the turn under full rudder in which all forces of Eq. (19) balance, sway and drag included.
 
         With n = vr/ur and p = r/ur the sway row gives the drift n for any p, the yaw row then p, and the
-        surge row the speed that is left.
+        surge row the speed.
 
         Args:
             thrust: N, greater than 0.

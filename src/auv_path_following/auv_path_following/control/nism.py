@@ -13,7 +13,7 @@ from auv_path_following.control.hull_model import rudder_effect
 from auv_path_following.registry import Law
 from auv_path_following.vehicle import Vehicle
 
-#: Of the rudder rate's two parts, rad/s: beyond anything that moves a fin.
+#: Largest value of each part of the rudder rate, rad/s: faster than any fin.
 LARGEST_RATE = 10.0
 #: Largest crossover b kp k5 of the inner loop where kp is derived, 1/s. With a delay tau it is stable up
 #: to 1.25/tau: 12 1/s allow 0.1 s, which is 50 ms of dead time and half a period at 10 odometries a second.
@@ -23,7 +23,7 @@ LARGEST_CROSSOVER = 12.0
 @numbers
 @settings
 class NismConfig:
-    """Table 4's gains. The rudder rate never exceeds kp + ks."""
+    """Gains of Table 4. The rudder rate never exceeds kp + ks."""
 
     k1: float = setting(0.8, "fastest decay of the heading error", unit="rad/s", gt=0.0, le=10.0, live=True)
     k2: float = setting(
@@ -65,10 +65,10 @@ class NismConfig:
 
 
 def kp_of(config: NismConfig, vehicle: Vehicle) -> float:
-    """Return kp, rad/s: as given, or from rudder and hull where that is asked for.
+    """Return kp, rad/s: as given, or with `kp_from_rudder` from rudder and hull.
 
-    kp is then the rudder's rate, less ks. With a fast servo that would raise the crossover of the inner loop,
-    b kp k5, beyond what dead time and sampling allow, so it ends at `LARGEST_CROSSOVER`. Where the
+    kp is then the rudder's rate less ks. With a fast servo that would raise the crossover of the inner loop,
+    b kp k5, beyond the limit of dead time and sampling, so it is bounded by `LARGEST_CROSSOVER`. Where the
     vehicle's file has no hull, b is that of a typical torpedo of its length and speed. A k5 above the
     default counts as the default: raising it must not take rate from the rudder.
     """
@@ -97,8 +97,8 @@ def nism(
 ) -> tuple[NismState, ControllerOutput]:
     """Move the rudder by Eqs. (45), (46): an incremental law that needs no model of the hull.
 
-    The clamp is inside the integral, so that it cannot wind up. With a `dt` of 0 the surfaces are reported
-    and the rudder rests.
+    The clamp is inside the integral, so that it cannot wind up. With a `dt` of 0 only the surfaces are
+    computed; the rudder rests.
     """
     rate, sigma_1, sigma_2 = rudder_rate(config.gains, inputs)
     rudder = bounded(state.rudder + rate * dt, config.max_angle)
@@ -107,7 +107,7 @@ def nism(
 
 @pure
 def rudder_rate(g: NismConfig, inputs: HeadingInputs) -> tuple[float, float, float]:
-    """d delta/dt of Eq. (46), rad/s, and the surfaces sigma_1 and sigma_2 of Eq. (45) behind it."""
+    """Return d delta/dt of Eq. (46), rad/s, and the surfaces sigma_1 and sigma_2 of Eq. (45) behind it."""
     psi_e = inputs.psi_e
     psi_e_dot = inputs.r - inputs.r_d
     psi_e_ddot = inputs.r_dot - inputs.r_d_dot

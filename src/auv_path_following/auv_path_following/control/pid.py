@@ -29,7 +29,7 @@ class PidConfig:
     )
     kd: float = setting(1.8, "rudder for yaw rate", unit="s", ge=0.0, le=100.0, live=True)
     largest_error: float = setting(
-        0.63, "the proportional part acts on at most this heading error, so that far turns stay damped",
+        0.63, "largest heading error of the proportional part, so that long turns stay damped",
         unit="rad", gt=0.0, le=math.pi, live=True,
     )  # fmt: skip
 
@@ -52,8 +52,8 @@ class PidState(NamedTuple):
 def pid(config: Pid, state: PidState, inputs: HeadingInputs, dt: float) -> tuple[PidState, ControllerOutput]:
     """Return delta = kp psi_e + ki integral(psi_e) + kd (r - r_d), within the rudder's angle and rate.
 
-    The derivative is the measured yaw rate against the path's own, so a step of psi_d gives no kick. What
-    the rudder could not follow is taken back from the integral (anti-windup by back-calculation).
+    The derivative uses the measured yaw rate less the path's, so a step of psi_d gives no kick. The part that
+    the rudder cannot follow is subtracted from the integral (anti-windup by back-calculation).
     """
     rudder, integral = state
     g = config.gains

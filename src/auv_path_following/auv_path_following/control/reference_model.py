@@ -1,9 +1,9 @@
-"""A heading that a rudder can follow: limits rate, acceleration and jerk between guidance and controller.
+"""Limit rate, acceleration and jerk of the heading reference to what a rudder can follow.
 
 Table 4 lets the heading error fall at up to k1 = 0.8 rad/s, which takes a far larger yaw acceleration than a
 rudder of 10 or 15 degrees a second can build up. A step of psi_d then puts the loop into saturation, where
-the rudder lags by up to a quarter of a turn and a limit cycle lives. Behind this model the controller's error
-stays small whatever guidance asks for, so it never leaves the range in which its proof holds.
+the rudder lags by up to a quarter of a turn and a limit cycle persists. Behind this model the controller's
+error stays small for any request of guidance, within the range of its stability proof.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from auv_path_following.vehicle import Vehicle
 
 @settings
 class ReferenceConfig:
-    """ReferenceLimits of the reference; 0 has the limit derived from hull and rudder, see `limits_of`."""
+    """Limits of the reference; a limit of 0 is derived from hull and rudder, see `limits_of`."""
 
-    enabled: bool = setting(False, "whether the heading reference is shaped before the controller sees it")
+    enabled: bool = setting(False, "shape the heading reference before the controller")
     bandwidth: float = setting(
-        0.7, "how fast the reference closes in on psi_d", unit="1/s", gt=0.0, le=10.0, live=True
+        0.7, "rate at which the reference approaches psi_d", unit="1/s", gt=0.0, le=10.0, live=True
     )
     damping: float = setting(
         0.8, "damping ratio of the reference without its limits", gt=0.1, le=5.0, live=True
@@ -59,14 +59,14 @@ Shaped = tuple[float, float, float]
 
 #: Share of the jerk of a rudder at its greatest rate; the rest is left to the controller.
 JERK_SHARE = 0.9
-#: How long the reference may build up acceleration, s.
+#: Time in which the reference may build up acceleration, s.
 BUILD_UP = 0.8
 #: Share of the full rudder that the acceleration may take.
 RUDDER_SHARE = 1.0 / 3.0
 
 
 def limits_of(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> ReferenceLimits:
-    """Return the limits to use: those given, and where 0 is given those that hull and rudder allow.
+    """Return the limits in use: those given, and in place of 0 those that hull and rudder allow.
 
     At cruising speed under full thrust a radian of rudder turns the hull with b = |dr/dt per rad|. So
 
@@ -77,7 +77,7 @@ def limits_of(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> 
 
     Args:
         config: what is given.
-        vehicle: the hull as the controller knows it; not looked at when all limits are given.
+        vehicle: the controller's model; not used when all limits are given.
         rudder_rate: the fastest that the controller moves the rudder, rad/s.
 
     Raises:
@@ -101,7 +101,7 @@ def limits_of(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> 
 
 
 def _derived(config: ReferenceConfig, vehicle: Vehicle, b: float, rudder_rate: float) -> ReferenceLimits:
-    """The limits given, and the others by the rule of `limits_of` for b = |dr/dt per rad|, 1/s^2."""
+    """Return the limits given, and the others by the rule of `limits_of` for b = |dr/dt per rad|, 1/s^2."""
     jerk = config.max_jerk or JERK_SHARE * b * rudder_rate
     largest = RUDDER_SHARE * b * vehicle.rudder.max_angle
     acceleration = config.max_acceleration or min(BUILD_UP * jerk, largest)
@@ -114,7 +114,7 @@ class Shaping(NamedTuple):
     """Configuration of the reference model.
 
     Attributes:
-        enabled: whether it shapes at all.
+        enabled: whether the reference is shaped.
         bandwidth: of the linear law, 1/s.
         stiffness: 4 damping^2 bandwidth: acceleration of the reference over the lack of its rate, 1/s.
         linear: largest gap that the linear law closes within the limits, rad.
@@ -185,7 +185,7 @@ def shape(
 
 @pure
 def closing_rate(gap: float, bandwidth: float, linear: float, acceleration: float) -> float:
-    """Return how fast to close the gap: in proportion near it, farther away such that braking is possible.
+    """Return the rate at which to close a gap: proportional when small, else such that braking is possible.
 
     Args:
         gap: rad.

@@ -1,4 +1,4 @@
-"""Whether what guidance asked for last may still be obeyed. No ROS, no clock of its own."""
+"""Decide whether the newest reference may still be followed. No ROS, no clock of its own."""
 
 from __future__ import annotations
 
@@ -7,40 +7,40 @@ from auv_msgs_py.values.types import Reference
 
 
 class ReferenceWatch:
-    """Keeps the newest reference, and finds guidance silent or at odds with the state of its mission."""
+    """Keep the newest reference; find guidance that is silent or contradicts the state of its mission."""
 
     def __init__(self) -> None:
         self.newest: Reference | None = None
         self._at = 0.0
         self._contradicted: float | None = None
-        #: What `allowed` found last: no new reference for too long.
+        #: Whether `allowed` found no new reference within the timeout.
         self.silent = False
-        #: And: thrust is desired, though the mission has not been running for a while.
+        #: Contradiction that `allowed` found: a desired thrust without a running mission; else empty.
         self.contradiction = ""
 
     def put(self, reference: Reference, now: float) -> None:
-        """Take in a reference that came at `now`, s."""
+        """Keep a reference that came at `now`, s."""
         self.newest, self._at = reference, now
 
     def allowed(self, now: float, mission: str, timeout: float) -> Reference | None:
-        """The newest reference, if it may be obeyed.
+        """Return the newest reference if it may be followed, else None.
 
         Args:
             now: s.
-            mission: the mission's state as it was told last; empty when it never was.
-            timeout: how long a reference holds, and how long it may contradict the mission's state, s.
+            mission: the latest state of the mission; empty before the first message.
+            timeout: longest age of a reference, and longest contradiction to the mission's state, s.
         """
         reference = self.newest
         if reference is None:
             return None
-        # A clock that went back is no reason to trust what came in its future.
+        # After the clock went back, a reference from its future counts as old.
         self.silent = abs(now - self._at) > timeout
         if self.silent or not self._agrees(reference.thrust, now, mission, timeout):
             return None
         return reference
 
     def _agrees(self, thrust: float, now: float, mission: str, timeout: float) -> bool:
-        """The two come on different topics, so a short contradiction is nothing."""
+        """Return whether thrust and state agree; on two topics, a short contradiction is normal."""
         if not thrust > 0.0 or mission in ("", MissionState.RUNNING):
             self._contradicted, self.contradiction = None, ""
             return True

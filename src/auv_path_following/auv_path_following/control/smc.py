@@ -40,7 +40,7 @@ class SmcConfig:
         0.43, "half width of the boundary layer", unit="rad/s", gt=0.0, le=10.0, live=True
     )
     largest_rate: float = setting(
-        0.5, "largest yaw rate of the surface, so that a far turn does not outrun the rudder",
+        0.5, "largest yaw rate of the surface, so that the rudder can follow long turns",
         unit="rad/s", gt=0.0, le=10.0, live=True,
     )  # fmt: skip
 
@@ -86,7 +86,7 @@ def smc(config: Smc, state: SmcState, inputs: HeadingInputs, dt: float) -> tuple
 
 @pure
 def equivalent(config: Smc, inputs: HeadingInputs, ur: float, vr: float) -> float:
-    """Return the rudder (rad) with which the model's sigma stays as it is."""
+    """Return the rudder (rad) that keeps the model's sigma constant."""
     g = config.gains
     # d sigma/d psi_e is 0 where the surface's rate is capped.
     slope = g.slope if abs(g.slope * inputs.psi_e) < g.largest_rate else 0.0

@@ -23,7 +23,7 @@ class ArcLength:
 
     Args:
         speed: |dp/dt| (m) of t in [0, 1]; takes a float or an array.
-        panels: how many to begin with, e.g. one for each piece of a spline.
+        panels: initial number, e.g. one for each piece of a spline.
     """
 
     def __init__(self, speed: Callable[[Any], Any], panels: int = 1) -> None:
@@ -44,7 +44,7 @@ class ArcLength:
         return self._speed(t) @ _WEIGHT / panels
 
     def until(self, t: float) -> float:
-        """Length from 0 to t, m."""
+        """Return the length from 0 to t, m."""
         panel = min(max(int(t * self._panels), 0), self._panels - 1)
         start = panel / self._panels
         width = t - start
@@ -52,5 +52,5 @@ class ArcLength:
         return self._sums[panel] + width * float(rest)
 
     def to_go(self, t: float) -> float:
-        """Length from t to 1, m."""
+        """Return the length from t to 1, m."""
         return self.total - self.until(t)

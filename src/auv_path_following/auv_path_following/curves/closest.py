@@ -1,4 +1,4 @@
-"""How far points are from one segment: exact, for measuring a track; guidance never searches."""
+"""Exact distance of points from one segment, to measure a track; guidance never searches."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ _CLOSE = 1e-13
 
 
 def closest_distance(segment: Segment, x: Array, y: Array) -> Array:
-    """Closest distance of each point to a segment, its ends included.
+    """Return the distance of each point to a segment, its ends included.
 
-    Every valley of the distance that a coarse sampling shows is followed down by Newton's method, kept
-    inside the valley by bisection: good to 1e-9 m for lines, arcs and spirals.
+    Newton's method, safeguarded by bisection, refines every minimum of a coarse sampling; within 1e-9 m for
+    lines, arcs and spirals.
 
     Args:
         segment: any segment.
@@ -39,7 +39,7 @@ def closest_distance(segment: Segment, x: Array, y: Array) -> Array:
 
 
 def samples(segment: Segment) -> int:
-    """Coarse intervals: enough that two valleys never fall into one, 16 for each radian of turning."""
+    """Return the number of coarse intervals: 16 for each radian of turning, so that no minimum is lost."""
     point: Any = segment.evaluate(np.linspace(0.0, 1.0, 257))
     turning = float(np.mean(np.abs(point.kappa) * point.speed))
     return 16 + int(np.ceil(16.0 * turning))
@@ -67,7 +67,7 @@ def _of_chunk(segment: Segment, t: Array, x: Array, y: Array) -> Array:
 
 
 def _descend(segment: Segment, x: Array, y: Array, t: Array, low: Array, high: Array) -> Array:
-    """The t of least distance between `low` and `high`, started at `t`; all of shape (m,)."""
+    """Return the t of least distance between `low` and `high`, started at `t`; all of shape (m,)."""
     t, low, high = t.copy(), low.copy(), high.copy()
     active = np.arange(len(t))
     for _ in range(_STEPS):

@@ -1,4 +1,4 @@
-"""The path as a whole: subpaths in a row under one scalar s in [0, n], Eq. (1)."""
+"""The composite path: consecutive subpaths under one scalar s in [0, n], Eq. (1)."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Array = npt.NDArray[np.float64]
 
 
 class CompositePath:
-    """Subpaths in a row; subpath i (from 0) owns s in [i, i + 1). Immutable; evaluation costs O(1).
+    """Consecutive subpaths; subpath i (from 0) covers s in [i, i + 1). Immutable; evaluation costs O(1).
 
     Args:
         segments: the subpaths in the order in which they are followed.
@@ -55,33 +55,33 @@ class CompositePath:
         self._after: Final = tuple(itertools.accumulate(reversed(lengths[1:]), initial=0.0))[::-1]
 
     def evaluate(self, i: int, t: float) -> PathPoint:
-        """The point at t in [0, 1] of subpath i (from 0)."""
+        """Return the point at t in [0, 1] of subpath i (from 0)."""
         return self.segments[i].evaluate(t)
 
     @cached_property
     def rows(self) -> PathRows:
-        """The path as numbers."""
+        """The path as rows of numbers."""
         subpaths = Subpaths(self.segments, self.joints, self._after)
         return PathRows(self.n, subpaths, subpaths.piece)
 
     def at(self, s: float) -> PathPoint:
-        """The point at s, Eq. (1); s is held within [0, n]."""
+        """Return the point at s, Eq. (1), bounded to [0, n]."""
         s = min(max(s, 0.0), float(self.n))
         i = min(int(s), self.n - 1)
         return self.segments[i].evaluate(s - i)
 
     def distance_to_go(self, i: int, t: float) -> float:
-        """Length of path from t of subpath i (from 0) to the end of the path, m."""
+        """Return the length of path from t of subpath i (from 0) to the end of the path, m."""
         return self.segments[i].length_to_go(t) + self._after[i]
 
     @property
     def start_pose(self) -> tuple[float, float, float]:
-        """Where the path starts and with which course: x, y (m), chi_p (rad), NED."""
+        """Start of the path: x, y (m) and chi_p (rad), NED."""
         p = self.segments[0].evaluate(0.0)
         return p.x, p.y, p.chi
 
     def polyline(self, spacing: float) -> tuple[Array, Array, Array]:
-        """The path as points of Eq. (2), the ends of all subpaths among them, for drawing and publishing.
+        """Return the path as points of Eq. (2), all joints included, for drawing and publishing.
 
         Args:
             spacing: largest length of path between neighbours, m.
@@ -102,7 +102,7 @@ class CompositePath:
         return np.concatenate(xs), np.concatenate(ys), np.concatenate(ss)
 
     def distance(self, x: Array, y: Array, i: npt.NDArray[Any]) -> Array:
-        """How far a track is from the path, near the subpath that was being followed.
+        """Return the distance of a track from the path, near the subpath followed.
 
         Args:
             x, y: shape (n,), NED, m.

@@ -1,4 +1,4 @@
-"""The shortest way between two poses for a vehicle with a least turning radius (Dubins, 1957)."""
+"""The shortest path between two poses for a vehicle with a least turning radius (Dubins, 1957)."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from auv_path_following.curves.kinds.arc import Arc
 from auv_path_following.curves.kinds.line import Line
 from auv_path_following.curves.segment import Segment
 
-#: Turns and legs below this are left out: no vehicle and no joint notices them. rad, or radii.
+#: Turns (rad) and legs (radii) below this are left out: they are far below any tolerance.
 NOTHING = 1e-11
 
 #: Sides of the parts of a word: to port, straight on, to starboard.
@@ -55,7 +55,7 @@ class Word(NamedTuple):
 
     @property
     def letters(self) -> str:
-        """Its three parts: L port, R starboard, S straight."""
+        """Its three parts as letters: L port, R starboard, S straight."""
         return "".join(_LETTERS[side] for side in self[:3])
 
     @property
@@ -97,7 +97,7 @@ def _word(start: PlanarPose, end: PlanarPose, radius: float, sides: tuple[float,
     east = dy + last * math.cos(end.chi) - first * math.cos(start.chi)
     north = dx - last * math.sin(end.chi) + first * math.sin(start.chi)
     distance = math.hypot(north, east)
-    # With both centres in one place every course will do: do not turn for the sake of rounding.
+    # With equal centres any course fits: keep the present one rather than a rounding error.
     bearing = math.atan2(east, north) if distance > NOTHING else start.chi
     if middle == STRAIGHT:
         course, size, after = _straight(first, last, distance, bearing)
@@ -110,8 +110,8 @@ def _word(start: PlanarPose, end: PlanarPose, radius: float, sides: tuple[float,
 def parts(start: PlanarPose, end: PlanarPose, word: Word, radius: float) -> tuple[Part, Part, Part]:
     """Return the three parts of a word: its arcs, and between them its line or arc.
 
-    The first turn is laid from the start, the last one back from the end, so that both poses are met
-    exactly whatever was rounded between.
+    The first turn is computed from the start, the last one back from the end, so that both poses are exact in
+    spite of rounding between.
     """
     chi = start.chi + word.first * word.before
     opening = _arc(start, word.first, word.before, radius)
@@ -128,7 +128,7 @@ def parts(start: PlanarPose, end: PlanarPose, word: Word, radius: float) -> tupl
 
 @pure
 def _arc(pose: PlanarPose, side: float, size: float, radius: float) -> Part:
-    """A turn of `size` rad that starts at the pose; a negative size: one that ends there."""
+    """Return a turn of `size` rad that starts at the pose, or ends there if `size` is negative."""
     x, y, chi = pose
     cx, cy = x - side * radius * math.sin(chi), y + side * radius * math.cos(chi)
     a0 = chi - side * 0.5 * math.pi
@@ -156,14 +156,14 @@ def connect(start: PlanarPose, end: PlanarPose, radius: float) -> list[Segment]:
 
 @pure
 def _turn(side: float, before: float, after: float) -> float:
-    """How far to turn to that side from one course to another, in [0, 2 pi); just short of a circle is 0."""
+    """Return the turn to that side between two courses, in [0, 2 pi); almost a full circle counts as 0."""
     size = (side * (after - before)) % TWO_PI
     return 0.0 if size > TWO_PI - NOTHING else size
 
 
 @pure
 def _straight(first: float, last: float, distance: float, bearing: float) -> tuple[float, float, float]:
-    """Course of the straight part, its size, and its course again; infinite where the circles overlap."""
+    """Return course, size and course of the straight part; the size is infinite where the circles overlap."""
     if first == last:
         return bearing, distance, bearing
     if distance < 2.0:
@@ -174,7 +174,7 @@ def _straight(first: float, last: float, distance: float, bearing: float) -> tup
 
 @pure
 def _curled(side: float, distance: float, bearing: float) -> tuple[float, float, float]:
-    """Course into the middle turn, its size (more than half a circle), and the course out of it."""
+    """Return the course into the middle turn, its size (more than half a circle), and the course out."""
     if distance > 4.0:
         return bearing, math.inf, bearing
     slant = math.acos(0.25 * distance)

@@ -9,9 +9,9 @@ from typing import Literal
 from auv_msgs_py.values.angles import wrap
 from auv_path_following.curves.segment import PathPoint
 
-#: Largest step of the course that still counts as continuous (G1), rad.
+#: Largest step of a continuous course (G1), rad.
 ANGLE_TOLERANCE = 1e-3
-#: Largest step of the curvature that still counts as continuous (G2), 1/m: a radius of 10 km.
+#: Largest step of a continuous curvature (G2), 1/m: a radius of 10 km.
 CURVATURE_TOLERANCE = 1e-4
 #: Largest step of dp/ds (C1) and d2p/ds2 (C2), as a share of the larger |dp/ds| at the joint.
 DERIVATIVE_TOLERANCE = 1e-3
@@ -23,11 +23,11 @@ class Joint:
 
     Attributes:
         index: number of the subpath that ends here, counted from 1 as the paper does.
-        x, y: where it is (start of the next subpath), NED, m.
-        gap: distance between the end and the start that should be one, m.
+        x, y: its position (start of the next subpath), NED, m.
+        gap: distance between the end and the next start, m.
         chi_in, chi_out: courses before and after it, rad.
-        angle_step: how far the course jumps, rad in [-pi, pi), positive to starboard.
-        curvature_step: how far the curvature jumps, 1/m.
+        angle_step: step of the course, rad in [-pi, pi), positive to starboard.
+        curvature_step: step of the curvature, 1/m.
         geometric: G0 connected, G1 course continuous too, G2 curvature continuous too.
         parametric: C0 connected, C1 dp/ds continuous too, C2 d2p/ds2 continuous too.
     """

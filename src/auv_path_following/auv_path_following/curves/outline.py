@@ -1,4 +1,4 @@
-"""Where to look along a segment: few points on what is straight or round, more where it bends unevenly."""
+"""Sampling of a segment: few points on lines and arcs, more where the curvature varies."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _INTERVALS_OF_A_PIECE = 16
 
 
 def look(segment: Segment) -> tuple[Array, PathPoint]:
-    """Enough values of t to see how a segment's curvature changes, and its points there.
+    """Return enough values of t to resolve a segment's curvature, and its points there.
 
     Args:
         segment: any segment.
@@ -46,7 +46,7 @@ def _even(intervals: int) -> Array:
 
 
 def tightest(segment: Segment) -> tuple[float, float]:
-    """Where a segment bends most.
+    """Find the point of largest curvature.
 
     Args:
         segment: any segment.
@@ -64,9 +64,9 @@ def tightest(segment: Segment) -> tuple[float, float]:
 
 
 def last_stretch(segment: Segment) -> float:
-    """The t from which on a segment leads to its end: by half a circle at most, pi/2 times the straight way.
+    """Return the t from which on the way to the end is at most half a circle: pi/2 times the straight line.
 
-    All of a line, of an arc the last half turn: where a curve passes its own end on the way, that is not it.
+    All of a line, the last half turn of an arc: an earlier passage near the end does not count.
     """
     if segment.kind == "line":
         return 0.0
@@ -79,11 +79,11 @@ def last_stretch(segment: Segment) -> float:
 
 
 def polygon(segment: Segment, error: float) -> tuple[Array, Array]:
-    """A segment as straight pieces.
+    """Return a segment as straight pieces.
 
     Args:
         segment: any segment.
-        error: about how far the pieces may be from it, m.
+        error: approximate distance of the pieces from it, m.
 
     Returns:
         north and east, each of shape (m,), m, from its start to its end.

@@ -1,4 +1,4 @@
-"""Any smooth curve as polynomial pieces, for kinds of segments that `rows` has no formula for."""
+"""Any smooth curve as polynomial pieces, for kinds of segments without a formula in `rows`."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ Array = npt.NDArray[np.float64]
 TOLERANCE = 1e-12
 #: Degree to which the second derivative is fitted; the curve itself has two more.
 DEGREE = TERMS - 3
-#: Where the segment's own rounding is larger, halving does not help: then a piece is within this share.
+#: Allowed share where halving no longer helps, because the segment's own rounding is larger.
 ROUNDING = 1e-6
 _NARROWEST = 2.0**-20
 _NODES = chebyshev.chebpts1(DEGREE + 1)
 _CHECKS = np.linspace(-1.0, 1.0, 41)
 #: Where a piece is sampled: the nodes of the fit, its middle, and the checks.
 _SAMPLES = np.concatenate((_NODES, [0.0], _CHECKS))
-#: What two integrations divide a power by.
+#: Divisors of two integrations of a power.
 _TWICE = (np.arange(DEGREE + 1.0) + 1.0) * (np.arange(DEGREE + 1.0) + 2.0)
 _K = np.arange(TERMS)[:, None]
 #: Powers of u at the checks and both derivatives of them, shape (3, TERMS, checks).

@@ -22,9 +22,9 @@ LINE, ARC, FERMAT, MIRRORED, SPIRAL, CUBIC, FITTED = map(float, range(1, 8))
 #   MIRRORED         x_end, y_end, c, w, chi_end; Eq. (13)
 #   SPIRAL           cx, cy, radius0, growth, a0, sweep
 #   CUBIC, FITTED    where its first piece begins in `PathRows.piece`, number of pieces
-# Then its length, the length of path after it and |dp/dt| at its start (m). Then the joint at its end: which
-# it is (below), where (m), the t from which on the subpath leads to it, both courses there (rad), half the
-# shorter subpath (m).
+# Then its length, the length of path after it and |dp/dt| at its start (m). Then the joint at its end: its
+# kind (below), its position (m), the t of the last stretch to it, both courses there (rad), half the shorter
+# subpath (m).
 KIND, A, B, C, D, E, F, LENGTH, AFTER, SPEED, JOINT, JOINT_X, JOINT_Y, STRETCH = range(14)
 CHI_IN, CHI_OUT, WIDEST = range(14, 17)
 COLUMNS = 17
@@ -68,7 +68,7 @@ def curvature(dx: float, dy: float, ddx: float, ddy: float) -> float:
 def evaluate(path: PathRows, row: Any, t: float) -> Point:
     """Return the point at t in [0, 1] of a subpath of `path`, as `Segment.evaluate`: NED, m.
 
-    Kinds with a formula give the segment's own bits, fitted pieces its values to `pieces.TOLERANCE`.
+    Kinds with a formula are bit-identical to the segment, fitted pieces within `pieces.TOLERANCE`.
     """
     kind = row[KIND]
     if kind > 0.0:

@@ -1,4 +1,4 @@
-"""What every subpath is: a smooth curve over t in [0, 1]."""
+"""The protocol of every subpath: a smooth curve over t in [0, 1]."""
 
 from __future__ import annotations
 
@@ -51,17 +51,17 @@ class Segment(Protocol):
         """Length of the whole segment, m."""
 
     def evaluate(self, t: Any) -> PathPoint:
-        """The point at t.
+        """Return the point at t.
 
         Args:
-            t: float or array of floats in [0, 1]; not checked, the formulas simply go on outside.
+            t: float or array of floats in [0, 1]; not checked; the formulas extend beyond.
         """
 
     def length_to_go(self, t: float) -> float:
-        """Length from t to the end of the segment, m."""
+        """Return the length from t to the end of the segment, m."""
 
     def row(self) -> list[float]:
-        """Its kind and its numbers, as `rows.evaluate` reads them.
+        """Return its kind and its numbers, as `rows.evaluate` reads them.
 
         `pieces.fitted_row` makes them for a kind that has no formula there.
         """

@@ -1,4 +1,4 @@
-"""The rows of a path, made from its segments when they are first asked for."""
+"""The rows of a path, made from its segments at their first look-up."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class Subpaths(dict[int, Row]):
         return (*shape, length, self._after[i], speed, *at)
 
     def _shape(self, segment: Segment) -> list[float]:
-        """Kind and numbers of a segment; pieces become the place where they are kept."""
+        """Return kind and numbers of a segment; pieces are replaced by their place in `piece`."""
         row = segment.row()
         width = _WIDTHS.get(abs(row[KIND]))
         if width is not None:

@@ -1,4 +1,4 @@
-"""The radius of the circle of acceptance, Eq. (44), that suits a corner, a hull and a current."""
+"""Radius of the circle of acceptance, Eq. (44), from corner, hull and current."""
 
 from __future__ import annotations
 
@@ -15,29 +15,30 @@ from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.rows import CHI_IN, CHI_OUT, WIDEST
 from auv_path_following.vehicle import Vehicle
 
-#: Share of the speed through the water that a current across a leg may take.
+#: Largest ratio of the current across a leg to the speed through the water.
 _LARGEST_SHARE = 0.95
-#: A sharper change of heading counts as this, rad: no measured one was larger.
+#: Largest change of heading that counts, rad: the formula was fitted up to it.
 _SHARPEST = math.radians(135.0)
-#: Exponent of tan(change/2): with 1 the turn ends on the new leg, with less it overshoots the leg by about as
-#: much as it cuts the corner. Fitted, like the share of Delta, to the best radii at corners of 30 to 120 deg.
+#: Exponent of tan(change/2): with 1 the turn ends on the new leg, with less it overshoots the leg by about
+#: the distance by which it cuts the corner. Fitted, like the share of Delta, to the best radii at corners of
+#: 30 to 120 deg.
 _SHARPNESS = 0.85
-#: More than tan(change/2)^0.85 of the sharpest change, which is 2.12.
+#: Upper bound of tan(change/2)^0.85, which is 2.12 at the largest change.
 _MOST_TURN = 2.5
 #: Share of Delta by which line of sight turns late at a shallow corner, and early at a sharp one.
 _LOOKAHEAD_SHARE = 0.17
-#: By how much the heading lags behind its reference, s.
+#: Lag of the heading behind its reference, s.
 _LAG = 0.05
-#: Lead of a vehicle without a hull in its file, s: about that of all shipped hulls.
+#: Lead of a vehicle without a hull in its file, s; all shipped hulls have about the same.
 _USUAL_LEAD = 1.0
 
 
 class Cornering(NamedTuple):
-    """How the heading is turned at a corner.
+    """Turning ability at a corner.
 
     Attributes:
         rate: largest yaw rate, rad/s.
-        lead: by how much a turn with limited acceleration and jerk has to begin before one without, s.
+        lead: time by which limits of acceleration and jerk advance the start of a turn, s.
     """
 
     rate: float
@@ -45,9 +46,7 @@ class Cornering(NamedTuple):
 
 
 def cornering_of(vehicle: Vehicle) -> Cornering:
-    """Return how the heading reference turns a vehicle, with the limits that hull and rudder allow.
-
-    They are those of the autopilot where its own are left at 0 (`limits_of`).
+    """Return the turning ability that hull and rudder allow: the limits of `limits_of` at settings of 0.
 
     Raises:
         ConfigurationError: no turn of the hull is steady, and none was measured.
@@ -60,7 +59,7 @@ def cornering_of(vehicle: Vehicle) -> Cornering:
 
 
 class JointCorner(NamedTuple):
-    """A joint as its circle needs it: courses of both legs there (rad), and the widest circle (m)."""
+    """A joint: courses of both legs there (rad), and the widest circle (m)."""
 
     chi_in: float
     chi_out: float
@@ -77,7 +76,7 @@ def corner_of(path: CompositePath, i: int) -> JointCorner:
 def acceptance_radius(
     cornering: Cornering, corner: JointCorner, lookahead: float, Ur: float, current: Current = NO_CURRENT
 ) -> float:
-    """Return Rk at which a turn on to the next leg has to begin, m.
+    """Return Rk, m: distance from the corner at which the turn to the next leg begins.
 
         Rk = Ug lead + (Ug / rate) tan(change / 2)^0.85 + 0.17 Delta cos(change)
 
@@ -105,9 +104,9 @@ def acceptance_radius(
 
 @pure
 def reach(cornering: Cornering, lookahead: float, Ur: float, current: Current) -> float:
-    """Return an upper bound of `acceptance_radius` over all corners, m: farther away no radius is needed.
+    """Return an upper bound of `acceptance_radius` over all corners, m.
 
-    Each of its three terms is at its largest, with the current from astern.
+    Each of the three terms is at its largest, with the current from astern.
 
     Args:
         cornering: of the vehicle.

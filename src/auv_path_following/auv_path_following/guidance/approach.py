@@ -1,4 +1,4 @@
-"""The way to a path's start for a vehicle that begins elsewhere: a Dubins path, flown by the same law."""
+"""The approach to a path's start from elsewhere: a Dubins path, flown by the same law."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from auv_path_following.curves.rows import AFTER, ARC, COLUMNS, KIND, LENGTH, LI
 from auv_path_following.guidance.acceptance import Cornering, cornering_of
 from auv_path_following.vehicle import Vehicle
 
-#: A vehicle this near to a pose (m) and to its course (rad) is there: it needs no approach.
+#: A vehicle within this distance (m) of a pose and of its course (rad) needs no approach.
 NEAR = 3.0
 NEAR_COURSE = math.radians(60.0)
-#: Share of the hull's steady turn rate that an approach's turns take, in a following current of CURRENT, m/s.
+#: Share of the hull's steady turn rate used in an approach's turns, in a following current of CURRENT, m/s.
 TURN_SHARE = 0.6
 CURRENT = 0.4
-#: Turns are no tighter than this many look-ahead distances: line of sight cuts tighter ones.
+#: Least radius of turns in look-ahead distances: line of sight cuts tighter ones.
 LOOKAHEADS = 2.0
 #: Most subpaths of an approach: three of Dubins' and a straight leg.
 LEGS = 4
@@ -29,7 +29,7 @@ LEGS = 4
 
 @settings
 class ApproachConfig:
-    """Whether and how a vehicle is led to the start of its path."""
+    """Approach to the start of the path."""
 
     enabled: bool = setting(
         True, "a mission that begins away from its path's start flies there first", live=True
@@ -46,7 +46,7 @@ class Agility(NamedTuple):
     Attributes:
         speed: through the water, straight ahead, m/s.
         turn_rate: of a steady turn with full rudder, rad/s.
-        cornering: how its heading is turned at a corner.
+        cornering: turning ability at a corner.
     """
 
     speed: float
@@ -55,7 +55,7 @@ class Agility(NamedTuple):
 
 
 def agility_of(vehicle: Vehicle, thrust: float) -> Agility:
-    """Return what a vehicle's file says of its agility at a thrust in N.
+    """Return the agility of a vehicle at a thrust in N.
 
     Raises:
         ConfigurationError: no turn of the hull is steady, and none was measured.
@@ -68,7 +68,7 @@ def turn_radius(config: ApproachConfig, agility: Agility, lookahead: float) -> f
     """Return the radius of an approach's turns, m: one that the hull can fly in any current of up to CURRENT.
 
     Args:
-        config: a radius greater than 0 is taken as it is.
+        config: a radius greater than 0 is used unchanged.
         agility: of the hull.
         lookahead: Delta, m.
     """
@@ -78,7 +78,7 @@ def turn_radius(config: ApproachConfig, agility: Agility, lookahead: float) -> f
 
 @pure
 def is_at(x: float, y: float, psi: float, at_x: float, at_y: float, chi: float) -> bool:
-    """Return whether a vehicle at (x, y, psi) is near enough to the pose (at_x, at_y, chi): m, rad, NED."""
+    """Return whether a vehicle at (x, y, psi) is at the pose (at_x, at_y, chi): m, rad, NED."""
     return math.hypot(x - at_x, y - at_y) <= NEAR and abs(wrap(psi - chi)) <= NEAR_COURSE
 
 
@@ -166,13 +166,13 @@ def _write_arc(row: Any, arc: Part) -> float:
 
 
 class ApproachWatch:
-    """The phase of a mission: how far it is to the path's start, and whether that takes too long."""
+    """The approach as a phase of the mission: distance to the path's start, and whether it is overdue."""
 
     def __init__(self) -> None:
         self._left = self._time = 0.0
 
     def update(self, left: float, dt: float) -> str:
-        """Take what is left of the approach, m, after `dt` seconds; return a line for the log, or nothing."""
+        """Take the rest of the approach, m, after `dt` s; return a line for the log, or an empty text."""
         before, self._left = self._left, left
         if left > 0.0:
             begins, self._time = self._time == before == 0.0, self._time + dt
@@ -181,10 +181,10 @@ class ApproachWatch:
 
     @property
     def phase(self) -> str:
-        """Where the mission is."""
+        """Phase of the mission, as a text."""
         return f"approaching: {self._left:.0f} m to the path's start" if self._left > 0.0 else "on the path"
 
     def complaint(self, overdue: float) -> str:
-        """Return a line about an approach that has taken more than `overdue` seconds, else an empty text."""
+        """Return a line about an approach longer than `overdue` s, else an empty text."""
         late = self._left > 0.0 and self._time > overdue
         return f"the approach to the path's start takes more than {overdue:g} s" if late else ""

@@ -43,7 +43,7 @@ class FollowerConfig(NamedTuple):
         minimum_speed: below it beta_r and alpha are 0, m/s.
         k, saturation: of the virtual point (1/s, m).
         turn_rate: bound of r_d, rad/s.
-        progress: where P goes.
+        progress: motion of P.
     """
 
     law: Any
@@ -57,7 +57,7 @@ class FollowerConfig(NamedTuple):
 
 
 class FollowerState(NamedTuple):
-    """Where the mission is, and the state of the law."""
+    """Progress of the mission, and the state of the law."""
 
     progress: Progress
     law: Any
@@ -66,8 +66,8 @@ class FollowerState(NamedTuple):
 class GuidanceOutput(NamedTuple):
     """Result of a step, with every signal for plots (NED, m, rad, s).
 
-    During an approach P, its errors and its course are the approach's, s and i are 0, and `approach` is what
-    is left of it, m.
+    During an approach P, its errors and its course are those of the approach, s and i are 0, and
+    `approach` is its remaining length, m.
     """
 
     psi_d: float
@@ -98,7 +98,7 @@ def first_state(config: FollowerConfig, approach: Any) -> FollowerState:
 
 
 def reconfigured(config: FollowerConfig, state: FollowerState) -> FollowerState:
-    """Return the state for a new configuration: that of another law begins anew, all else is kept."""
+    """Return the state for a new configuration: the state of another law is reset, the rest is kept."""
     is_same = type(state.law) is type(config.law_begins)
     return state if is_same else state._replace(law=config.law_begins)
 
@@ -122,9 +122,9 @@ def follow(
         navigation: measured pose, NED.
         water: measured velocity through the water, FRD.
         current: the observer's estimate, NED.
-        dt: seconds since the last step (0 on the first one); of a gap `LONGEST_STEP` at most counts.
+        dt: time since the last step, s (0 on the first one), bounded by `LONGEST_STEP`.
     """
-    # Unpacked at once, because that is cheaper than one field after the other.
+    # Unpacked at once: faster than one field after the other.
     law_config, _, compensates, minimum_speed, k, saturation, turn_rate, where = config
     progress, law = state
     psi, (ur, vr) = navigation.psi, water
@@ -149,7 +149,7 @@ def follow(
     desired = tangential_speed(k, saturated(xe, saturation), psi, water, chi_p, current)
     P, U_P = driven(i, t, finished, desired, math.hypot(dx, dy))
     kappa = curvature(dx, dy, ddx, ddy)
-    # At the end of the path there is nothing more to turn to.
+    # At the end of the path the vehicle keeps its heading.
     psi_d, r_d = (psi, 0.0) if finished else (wrap(psi_d), kappa * U_P)  # Eq. (9)
     r_d = bounded(r_d, turn_rate)
     progress = settled(where, P, legs, way, joined, math.hypot(xe, ye), navigation)
@@ -166,9 +166,9 @@ def follow(
 def look(
     path: PathRows, state: FollowerState, navigation: Navigation
 ) -> tuple[FollowerState, GuidanceOutput]:
-    """Return the errors as they stand while no mission runs.
+    """Return the errors while no mission runs.
 
-    P rests until the next step, however long that takes; the vehicle's own heading is desired.
+    P rests until the next step; the desired heading is the vehicle's own.
     """
     P, legs, approach, planned, joined, x, y = state.progress
     i, t = P.i, P.t
@@ -190,5 +190,5 @@ def look(
 def rejoin(
     config: FollowerConfig, path: PathRows, state: FollowerState, navigation: Navigation
 ) -> FollowerState:
-    """Return the state after a hold: P is beside the vehicle, see `rejoined`; the law begins anew."""
+    """Return the state after a hold: P beside the vehicle, see `rejoined`, and the law reset."""
     return FollowerState(rejoined(config.progress, path, state.progress, navigation), config.law_begins)

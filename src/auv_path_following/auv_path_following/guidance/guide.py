@@ -83,9 +83,9 @@ class Measured(NamedTuple):
     Attributes:
         navigation: pose and yaw rate, NED.
         water: velocity through the water, FRD, m/s.
-        has_water: whether that is known now.
-        moved: the pose does not continue the last one.
-        to_go: path from the virtual point to the end, as of the last step, m; only limits need it.
+        has_water: whether `water` is valid.
+        moved: whether the pose does not continue the last one.
+        to_go: path from the virtual point to the end at the last step, m; only for limits.
         now: ROS time, s.
     """
 
@@ -102,8 +102,8 @@ class GuideState(NamedTuple):
 
     Attributes:
         mission: state and reason.
-        begins: the next measurement is the first of a mission.
-        rejoins: the follower rejoins the path at the next usable measurement.
+        begins: whether the next measurement is the first of a mission.
+        rejoins: whether the follower rejoins the path at the next usable measurement.
         blind: time without usable navigation, by stamps, s.
         follower, limits: their states.
     """
@@ -118,7 +118,7 @@ class GuideState(NamedTuple):
 
 @pure
 def first_state(config: Guide, approach: Any) -> GuideState:
-    """Return the state of a mission that was not started yet; `approach` as of `approach.empty_approach`."""
+    """Return the state before the start of a mission; `approach` as of `approach.empty_approach`."""
     return at_the_beginning(config, MissionStatus(IDLE, NO_REASON, math.nan), approach)
 
 
@@ -149,7 +149,7 @@ def guide(
     """Answer one measurement.
 
     Args:
-        config: what is flown, and how.
+        config: of guidance.
         path: as rows.
         state: of the mission.
         measured: the measurement.
@@ -158,14 +158,14 @@ def guide(
 
     Returns:
         The state; the follower's result; the desired thrust (N), 0 exactly when no mission is running; and
-        whether the mission held, because of a gap before this measurement if not before, and runs again.
+        whether the mission resumed after a hold, including one that only a gap before this measurement shows.
     """
     mission, begins, rejoins, blind, follower, limits = state
     navigation, water, has_water, moved, to_go, now = measured
     if begins:
         dt = 0.0
     rejoins = (rejoins or moved) and not begins
-    # A gap between stamps holds a mission as one in time does: which is noticed first must not matter.
+    # A gap between stamps holds a mission as a gap in time does: which is found first must not matter.
     blind += dt
     if blind > config.hold_after:
         mission = navigation_lost(mission, config.hold_after, now)

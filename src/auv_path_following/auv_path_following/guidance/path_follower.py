@@ -26,19 +26,24 @@ from auv_path_following.registry import law_of, law_settings
 
 @law_settings("law", "guidance law", LAWS)
 class PathFollowerConfig:
-    """Everything about guidance that is not the path."""
+    """Settings of guidance along a path."""
 
     compensate_current: bool = setting(True, "use the estimated current in Eqs. (22) and (31)", live=True)
     minimum_speed: float = setting(
         0.2,
-        "below this speed through water beta_r and alpha mean nothing and are taken as 0",
+        "below this speed through water beta_r and alpha are taken as 0",
         unit="m/s",
         ge=0.0,
         live=True,
     )
-    approach: ApproachConfig = setting(factory=ApproachConfig, doc="way to the path's start")
+    approach: ApproachConfig = setting(factory=ApproachConfig, doc="approach to the path's start")
     rejoin_reach: float = setting(
-        50.0, "after a hold P is looked for at most so far ahead", unit="m", ge=0.0, le=1000.0, live=True
+        50.0,
+        "largest distance ahead at which P is sought after a hold",
+        unit="m",
+        ge=0.0,
+        le=1000.0,
+        live=True,
     )
     virtual_point: VirtualPointConfig = setting(factory=VirtualPointConfig, doc="virtual point")
     switching: SwitchingConfig = setting(factory=SwitchingConfig, doc="subpath switching")
@@ -82,7 +87,7 @@ def prepare(config: PathFollowerConfig, agility: Agility | None = None) -> Follo
 
 
 def distance_to_go(path: CompositePath, state: FollowerState) -> float:
-    """Return the length from P to the end of the path, what is left of an approach included, m."""
+    """Return the length from P to the end of the path, the rest of an approach included, m."""
     P, legs, approach = state.progress[:3]
     i, t = (0, 0.0) if legs > 0 else (P.i, P.t)
     return approach_to_go(legs, approach, P.i, P.t) + path.distance_to_go(i, t)
@@ -106,7 +111,7 @@ class PathFollower:
         self.state = first_state(self.config, empty_approach())
 
     def configure(self, config: PathFollowerConfig) -> None:
-        """Take new gains; the place on the path and, for the same law, its state are kept."""
+        """Take new gains; keep the place on the path and, for the same law, its state."""
         self.config = prepare(config, self._agility)
         self.state = steps.reconfigured(self.config, self.state)
 
@@ -125,21 +130,21 @@ class PathFollower:
 
     @property
     def distance_to_go(self) -> float:
-        """From P to the end of the path, what is left of an approach included, m."""
+        """Length from P to the end of the path, the rest of an approach included, m."""
         return distance_to_go(self.path, self.state)
 
     def rejoin(self, navigation: Navigation) -> None:
-        """Go on after a hold, from where the vehicle is now: `rejoin`."""
+        """Continue after a hold, see `rejoin`."""
         self.state = steps.rejoin(self.config, self.path.rows, self.state, navigation)
 
     def look(self, navigation: Navigation) -> GuidanceOutput:
-        """Return the errors as they stand while no mission runs: `look`."""
+        """Return the errors while no mission runs, see `look`."""
         self.state, output = steps.look(self.path.rows, self.state, navigation)
         return output
 
     def update(
         self, navigation: Navigation, water: WaterVelocity, current: Current, dt: float
     ) -> GuidanceOutput:
-        """Take one step: `follow`."""
+        """Take one step, see `follow`."""
         self.state, output = follow(self.config, self.path.rows, self.state, navigation, water, current, dt)
         return output

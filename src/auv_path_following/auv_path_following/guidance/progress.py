@@ -1,4 +1,4 @@
-"""How far a mission has come: along an approach to the path's start, then from subpath to subpath."""
+"""Progress of a mission: along an approach to the path's start, then from subpath to subpath."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from auv_path_following.guidance.virtual_point import VirtualPoint, advanced, mo
 
 
 class ProgressConfig(NamedTuple):
-    """What decides where P goes.
+    """Configuration of P's motion.
 
     Attributes:
         circles: of acceptance.
-        approaches: a vehicle away from the path's start is led there first.
+        approaches: whether a vehicle away from the path's start flies there first.
         approach_radius: of an approach's turns, m.
-        rejoin_reach: most that P goes ahead after a hold, m.
+        rejoin_reach: largest advance of P after a hold, m.
     """
 
     circles: Circles
@@ -32,19 +32,18 @@ class ProgressConfig(NamedTuple):
 
 
 class Progress(NamedTuple):
-    """Where a mission is.
+    """State of P on the mission.
 
-    A mission begins at the path's start: a vehicle that is elsewhere is led there first, by a point on a
-    Dubins path of its own. The circle of acceptance at the end of a subpath counts only once the vehicle has
-    been within `NEAR` of P on that subpath.
+    A mission begins at the path's start; a vehicle that is elsewhere first follows P on a Dubins path to it.
+    The circle of acceptance at the end of a subpath counts only once the vehicle has been within `NEAR` of P.
 
     Attributes:
         point: P: on the approach while there is one, then on the path.
         legs: number of the approach's subpaths; 0: P is on the path.
         approach: the approach's rows; `move` writes a new approach into them.
-        planned: whether an approach is needed was decided, and the vehicle has not lost it since.
-        joined: the vehicle has been near P on this subpath.
-        x, y: where the vehicle was at the last step, NED, m.
+        planned: whether the approach was planned (or found unnecessary) and not lost since.
+        joined: whether the vehicle has been near P on this subpath.
+        x, y: position of the vehicle at the last step, NED, m.
     """
 
     point: VirtualPoint
@@ -64,13 +63,13 @@ def first_progress(approach: Any) -> Progress:
 
 @pure
 def followed(path: PathRows, legs: int, approach: Any) -> PathRows:
-    """Return what P is on: the approach, or the path."""
+    """Return the rows that P is on: of the approach, or of the path."""
     return PathRows(legs, approach, path.piece) if legs > 0 else path
 
 
 @pure
 def approach_to_go(legs: int, approach: Any, i: int, t: float) -> float:
-    """Return what is left of an approach, m; 0 where there is none."""
+    """Return the remaining length of an approach, m; 0 without one."""
     if legs == 0:
         return 0.0
     row = approach[i]
@@ -99,7 +98,7 @@ def move(
 
     Returns:
         P's subpath, t on it and whether the path has ended; number of the approach's subpaths; whether the
-        vehicle has joined the subpath; whether P has come to another subpath of the path, or to its end.
+        vehicle has joined the subpath; whether P has reached another subpath of the path, or its end.
     """
     P, legs, approach, planned, joined, _, _ = state
     i, t, _, _, finished = P
@@ -151,9 +150,8 @@ def settled(
 def rejoined(config: ProgressConfig, path: PathRows, state: Progress, navigation: Navigation) -> Progress:
     """Return the state after a hold: P at the closest point of the path ahead.
 
-    It is looked for no farther ahead than the vehicle was carried, with half as much again for the path's
-    turns, and never behind: a leg that lies beside this one is not mistaken for it. An approach is planned
-    anew instead.
+    The search reaches ahead 1.5 times the distance that the vehicle was carried, for the path's turns, and
+    never behind, so that a neighbouring leg is not taken for this one. An approach is planned again instead.
     """
     P, legs, approach, planned, joined, x, y = state
     if legs > 0 or not planned:

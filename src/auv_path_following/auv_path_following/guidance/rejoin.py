@@ -1,4 +1,4 @@
-"""Where on the path a vehicle goes on after it had to hold: ahead of where it held, and near."""
+"""Find the point of the path at which a vehicle continues after a hold: the closest one ahead."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ import math
 from auv_msgs_py.values.pure import pure
 from auv_path_following.curves.rows import PathRows, evaluate
 
-#: Distance between the points that are looked at first, m.
+#: Spacing of the coarse search, m.
 _SPACING = 0.5
-#: No step is smaller than this, in t: what rounding leaves of the reach is not worth one.
+#: Smallest step in t: rounding of the reach must not cause more steps.
 _LEAST_STEP = 1e-9
-#: Halvings of that distance afterwards.
+#: Halvings of the spacing afterwards.
 _REFINEMENTS = 12
 
 
@@ -19,14 +19,13 @@ _REFINEMENTS = 12
 def closest_ahead(path: PathRows, i: int, t: float, x: float, y: float, reach: float) -> tuple[int, float]:
     """Return the closest point of the next `reach` metres of path; never one behind (i, t).
 
-    The whole path is never searched: where it comes back to itself, the vehicle must not be taken for one
-    that has flown more of it than it has.
+    The whole path is never searched: where it returns to itself, P must not skip a part of it.
 
     Args:
         path: the path.
-        i, t: where the virtual point is: subpath (from 0) and t in [0, 1] on it.
-        x, y: where the vehicle is, NED, m.
-        reach: how far ahead to look along the path, m, measured by chords of half a metre.
+        i, t: of the virtual point: subpath (from 0) and t in [0, 1] on it.
+        x, y: position of the vehicle, NED, m.
+        reach: length of path to search, m, measured by chords of 0.5 m.
     """
     best_i, best_t, best_speed, best = i, t, 0.0, math.inf
     at_i, at_t, left = i, t, reach

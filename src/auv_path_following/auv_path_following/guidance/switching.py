@@ -1,4 +1,4 @@
-"""When the next subpath is followed early: the circle of acceptance, Eq. (44)."""
+"""Switching to the next subpath: the circle of acceptance, Eq. (44)."""
 
 from __future__ import annotations
 
@@ -53,8 +53,8 @@ class Circles(NamedTuple):
     Attributes:
         mode: index in `MODES`.
         radius: Rk, m.
-        computed: Rk is computed for each corner instead.
-        cornering: how the vehicle turns, for a computed Rk.
+        computed: whether Rk is computed for each corner instead.
+        cornering: turning ability, for a computed Rk.
         lookahead: Delta, m, for a computed Rk.
     """
 
@@ -69,8 +69,8 @@ def circles_of(config: SwitchingConfig, cornering: Cornering | None, lookahead: 
     """Return the circles of acceptance.
 
     Args:
-        config: which joints, and Rk.
-        cornering: how the vehicle turns, for an Rk of 0; None: an Rk of 0 is no circle.
+        config: joints and Rk.
+        cornering: turning ability, for an Rk of 0; None: an Rk of 0 is no circle.
         lookahead: Delta, m.
     """
     mode = MODES.index(config.mode)
@@ -100,11 +100,11 @@ def radius_at(circles: Circles, row: Any, Ur: float, current: Current) -> float:
 def reached(
     circles: Circles, row: Any, x: float, y: float, t: float, Ur: float = 0.0, current: Current = NO_CURRENT
 ) -> bool:
-    """Return whether the next subpath is followed, Eq. (44), for subpaths of any length and shape.
+    """Return whether to follow the next subpath, Eq. (44), for subpaths of any length and shape.
 
-    A subpath that comes back to its start has its joint there, and a vehicle that sets out is inside the
-    circle at once: only the last stretch counts. Of a subpath shorter than the circle, as between dense
-    waypoints, half is followed at least, so that P does not run ahead from one circle to the next.
+    A subpath that returns to its start has its joint there, inside whose circle the vehicle starts: only the
+    last stretch of a subpath counts. At least half of a subpath shorter than the circle (between dense
+    waypoints) is followed, so that P does not run ahead from one circle to the next.
 
     Args:
         circles: of the path.

@@ -1,4 +1,4 @@
-"""The virtual point P: its errors, its speed, its way along the path. Eqs. (20), (22), (42), (43)."""
+"""The virtual point P: errors, speed and motion along the path. Eqs. (20), (22), (42), (43)."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from auv_path_following.curves.rows import LENGTH, SPEED, PathRows
 
 @settings
 class VirtualPointConfig:
-    """Table 4's k, and how far from P it counts in full."""
+    """k of Table 4, and its saturation."""
 
     k: float = setting(
         1.0, "gain that draws P along the path towards the vehicle", unit="1/s", gt=0.0, le=10.0, live=True
@@ -25,7 +25,7 @@ class VirtualPointConfig:
 
 @pure
 def path_errors(navigation: Navigation, x_p: float, y_p: float, chi_p: float) -> tuple[float, float]:
-    """Return the vehicle's place as seen from P, Eq. (20), m.
+    """Return the vehicle's position relative to P, Eq. (20), m.
 
     xe is along the tangent, positive where the vehicle is ahead; ye is across it, positive to starboard.
 
@@ -41,9 +41,9 @@ def path_errors(navigation: Navigation, x_p: float, y_p: float, chi_p: float) ->
 
 @pure
 def saturated(value: float, limit: float) -> float:
-    """Return a value held within +-limit: up to the limit it is the value itself.
+    """Return a value bounded to +-limit.
 
-    Eq. (22) takes xe so: without a bound a vehicle far from P would drive it at any speed, and
+    Eq. (22) uses the bounded xe: without a bound a vehicle far from P would drive it at any speed, and
     r_d = kappa U_P with it. Theorem 1 still holds: with psi = psi_d, Eq. (32) becomes
     xe' = -k sat(xe) + r_p ye. The terms with r_p cancel in V1' as before, and -k xe sat(xe) is negative for
     every xe other than 0.
@@ -66,14 +66,14 @@ def tangential_speed(
 
 
 class VirtualPoint(NamedTuple):
-    """Where P is, and how fast until the next step.
+    """Place of P, and its speed until the next step.
 
     Attributes:
         i: subpath, from 0; it never decreases.
         t: place on the subpath, in [0, 1].
         t_rate: dt/d(time), 1/s; 0: P rests.
         metres_per_t: |dp/dt| where the speed was set, m.
-        finished: P is at the end of the path.
+        finished: whether P is at the end of the path.
     """
 
     i: int = 0
@@ -88,7 +88,7 @@ class VirtualPoint(NamedTuple):
         return self.i + self.t
 
 
-#: i, t, whether P is at the end of the path, and how far the step led beyond it, m.
+#: i, t, whether P is at the end of the path, and the length of the step beyond it, m.
 Place = tuple[int, float, bool, float]
 
 

@@ -29,7 +29,7 @@ class Arc:
         self.length: Final = radius * abs(a1 - a0)
 
     def evaluate(self, t: Any) -> PathPoint:
-        """The point at t (float or array) in [0, 1]."""
+        """Return the point at t (float or array) in [0, 1]."""
         m = functions_of(t)
         sweep = self.a1 - self.a0
         a = self.a0 + t * sweep
@@ -45,7 +45,7 @@ class Arc:
         )
 
     def length_to_go(self, t: float) -> float:
-        """Length from t to the end, m."""
+        """Return the length from t to the end, m."""
         return self.length * (1.0 - t)
 
     def row(self) -> list[float]:

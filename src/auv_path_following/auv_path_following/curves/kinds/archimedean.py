@@ -39,7 +39,7 @@ class ArchimedeanSpiral:
         return 0.5 * b * (q * math.hypot(1.0, q) + math.asinh(q))
 
     def evaluate(self, t: Any) -> PathPoint:
-        """The point at t (float or array) in [0, 1]."""
+        """Return the point at t (float or array) in [0, 1]."""
         m = functions_of(t)
         w, g = self._sweep, self._growth
         a, radius = self._a0 + t * w, self._radius0 + t * g
@@ -56,7 +56,7 @@ class ArchimedeanSpiral:
         )
 
     def length_to_go(self, t: float) -> float:
-        """Length from t to the end, m."""
+        """Return the length from t to the end, m."""
         return abs(self._end - self._primitive(self._radius0 + t * self._growth))
 
     def row(self) -> list[float]:

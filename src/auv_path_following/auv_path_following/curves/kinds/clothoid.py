@@ -83,7 +83,7 @@ class Clothoid:
         return width * north, width * east
 
     def evaluate(self, t: Any) -> PathPoint:
-        """The point at t (float or array) in [0, 1]."""
+        """Return the point at t (float or array) in [0, 1]."""
         m = functions_of(t)
         north, east = self._offset(t)
         course = self.chi0 + t * (self._a + 0.5 * self._b * t)
@@ -94,7 +94,7 @@ class Clothoid:
         )
 
     def length_to_go(self, t: float) -> float:
-        """Length from t to the end, m."""
+        """Return the length from t to the end, m."""
         return self.length * (1.0 - t)
 
     def row(self) -> list[float]:

@@ -99,12 +99,12 @@ class FermatSpiral:
         self.length: Final = self._curve.length(1.0)
 
     def evaluate(self, t: Any) -> PathPoint:
-        """The point at t (float or array) in [0, 1]."""
+        """Return the point at t (float or array) in [0, 1]."""
         f = self._curve.evaluate(t)
         return PathPoint(self.x0 + f.x, self.y0 + f.y, f.dx, f.dy, f.ddx, f.ddy)
 
     def length_to_go(self, t: float) -> float:
-        """Length from t to the end, m."""
+        """Return the length from t to the end, m."""
         return self.length - self._curve.length(t)
 
     def row(self) -> list[float]:
@@ -134,13 +134,13 @@ class MirroredFermatSpiral:
         self.length: Final = self._curve.length(1.0)
 
     def evaluate(self, t: Any) -> PathPoint:
-        """The point at t (float or array) in [0, 1]."""
+        """Return the point at t (float or array) in [0, 1]."""
         f = self._curve.evaluate(1.0 - t)
         # p(t) = p_end - F(1 - t): each derivative with respect to t brings one more minus.
         return PathPoint(self.x_end - f.x, self.y_end - f.y, f.dx, f.dy, -f.ddx, -f.ddy)
 
     def length_to_go(self, t: float) -> float:
-        """Length from t to the end, m."""
+        """Return the length from t to the end, m."""
         return self._curve.length(1.0 - t)
 
     def row(self) -> list[float]:

@@ -29,14 +29,14 @@ class Line:
         self._dy: Final = length * math.sin(chi)
 
     def evaluate(self, t: Any) -> PathPoint:
-        """The point at t (float or array) in [0, 1]."""
+        """Return the point at t (float or array) in [0, 1]."""
         zero = 0.0 * t
         return PathPoint(
             self.x0 + self._dx * t, self.y0 + self._dy * t, self._dx + zero, self._dy + zero, zero, zero
         )
 
     def length_to_go(self, t: float) -> float:
-        """Length from t to the end, m."""
+        """Return the length from t to the end, m."""
         return self.length * (1.0 - t)
 
     def row(self) -> list[float]:

@@ -44,13 +44,13 @@ class Polynomial:
         self._row: Final = fitted_row(self)
 
     def evaluate(self, t: Any) -> PathPoint:
-        """The point at t (float or array) in [0, 1]."""
+        """Return the point at t (float or array) in [0, 1]."""
         x, dx, ddx = _horner(self._x, t)
         y, dy, ddy = _horner(self._y, t)
         return PathPoint(x, y, dx, dy, ddx, ddy)
 
     def length_to_go(self, t: float) -> float:
-        """Length from t to the end, m."""
+        """Return the length from t to the end, m."""
         return self._arc.to_go(t)
 
     def row(self) -> list[float]:

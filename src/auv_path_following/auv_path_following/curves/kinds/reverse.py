@@ -21,12 +21,12 @@ class Reversed:
         self.length: Final = segment.length
 
     def evaluate(self, t: Any) -> PathPoint:
-        """The point at t (float or array) in [0, 1]."""
+        """Return the point at t (float or array) in [0, 1]."""
         p = self.segment.evaluate(1.0 - t)
         return PathPoint(p.x, p.y, -p.dx, -p.dy, p.ddx, p.ddy)
 
     def length_to_go(self, t: float) -> float:
-        """Length from t to the end, m."""
+        """Return the length from t to the end, m."""
         return self.length - self.segment.length_to_go(1.0 - t)
 
     def row(self) -> list[float]:

@@ -76,7 +76,7 @@ class Spline:
                 raise ConfigurationError("spline", found, "points that do not turn straight back")
 
     def evaluate(self, t: Any) -> PathPoint:
-        """The point at t (float or array) in [0, 1]."""
+        """Return the point at t (float or array) in [0, 1]."""
         row: Any
         if isinstance(t, np.ndarray):
             piece = np.searchsorted(self._inner_array, t, side="right")
@@ -95,7 +95,7 @@ class Spline:
         )
 
     def length_to_go(self, t: float) -> float:
-        """Length from t to the end, m."""
+        """Return the length from t to the end, m."""
         return self._arc.to_go(t)
 
     def row(self) -> list[float]:

@@ -14,7 +14,7 @@ from auv_path_following.registry import Law
 @numbers
 @settings
 class AilosConfig:
-    """Table 4's Delta, and how near to 1 theta_n may come before it is clipped."""
+    """Delta of Table 4, and the bound of theta_n."""
 
     lookahead: float = setting(
         6.0, "look-ahead distance Delta along the tangent", unit="m", ge=0.1, le=1000.0, live=True
@@ -54,7 +54,7 @@ def ailos(config: AilosConfig, state: NoState, inputs: LawInputs, dt: float) -> 
 
 @pure
 def adaptive_offset(ye: float, theta_n: float, Delta: float) -> float:
-    """alpha of Eq. (30), m: the solution of alpha = theta_n sqrt(Delta^2 + (ye + alpha)^2).
+    """Return alpha of Eq. (30), m: the solution of alpha = theta_n sqrt(Delta^2 + (ye + alpha)^2).
 
     With it, Ur (ye + alpha)/sqrt(Delta^2 + (ye + alpha)^2) equals Ur ye/(same root) plus the current
     across the path, which is what turns Eq. (28) into Eq. (32). Needs |theta_n| < 1.

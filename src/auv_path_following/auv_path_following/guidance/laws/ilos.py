@@ -43,10 +43,10 @@ class IlosState(NamedTuple):
 
 @pure
 def ilos(config: IlosConfig, state: IlosState, inputs: LawInputs, dt: float) -> tuple[IlosState, LawOutput]:
-    """psi_d = chi_p - atan((ye + sigma y)/Delta) with y' = Delta ye / ((ye + sigma y)^2 + Delta^2).
+    """Return psi_d = chi_p - atan((ye + sigma y)/Delta) with y' = Delta ye / ((ye + sigma y)^2 + Delta^2).
 
     y grows slowly where ye is large, so it hardly winds up on the way to the path. The observer is not used:
-    the offset against the current follows from ye alone, and has to be found anew after every turn. alpha of
+    the offset against the current comes from ye alone and builds up again after every turn. alpha of
     the output is sigma y.
     """
     integral = state.integral

@@ -1,4 +1,4 @@
-"""What every guidance law sees and answers: from the cross-track error to the desired heading."""
+"""Inputs and output of every guidance law: from the cross-track error to the desired heading."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Proportional line of sight: aims at a point Delta ahead on the tangent, whatever the current does."""
+"""Proportional line of sight: aims at a point Delta ahead on the tangent, without the current."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from auv_path_following.registry import Law
 @numbers
 @settings
 class LosConfig:
-    """Look-ahead, and whether the vehicle's own drift angle is taken off."""
+    """Look-ahead, and whether the vehicle's drift angle is subtracted."""
 
     lookahead: float = setting(
         6.0, "look-ahead distance Delta along the tangent", unit="m", ge=0.1, le=1000.0, live=True
@@ -28,7 +28,7 @@ class LosConfig:
 
 @pure
 def los(config: LosConfig, state: NoState, inputs: LawInputs, dt: float) -> tuple[NoState, LawOutput]:
-    """psi_d = chi_p + atan(-ye/Delta) - beta_r: Eqs. (24), (25) with alpha = 0.
+    """Return psi_d = chi_p + atan(-ye/Delta) - beta_r: Eqs. (24), (25) with alpha = 0.
 
     A current across the path leaves ye = Delta tan(asin(Vc/Ur)), the error that the other laws remove.
     """

@@ -1,4 +1,4 @@
-"""The guidance laws."""
+"""The list of guidance laws: a new law is one entry here."""
 
 from __future__ import annotations
 

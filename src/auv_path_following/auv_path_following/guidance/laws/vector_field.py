@@ -23,9 +23,7 @@ class VectorFieldConfig:
         le=90.0,
         live=True,
     )
-    gain: float = setting(
-        0.25, "how near to the path the field turns into it", unit="1/m", gt=0.0, le=100.0, live=True
-    )
+    gain: float = setting(0.25, "slope of the field on the path", unit="1/m", gt=0.0, le=100.0, live=True)
     theta_limit: float = setting(
         0.95, "bound of the current across the desired course over Ur", gt=0.0, le=0.99, live=True
     )
