@@ -20,7 +20,7 @@ REPOSITORY = Path(__file__).resolve().parents[1]
 SHORT_MISSION = Path(__file__).parent / "data" / "short.yaml"
 
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
-# xdist tells its workers how wide the terminal is; the commands under test write into pipes.
+# xdist sets the width of the terminal in its workers; the commands under test write into pipes.
 os.environ.pop("COLUMNS", None)
 _ASKED = itertools.count()
 
@@ -38,7 +38,7 @@ def short_mission() -> Path:
 
 @pytest.fixture
 def domain(monkeypatch: pytest.MonkeyPatch) -> int:
-    """A ROS domain that nobody uses, and no other test has just left."""
+    """A ROS domain that is not in use, and that no other test has just left."""
     number = free_domain(skip=next(_ASKED) % 10)
     monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
     return number

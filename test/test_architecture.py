@@ -1,4 +1,4 @@
-"""The rules of the house that a machine can hold: who imports what, how long files are, what they name."""
+"""The rules of the house that a machine can check: imports, lengths of files, forbidden names."""
 
 from __future__ import annotations
 

@@ -46,12 +46,12 @@ def test_the_three_pythons_are_taken(bootstrap: Any, version: tuple[int, int]) -
 
 
 @pytest.mark.parametrize("version", [(3, 8), (3, 10), (3, 14)])
-def test_other_pythons_are_told_so_in_a_line(bootstrap: Any, version: tuple[int, int]) -> None:
+def test_other_pythons_are_refused_in_a_line(bootstrap: Any, version: tuple[int, int]) -> None:
     with pytest.raises(bootstrap.SetUpError, match=r"3\.11 to 3\.13 .*this is 3\.\d+: [^\n]+$"):
         bootstrap.check_python(version)
 
 
-def test_other_machines_are_told_so_in_a_line(bootstrap: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_other_machines_are_refused_in_a_line(bootstrap: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("platform.machine", lambda: "aarch64")
     with pytest.raises(
         bootstrap.SetUpError, match="x86_64 and this is Linux on aarch64: install ROS 2 Jazzy"
@@ -61,8 +61,8 @@ def test_other_machines_are_told_so_in_a_line(bootstrap: Any, monkeypatch: pytes
 
 
 def test_an_old_or_other_c_library_is_refused(bootstrap: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    for told in ("glibc 2.27", None):
-        monkeypatch.setattr("os.confstr", lambda _, told=told: told)
+    for reported in ("glibc 2.27", None):
+        monkeypatch.setattr("os.confstr", lambda _, value=reported: value)
         with pytest.raises(bootstrap.SetUpError, match=r"glibc 2\.28"):
             bootstrap.check_machine(sourced=False)
 
@@ -150,9 +150,9 @@ def steps(bootstrap: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> St
 
 
 def make(bootstrap: Any, tmp_path: Path, *extra: str) -> bool:
-    environment, wanted = str(tmp_path / "env"), bootstrap.fingerprint(False, extra)
-    bootstrap._make_once(environment, False, extra, wanted)
-    return bool(bootstrap.is_complete(environment, wanted))
+    environment, expected = str(tmp_path / "env"), bootstrap.fingerprint(False, extra)
+    bootstrap._make_once(environment, False, extra, expected)
+    return bool(bootstrap.is_complete(environment, expected))
 
 
 def test_it_is_made_once_and_extended(bootstrap: Any, steps: Steps, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""The packages in a colcon workspace: what `ros2 run` needs is there, starts, and leaves when told to."""
+"""The packages in a colcon workspace: what `ros2 run` needs is there, starts, and ends on request."""
 
 from __future__ import annotations
 

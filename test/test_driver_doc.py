@@ -52,7 +52,7 @@ class JsonVehicle(threading.Thread):
                 rudder = -math.radians(order["rudder_to_starboard_deg"])
                 command, heard_at = Command(rudder, order["thrust_n"]), time.monotonic()
             except OSError:
-                pass  # nothing has come, or nobody listens yet
+                pass  # no message has come, or no reader is there yet
             if time.monotonic() < due:
                 continue
             due += 0.05

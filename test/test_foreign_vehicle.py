@@ -38,7 +38,7 @@ SENSOR = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 
 class ForeignVehicle:
-    """A plant behind the contract's topics, as somebody else would write it.
+    """A plant behind the contract's topics, as another author would write it.
 
     Args:
         mission: where it starts.

@@ -33,8 +33,8 @@ def messages(bag: Path) -> dict[str, list[bytes]]:
     """The raw messages of every topic that has one per step, in the order in which they were recorded."""
     found: dict[str, list[bytes]] = {name: [] for name in _NAMES}
     with AnyReader([bag]) as reader:
-        wanted = [connection for connection in reader.connections if connection.topic in _NAMES]
-        for connection, _, data in reader.messages(connections=wanted):
+        chosen = [connection for connection in reader.connections if connection.topic in _NAMES]
+        for connection, _, data in reader.messages(connections=chosen):
             found[connection.topic].append(bytes(data))
     return found
 
@@ -133,12 +133,12 @@ def test_free_running_follows_the_mission_too_and_one_forged_state_ends_nothing(
     assert {"complete", "idle"} <= set(said[said.index("running") : len(said) - said[::-1].index("running")])
 
 
-def test_a_vehicle_that_somebody_else_runs_is_driven_through_the_same_mission(
+def test_a_vehicle_of_another_project_is_driven_through_the_same_mission(
     short_mission: Path, tmp_path: Path, domain: int, command_line: CommandLine, spawn: Callable[..., object]
 ) -> None:
     """--no-sim: a simulator started by hand stands in for the vehicle, at rest, with its own clock."""
-    wanted = {"speed": "2.0", "hold_until_running": "false", "initial.surge": "0.0"}
-    parameters = [word for name, value in wanted.items() for word in ("-p", f"{name}:={value}")]
+    overrides = {"speed": "2.0", "hold_until_running": "false", "initial.surge": "0.0"}
+    parameters = [word for name, value in overrides.items() for word in ("-p", f"{name}:={value}")]
     spawn(command_line("auv_sim.nodes.plant_node", "--ros-args", "-r", "__ns:=/auv", *parameters))
     asked = ["--mission", str(short_mission), "--no-sim", "--use-sim-time", "--quiet"]
     assert main([*asked, "--domain", str(domain), "--out", str(tmp_path / "run")]) == 0

@@ -166,7 +166,7 @@ BAD = {
         ["--no-sim", "--speed", "2"],
         "--speed: found together with --no-sim",
     ),
-    "a clock for nobody": (["--use-sim-time"], "--use-sim-time: found without --no-sim"),
+    "a clock without a reader": (["--use-sim-time"], "--use-sim-time: found without --no-sim"),
 }
 
 

@@ -248,15 +248,15 @@ def pins() -> dict[str, str]:
 def test_everything_installed_for_the_suite_is_pinned() -> None:
     """Walks from the requirement files through what each distribution says it needs."""
     ours = Path(sys.prefix, "lib")
-    wanted = [
+    open_requirements = [
         Requirement(line)
         for name in ("ros", "tools", "batch", "cluster", "dev", "docs")
         for line in (ROOT / "requirements" / f"{name}.txt").read_text(encoding="utf-8").splitlines()
         if line and line[0] not in "#-"
     ]
     fixed, seen = pins(), set()
-    while wanted:
-        requirement = wanted.pop()
+    while open_requirements:
+        requirement = open_requirements.pop()
         name = canonicalize_name(requirement.name)
         if name in seen or (requirement.marker and not requirement.marker.evaluate({"extra": ""})):
             continue
@@ -266,6 +266,6 @@ def test_everything_installed_for_the_suite_is_pinned() -> None:
         except importlib.metadata.PackageNotFoundError:
             assert name.startswith("ros-"), f"{name} is missing"  # a sourced ROS has no wheels
             continue
-        wanted += [Requirement(line) for line in distribution.requires or ()]
+        open_requirements += [Requirement(line) for line in distribution.requires or ()]
         if name != "numpy" and ours in Path(str(distribution.locate_file(""))).parents:
             assert fixed.get(name) == distribution.version, f"requirements/constraints.txt: {name}"

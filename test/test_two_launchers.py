@@ -29,7 +29,7 @@ KINDS = {
     "no-sim": ["--no-sim", "--use-sim-time"],
 }
 TABLE = list(itertools.product(KINDS, KINDS, ("/auv", "/auv2")))
-#: A launcher without a simulator needs no clock of its own: in another namespace it is in nobody's way.
+#: A launcher without a simulator needs no clock of its own: in another namespace it conflicts with no other.
 BESIDE = {row for row in TABLE if row[1:] == ("no-sim", "/auv2")}
 DEFAULT = [("no-sim", "free running", "/auv")]
 
@@ -83,8 +83,8 @@ def test_the_first_mission_ends_as_if_alone(
     request: pytest.FixtureRequest,
 ) -> None:
     if first == "no-sim":  # the vehicle: a simulator that was started by hand
-        wanted = ("speed:=3.0", "initial.surge:=0.0")
-        parameters = [word for value in wanted for word in ("-p", value)]
+        overrides = ("speed:=3.0", "initial.surge:=0.0")
+        parameters = [word for value in overrides for word in ("-p", value)]
         spawn(command_line("auv_sim.nodes.plant_node", "--ros-args", "-r", "__ns:=/auv", *parameters))
     # In lockstep long enough for a second launcher to come up beside it.
     mission = Path("paper_composite") if first == "lockstep" else short_mission

@@ -218,7 +218,7 @@ def test_abort_works_without_any_navigation(bench: Bench, state: str) -> None:
     bench.until(lambda: states(bench)[-1] == "aborted")
 
 
-def test_a_late_reader_gets_the_present_state_and_everybody_gets_it_once_a_second(bench: Bench) -> None:
+def test_a_late_reader_gets_the_present_state_and_all_get_it_once_a_second(bench: Bench) -> None:
     bench.start(GuidanceNode)
     bench.until(lambda: states(bench))
     bench.call("start")

@@ -48,6 +48,18 @@ def load(
     data = yaml_file.parse(path)
     if not isinstance(data, dict):
         raise ConfigurationError(str(path), repr(data), "a mapping of node names to ros__parameters")
+    values = _collected(path, data, classes, namespace, notices if notices is not None else [])
+    return _all_validated(path, classes, values)
+
+
+def _collected(
+    path: Path,
+    data: Mapping[Any, Any],
+    classes: Mapping[str, type[Any]],
+    namespace: str | None,
+    notices: list[str],
+) -> dict[str, dict[str, Any]]:
+    """Return the parameters of each node from all blocks, with dotted names; arguments as of `load`."""
     values: dict[str, dict[str, Any]] = {name: {} for name in classes}
     taken: dict[str, str] = {}
     passed_over: dict[str, str] = {}
@@ -65,12 +77,12 @@ def load(
             raise ConfigurationError(f"{path}: {pattern}", found, "one block for each node")
         taken[name] = pattern
         ignored = _add(values, name, block, classes)
-        if ignored and notices is not None:
+        if ignored:
             listed = ", ".join(sorted(ignored))
             notices.append(printable(f"{path}: {pattern}: no node here has {listed}: ignored"))
     for name in passed_over.keys() - taken.keys():
         raise _other_namespace(f"{path}: {passed_over[name]}", name, namespace or "")
-    return _all_validated(path, classes, values)
+    return values
 
 
 def _node_of(pattern: str) -> str:
