@@ -26,12 +26,14 @@ def listings(page: str, language: str) -> list[str]:
 
 def copies() -> Iterator[tuple[str, str, str]]:
     """Yield page, shown text and source for each text that a page copies."""
-    from test_architecture import ROS_ROOMS
+    from test_architecture import ROOMS, ROS_ROOMS
 
     page = "CONTRIBUTING.md"
-    text = (ROOT / page).read_text(encoding="utf-8")
-    (rooms,) = re.findall(r"<!-- ros rooms: begin -->\n(.*)<!-- ros rooms: end -->", text, re.DOTALL)
-    yield page, rooms, "".join(f"   - `{room}`\n" for room in ROS_ROOMS)
+    order = [f"   - `{name}`: " + " <- ".join(f"`{room}`" for room in rooms) for name, rooms in ROOMS]
+    for mark, lines in (("order of rooms", order), ("ros rooms", [f"   - `{room}`" for room in ROS_ROOMS])):
+        text = (ROOT / page).read_text(encoding="utf-8")
+        (shown,) = re.findall(rf"<!-- {mark}: begin -->\n.*?<!-- {mark}: end -->", text, re.DOTALL)
+        yield page, shown, "\n".join([f"<!-- {mark}: begin -->", *lines, f"   <!-- {mark}: end -->"])
     page = "docs/your_own_law.md"
     law, line = listings(page, "python")
     yield page, law, (LAWS / "vector_field.py").read_text(encoding="utf-8")

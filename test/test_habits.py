@@ -53,7 +53,9 @@ def contributing() -> str:
     return (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("number", range(3), ids=["rooms that need ROS", "law", "line of the law"])
+@pytest.mark.parametrize(
+    "number", range(4), ids=["order of rooms", "rooms that need ROS", "law", "line of the law"]
+)
 def test_a_page_shows_what_the_code_has(number: int) -> None:
     page, shown, source = list(copies())[number]
     assert shown == source, f"{page}: cd test && python3 -m doc_pages"
