@@ -1,4 +1,4 @@
-"""Makes a damaged or unfinished recording whole: what is readable, with an index and metadata.yaml."""
+"""Repairs a damaged or unfinished recording: keeps what is readable, with an index and metadata.yaml."""
 
 from __future__ import annotations
 
@@ -22,22 +22,22 @@ from auv_sim.bags.reading.recording import Bag, RecordedTopic
 from auv_sim.bags.reading.storage.mcap_scan import NOT_CLOSED, scan
 from auv_sim.bags.writing.bag_writer import TEXTS, BagWriter, Channel
 
-#: What is added to the name of a file that was replaced.
+#: Suffix of a file that was replaced.
 KEPT = ".damaged"
 #: Storage formats as rosbag2 names them, by the files' suffix.
 _STORAGE = {".mcap": "mcap", ".db3": "sqlite3"}
-#: So much is gathered before it is handed to the disk, bytes.
+#: Bytes that are gathered before they are written.
 HELD = 4_000_000
 
 
 @dataclass(frozen=True)
 class Repaired:
-    """What was done.
+    """The result of a repair.
 
     Attributes:
-        directory: the recording that is whole now.
-        messages: how many it has.
-        notes: what was wrong, and what could not be kept, a line each; empty when nothing was.
+        directory: the repaired recording.
+        messages: their number.
+        notes: damage and losses, a line each; empty for a whole recording.
         kept: the damaged files, renamed; none when all of their content was saved.
     """
 
@@ -52,11 +52,11 @@ def repair(path: Path, out: Path | None = None, compression: str = "zstd") -> Re
 
     Args:
         path: a recording (directory, run directory or storage file).
-        out: where the whole one goes; None replaces the damaged one.
+        out: directory of the repaired one; None replaces the damaged one.
         compression: of the new chunks.
 
     Raises:
-        ConfigurationError: nothing is readable, or the place cannot be written; the damaged one is as it was.
+        ConfigurationError: nothing is readable, or the place cannot be written; the recording is unchanged.
     """
     bag = read_bag(path)
     directory = bag.path if bag.path.is_dir() else bag.path.parent
@@ -108,12 +108,12 @@ def _facts(topic: RecordedTopic) -> TopicMetadata:
 
 
 def _replace(bag: Bag, directory: Path, done: Repaired) -> list[Path]:
-    """Put the new files in the place of the old ones; a crash in between leaves both.
+    """Replace the old files by the new ones; a crash in between leaves both.
 
-    Nothing but the recording's own files is renamed or deleted, and nothing is written over.
+    Only the recording's own files are renamed or deleted, and none is overwritten.
     """
-    told = [directory / METADATA_FILE] if (directory / METADATA_FILE).exists() else []
-    old_files, new_files = [*bag.files, *told], sorted(done.directory.iterdir())
+    metadata = [directory / METADATA_FILE] if (directory / METADATA_FILE).exists() else []
+    old_files, new_files = [*bag.files, *metadata], sorted(done.directory.iterdir())
     for new in new_files:
         place = directory / new.name
         if os.path.lexists(place) and place not in old_files:
@@ -122,11 +122,11 @@ def _replace(bag: Bag, directory: Path, done: Repaired) -> list[Path]:
     for old in old_files:
         aside = _aside(old)
         kept.append(old.replace(aside))
-        # Under the name by which SQLite finds it.
+        # Under the name that SQLite expects.
         kept += [path.replace(f"{aside}{suffix}") for path, suffix in companions(old)]
     for new in new_files:
         new.replace(directory / new.name)
-    # Only what lacks nothing but its end is in the new one to the last byte.
+    # Only a recording that merely lacks its end is complete in the new files.
     if all(note.endswith((NOT_CLOSED, NO_METADATA)) for note in done.notes):
         for old in kept:
             old.unlink()
@@ -135,7 +135,7 @@ def _replace(bag: Bag, directory: Path, done: Repaired) -> list[Path]:
 
 
 def _aside(old: Path) -> Path:
-    """A name for the old file that nothing else has."""
+    """Return an unused name for the old file."""
     name, number = old.with_name(old.name + KEPT), 1
     while os.path.lexists(name):
         number += 1
@@ -144,7 +144,7 @@ def _aside(old: Path) -> Path:
 
 
 def _written(bag: Bag, directory: Path, compression: str, name: str | None = None) -> Repaired:
-    """The recording in a new directory; without room for it there is none."""
+    """Write the recording to a new directory, or none at all."""
     if compression not in ("none", "zstd"):
         raise ConfigurationError("compression", repr(compression), "none or zstd")
     known: dict[str, Definition] = {}
@@ -183,7 +183,7 @@ def _copy(bag: Bag, writer: BagWriter, known: dict[str, Definition]) -> None:
 
 
 def _announced(topic: RecordedTopic, writer: BagWriter, known: dict[str, Definition]) -> Channel:
-    """The topic as it was; one without a definition gets the one that its type has by name."""
+    """Add the topic unchanged; one without a definition gets that of its type's name."""
     if topic.original is not None and (topic.definition or topic.encoding != "ros2msg"):
         return writer.copy_topic(*topic.original, _offered(topic))
     known.setdefault(topic.type, Definition(topic.definition, ""))
@@ -195,7 +195,7 @@ def _no_room(writer: BagWriter) -> ConfigurationError:
 
 
 def _lost(bag: Bag, directory: Path) -> list[str]:
-    """What was readable and is not in the files that were written: they are read again."""
+    """Read the written files again, and return what was readable before and is missing in them."""
     found: Counter[str] = Counter()
     others = texts = 0
     for file in directory.glob("*.mcap"):

@@ -1,4 +1,4 @@
-"""What a message type looks like: the text that a bag carries with it, and the type's hash."""
+"""Definitions of message types: the text that a bag carries, and the type's hash."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Definition(NamedTuple):
 
 @cache
 def typestore() -> Typestore:
-    """The message definitions of ROS 2 Jazzy; made once, it takes a tenth of a second."""
+    """Return the message definitions of ROS 2 Jazzy; loaded once, in a tenth of a second."""
     return get_typestore(Stores.ROS2_JAZZY)
 
 
@@ -32,7 +32,7 @@ def definition(type_name: str) -> Definition:
     """Look a type up among ROS 2 Jazzy's own, else in the installed packages.
 
     Raises:
-        ConfigurationError: nobody knows it.
+        ConfigurationError: the type is unknown.
     """
     store = typestore()
     if type_name not in store.fielddefs:
@@ -46,10 +46,10 @@ def _learn(type_name: str) -> None:
     from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
     store = typestore()
-    wanted: list[str] = [type_name]
+    pending: list[str] = [type_name]
     found: dict[str, Any] = {}
-    while wanted:
-        name = wanted.pop()
+    while pending:
+        name = pending.pop()
         if name in store.fielddefs or name in found:
             continue
         try:
@@ -59,7 +59,7 @@ def _learn(type_name: str) -> None:
             raise ConfigurationError(type_name, "no definition", _EXPECTED) from None
         parsed = get_types_from_msg(text, name)
         found |= parsed
-        wanted += [used for _, fields in parsed.values() for _, field in fields for used in _names(field)]
+        pending += [used for _, fields in parsed.values() for _, field in fields for used in _names(field)]
     store.register(found)
 
 

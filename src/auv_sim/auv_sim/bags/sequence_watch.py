@@ -1,13 +1,13 @@
-"""Counts messages that never arrived, from the numbers that publishers give them. Needs no ROS."""
+"""Counts lost messages by the sequence numbers of their publishers. ROS-free."""
 
 from __future__ import annotations
 
 
 class SequenceWatch:
-    """Watches one topic. Numbers count up by one for each publisher; who published is not told.
+    """Watches one topic. Numbers increase by one for each publisher; the publisher of a number is unknown.
 
-    A number that continues none of the known publishers belongs to a new one while there are more publishers
-    than known ones, or when it is 1; otherwise it shows a gap in one that is known.
+    A number that continues no known publisher belongs to a new one while there are more publishers than known
+    ones, or when it is 1; otherwise it shows a gap of a known one.
     """
 
     def __init__(self) -> None:
@@ -16,7 +16,7 @@ class SequenceWatch:
         self._first = -1
 
     def note(self, number: int, publishers: int) -> None:
-        """Take in one number (0: the middleware gives none); `publishers` is how many there are now."""
+        """Process one number (0: the middleware gives none); `publishers` is their present count."""
         if number == self._first:
             self._first += 1
             return
@@ -39,6 +39,6 @@ class SequenceWatch:
                 k = max(behind, key=known.__getitem__)
                 self.lost += number - known[k]
         known[k] = number + 1
-        # The publisher that spoke last is looked at first.
+        # The publisher of the last message is checked first.
         known[0], known[k] = known[k], known[0]
         self._first = known[0]

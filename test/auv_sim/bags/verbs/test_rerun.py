@@ -19,7 +19,7 @@ from auv_path_following import config_files, vehicle
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.kinds.line import Line
 from auv_path_following.missions import mission_file
-from auv_sim.bags.content.rerun_pilot import _Chain, _Phase, _Step
+from auv_sim.bags.content.rerun_pilot import _Phase, _RerunPilot, _Step
 from auv_sim.bags.definitions import typestore
 from auv_sim.bags.writing.bag_writer import BagWriter
 from auv_sim.cli import bag as bag_command
@@ -153,7 +153,9 @@ def test_after_a_gap_the_chain_rejoins_as_the_nodes_did(resumes: bool) -> None:
     """16 s without odometry, the vehicle carried to 12 m: at its last speed P would be at 36 m."""
     parameters = params_file.load(config_files.find("params", "paper"), SUITE)
     mission, hull = mission_file.load("paper_composite"), vehicle.load("remus100")
-    chain = _Chain(parameters, dataclasses.replace(mission, path=CompositePath([Line(0, 0, 100.0, 0)])), hull)
+    chain = _RerunPilot(
+        parameters, dataclasses.replace(mission, path=CompositePath([Line(0, 0, 100.0, 0)])), hull
+    )
 
     def step(seconds: float, north: float, phase: _Phase) -> float:
         stamp = round(seconds * 1e9)

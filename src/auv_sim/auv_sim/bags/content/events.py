@@ -1,4 +1,4 @@
-"""What happened during a recording, in its order: states, switches, saturation, diagnostics, warnings."""
+"""Events of a recording in their order: states, switches, saturation, diagnostics, warnings."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ _LEVELS = {0: "OK", 1: "WARN", 2: "ERROR", 3: "STALE"}
 _STATE_LEVELS: dict[str, int] = {MissionState.HOLDING: 1, MissionState.ABORTED: 2}
 _LOG_WARNING = 30
 _LOG_NAMES = {30: "WARN", 40: "ERROR", 50: "FATAL"}
-#: Interruptions of a saturation shorter than this do not make two of it, s.
+#: Shorter interruptions do not divide a saturation, s.
 _SAME = 0.5
 
 
 @dataclass(frozen=True)
 class Event:
-    """One thing that happened.
+    """One event.
 
     Attributes:
         time: recorded time, s.
         kind: state, switch, saturation, rate limit, diagnostics, log.
-        text: for people.
-        level: 0 as it should be, 1 to be looked at, 2 bad.
+        text: one line.
+        level: 0 normal, 1 warning, 2 error.
     """
 
     time: float
@@ -45,7 +45,7 @@ class Event:
 
 
 def events_of(flight: RecordedMission) -> list[Event]:
-    """Everything worth telling, by time."""
+    """Return all events by time."""
     bag = flight.bag
     found = [*_states(bag), *_diagnostics(bag), *_log(bag), *_flown(flight)]
     return sorted(found, key=lambda event: event.time)
@@ -63,7 +63,7 @@ def _messages(bag: Bag, name: str) -> list[tuple[int, Any]]:
 
 
 def _states(bag: Bag) -> list[Event]:
-    """Each change of a mission's state; its repetitions, once a second, are no events."""
+    """Return each change of a mission's state, without its repetitions once a second."""
     events = []
     for topic in bag.topics.values():
         if topic.name.rsplit("/", 1)[-1] != topics.MISSION_STATE.name:
@@ -76,7 +76,7 @@ def _states(bag: Bag) -> list[Event]:
 
 
 def _diagnostics(bag: Bag) -> list[Event]:
-    """Each change of a status, from the first that is not OK on."""
+    """Return each change of a status, from the first that is not OK on."""
     last: dict[str, tuple[int, str]] = {}
     events = []
     for at, array in _messages(bag, topics.DIAGNOSTICS.name):
@@ -119,16 +119,16 @@ def _flown(flight: RecordedMission) -> list[Event]:
     ]
     if hull is not None:
         at_stop = np.abs(flown.rudder_cmd) >= hull.rudder.max_angle * (1 - 1e-6)
-        events += _spells(flown.t, at_stop, "saturation", "rudder command at its limit")
+        events += _intervals(flown.t, at_stop, "saturation", "rudder command at its limit")
         rudder = flown.rudder if np.isfinite(flown.rudder).any() else flown.rudder_cmd
         elapsed = np.maximum(np.diff(flown.t), 1e-9)
         fast = np.abs(np.diff(rudder)) / elapsed >= hull.rudder.max_rate * (1 - 1e-6)
-        events += _spells(flown.t[1:], fast, "rate limit", "rudder at its fastest")
+        events += _intervals(flown.t[1:], fast, "rate limit", "rudder at its fastest")
     return events
 
 
-def _spells(t: NDArray[np.float64], active: NDArray[np.bool_], kind: str, text: str) -> list[Event]:
-    """One event for each spell in which something was so."""
+def _intervals(t: NDArray[np.float64], active: NDArray[np.bool_], kind: str, text: str) -> list[Event]:
+    """Return one event for each interval in which `active` holds."""
     rows = np.flatnonzero(active)
     if not rows.size:
         return []
@@ -141,7 +141,7 @@ def _spells(t: NDArray[np.float64], active: NDArray[np.bool_], kind: str, text: 
 
 
 def diagnostic_spans(bag: Bag) -> dict[str, list[tuple[float, float, int, str]]]:
-    """For each status name: (from, to, level, message) as long as level and message stay the same, s."""
+    """Return status name -> intervals (from, to, level, message) of equal level and message, s."""
     spans: dict[str, list[tuple[float, float, int, str]]] = {}
     for at, array in _messages(bag, topics.DIAGNOSTICS.name):
         time = at * 1e-9

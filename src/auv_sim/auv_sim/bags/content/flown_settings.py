@@ -1,4 +1,4 @@
-"""What a mission was flown with, name by name, so that two of them can be compared."""
+"""The settings of recorded missions, name by name, for their comparison."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from auv_sim.bags.content.recorded_mission import (
 )
 from auv_sim.bags.reading.recording import Bag
 
-#: Files that the parameters name: their content counts, not where they lay.
+#: Files that the parameters name: their content is compared, not their place.
 _FILES = (MISSION, VEHICLE, FORMER_CONTROLLER_MODEL, CONTROLLER_MODEL, "sea.yaml")
-#: Parameters that say where something lay.
+#: Parameters that are places of files.
 _PLACES = ("directory", "mission", "vehicle", "sea")
 
 
 def settings_of(bag: Bag) -> dict[str, str]:
-    """Every parameter and every key of the files that were flown: name -> value as text."""
+    """Return every parameter and every key of the flown files: name -> value as text."""
     values: dict[str, str] = {}
     with configuration(bag) as directory:
         if (directory / PARAMS).exists():
@@ -39,7 +39,7 @@ def settings_of(bag: Bag) -> dict[str, str]:
 
 
 def differences(bags: list[Bag]) -> dict[str, list[str | None]]:
-    """Return the settings that are not the same in all recordings: name -> value in each, None where unset.
+    """Return the settings that differ between recordings: name -> value in each, None where unset.
 
     Raises:
         ConfigurationError: a recorded file cannot be read.
@@ -50,7 +50,7 @@ def differences(bags: list[Bag]) -> dict[str, list[str | None]]:
 
 
 def _mapping(value: Any) -> dict[str, Any]:
-    """The mapping that a recorded file should hold; empty for anything else."""
+    """Return a recorded file's mapping; empty for any other content."""
     return value if isinstance(value, dict) else {}
 
 

@@ -1,4 +1,4 @@
-"""The mission in a recording: its run, its path and its configuration, as far as they can be found."""
+"""The mission in a recording: its run, its path and its configuration, as far as they are recorded."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ CONTROLLER_MODEL, FORMER_CONTROLLER_MODEL = "controller_model.yaml", "believed.y
 
 @dataclass
 class RecordedMission:
-    """What a recording tells about a mission; None where it tells nothing.
+    """The mission in a recording; None where it lacks something.
 
     Attributes:
         bag: the recording.
         run: the odometry's rows.
-        mission, vehicle: what was flown, and with what.
-        notes: why something is missing, a line each.
+        mission, vehicle: of the flight.
+        notes: reasons for what is missing, a line each.
     """
 
     bag: Bag
@@ -48,29 +48,29 @@ class RecordedMission:
 
     @property
     def summary(self) -> MissionSummary | None:
-        """The figures, where both the run and its path are known."""
+        """The figures, where run and path are known."""
         if self.run is None or self.mission is None:
             return None
         return summarise(self.run, self.mission.path)
 
     @property
     def by_odometry(self) -> ByOdometry | None:
-        """The distances that the vehicle's odometry shows, where the true ones are known beside them."""
+        """The distances by the vehicle's odometry, where the true ones are known, too."""
         if self.run is None or self.mission is None:
             return None
         return by_odometry(self.run, self.mission.path)
 
 
 def mission_in(bag: Bag, mission: str | None = None, namespace: str | None = None) -> RecordedMission:
-    """Find out what was flown.
+    """Find the mission of a recording.
 
     Args:
         bag: the recording, with all messages of the contract's topics.
         mission: a mission file instead of the recorded one.
-        namespace: which vehicle's topics.
+        namespace: of the vehicle.
 
     Raises:
-        ConfigurationError: `mission` cannot be used, or several vehicles and no namespace.
+        ConfigurationError: `mission` cannot be used, or there are several vehicles and no namespace.
     """
     notes: list[str] = []
     run = None
@@ -106,7 +106,7 @@ def controller_model(directory: Path) -> Path:
 
 
 def texts_of(bag: Bag) -> dict[str, str]:
-    """The configuration as it was flown, by file name: from within the bag, else from beside it."""
+    """Return the flown configuration by file name: from the bag, else from beside it."""
     if bag.texts:
         return dict(sorted(bag.texts.items()))
     root = bag.path if bag.path.is_dir() else bag.path.parent
@@ -115,10 +115,9 @@ def texts_of(bag: Bag) -> dict[str, str]:
 
 @contextlib.contextmanager
 def configuration(bag: Bag) -> Iterator[Path]:
-    """A directory with the configuration's files, for as long as it is needed.
+    """Provide a temporary directory with the configuration's files.
 
-    A name in a recording is not trusted: one that leads out of the directory, or that no file can have,
-    is left out.
+    Names in a recording are not trusted: one that leads out of the directory, or is invalid, is left out.
     """
     with tempfile.TemporaryDirectory(prefix="auv-bag-") as name:
         directory = Path(name).resolve()
@@ -132,7 +131,7 @@ def configuration(bag: Bag) -> Iterator[Path]:
 
 
 def lockstep_of(bag: Bag) -> bool | None:
-    """Whether the mission was flown in lockstep; None when the recording does not tell."""
+    """Return whether the mission was flown in lockstep; None where that is not recorded."""
     with configuration(bag) as directory:
         if not (directory / PARAMS).exists():
             return None

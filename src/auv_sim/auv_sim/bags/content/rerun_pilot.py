@@ -1,7 +1,6 @@
 """The pilot without ROS and without a plant: recorded sensors in, commands out.
 
-It has the conversions of the wire in between: an angle that was sent as yaw_enu is not the same number as
-before, in its last bit.
+It includes the conversions of the wire: an angle that was sent as yaw_enu differs in its last bit.
 """
 
 from __future__ import annotations
@@ -37,7 +36,7 @@ from auv_sim.bags.reading.recording import Bag, RecordedTopic
 
 
 class Answer(NamedTuple):
-    """What the chain answers to one odometry, as it goes on the wire."""
+    """The pilot's commands for one odometry, as sent on the wire."""
 
     rudder_cmd: float
     thrust_cmd: float
@@ -69,7 +68,7 @@ class _Step(NamedTuple):
 
 
 class _Phase(NamedTuple):
-    """Whether the mission runs at an odometry, and whether it began anew or resumed after a hold there."""
+    """Whether the mission runs at an odometry, and whether it began or resumed after a hold there."""
 
     runs: bool
     begins: bool
@@ -79,13 +78,13 @@ class _Phase(NamedTuple):
 def answers(
     bag: Bag, parameters: dict[str, Any], mission: Mission, vehicle: Vehicle, namespace: str | None
 ) -> Answers:
-    """Feed a recording's sensors through the chain.
+    """Feed a recording's sensors to the pilot.
 
     Args:
         bag: the recording.
         parameters: node name -> settings.
-        mission, vehicle: what is flown.
-        namespace: which vehicle's topics.
+        mission, vehicle: of the flight.
+        namespace: of the vehicle.
 
     Raises:
         ConfigurationError: the recording has no odometry, or several vehicles.
@@ -101,9 +100,9 @@ def answers(
     recorded = {name: _column(bag, name, namespace, log_ns, lockstep) for name in Answer._fields}
     running = _running(bag, namespace, recorded[topics.DESIRED_THRUST.name])
     rows, kept = [], []
-    chain = _Chain(parameters, mission, vehicle)
+    rerun = _RerunPilot(parameters, mission, vehicle)
     for k, step in enumerate(steps):
-        answer = chain.step(step, running[k])
+        answer = rerun.step(step, running[k])
         if answer is not None:
             rows.append(answer)
             kept.append(k)
@@ -115,8 +114,8 @@ def answers(
     )
 
 
-class _Chain:
-    """The pilot, with the mission's phases as they were recorded."""
+class _RerunPilot:
+    """The pilot, with the recorded phases of the mission."""
 
     def __init__(self, parameters: dict[str, Any], mission: Mission, vehicle: Vehicle) -> None:
         guidance = parameters[topics.GUIDANCE].with_mission_overrides(mission)
@@ -137,7 +136,7 @@ class _Chain:
         self._state = first_state(self._config, empty_approach())
 
     def step(self, step: _Step, phase: _Phase) -> Answer | None:
-        """Return the answer; None to an odometry that the nodes refuse too."""
+        """Return the answer; None for an odometry that the nodes refuse, too."""
         if phase.begins:
             running = states.MissionStatus(states.RUNNING)
             self._guide(at_the_beginning(self._config.guide, running, empty_approach()))
@@ -169,7 +168,7 @@ class _Chain:
 
 
 def _in_phase(mission: states.MissionStatus, phase: _Phase) -> states.MissionStatus:
-    """Return the state as recorded; a mission that holds or is complete changes of its own accord only."""
+    """Return the recorded state; a mission that holds or is complete changes only through its own law."""
     if phase.resumes:
         return states.MissionStatus(states.HOLDING)
     if phase.runs:
@@ -179,7 +178,7 @@ def _in_phase(mission: states.MissionStatus, phase: _Phase) -> states.MissionSta
 
 
 def _steps(bag: Bag, namespace: str | None, lockstep: bool, timeout: float) -> Iterator[_Step]:
-    """Every odometry with its velocity through water: of the same stamp in lockstep, else the newest one."""
+    """Yield each odometry with its velocity through water: of the same stamp in lockstep, else the newest."""
     odom, through = bag.find(topics.ODOM.name, namespace), bag.find(topics.WATER_VELOCITY.name, namespace)
     if odom is None:
         return
@@ -206,7 +205,7 @@ def _steps(bag: Bag, namespace: str | None, lockstep: bool, timeout: float) -> I
 def _column(
     bag: Bag, name: str, namespace: str | None, log_ns: NDArray[np.int64], lockstep: bool
 ) -> NDArray[np.float64]:
-    """A Float64 topic, one value for each odometry: row by row in lockstep, else the first one after it."""
+    """Return a Float64 topic, a value for each odometry: row by row in lockstep, else the first after it."""
     topic: RecordedTopic | None = bag.find(name, namespace)
     column = np.full(log_ns.size, np.nan)
     if topic is None or not topic.count:
@@ -223,14 +222,14 @@ def _column(
 
 
 def _running(bag: Bag, namespace: str | None, thrust: NDArray[np.float64]) -> list[_Phase]:
-    """The mission's phase at each odometry.
+    """Return the mission's phase at each odometry.
 
-    The thrust that guidance asked for tells exactly from which odometry on a mission ran. Where it falls to 0
+    Guidance's desired thrust shows exactly from which odometry on a mission ran. Where it falls to 0
     because the path's end was reached, that odometry was still guided; after an abort it was not.
     """
     topic = bag.find(topics.MISSION_STATE.name, namespace)
-    said = [str(message.data) for _, message in messages_of(topic)] if topic is not None else []
-    words = [word for word, _ in groupby(said)]  # the state is repeated once a second
+    recorded = [str(message.data) for _, message in messages_of(topic)] if topic is not None else []
+    words = [word for word, _ in groupby(recorded)]  # the state is repeated once a second
     place, ran, rows = 0, False, []
     for value in thrust:
         runs = bool(value > 0.0)

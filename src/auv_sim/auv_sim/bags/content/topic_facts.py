@@ -1,4 +1,4 @@
-"""How well a topic was recorded: rate, gaps, jitter, order, losses."""
+"""Quality of a recorded topic: rate, gaps, jitter, order, losses."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ from auv_sim.bags.sequence_watch import SequenceWatch
 
 #: An interval this many times the usual one is a gap.
 _GAP = 3.0
-#: Fewer intervals than this say nothing about a rate.
+#: Fewest intervals for a rate.
 _FEW = 3
 
 
 @dataclass(frozen=True)
 class TopicFacts:
-    """One topic; None where it has too few messages, or no stamps, to tell.
+    """One topic; None where it has too few messages, or no stamps.
 
     Attributes:
-        name, type, count, bytes: what is there.
+        name, type, count, bytes: of the topic and its messages.
         rate: messages per second between the first and the last one.
         gaps: intervals longer than three times the usual (median) one.
         longest_gap: the longest interval, s.
         jitter: standard deviation of the intervals, gaps left out, ms.
         out_of_order: header stamps older than an earlier one.
-        lost: messages that their publisher numbered and nobody received.
+        lost: messages that were published and not received, by the sequence numbers.
     """
 
     name: str
@@ -43,7 +43,7 @@ class TopicFacts:
 
 
 def facts_of(bag: Bag) -> list[TopicFacts]:
-    """Every topic of a bag, by name."""
+    """Return every topic of a bag, by name."""
     return [_facts(topic) for topic in sorted(bag.topics.values(), key=lambda topic: topic.name)]
 
 
@@ -57,7 +57,7 @@ def _facts(topic: RecordedTopic) -> TopicFacts:
         rate = intervals.size / span if span > 0.0 else None
     if intervals.size >= _FEW:
         long = intervals > _GAP * max(float(np.median(intervals)), 1e-9)
-        # Latched words and events come when they come: no rhythm, no gap.
+        # Latched topics and events have no period, hence no gaps.
         if long.mean() < 0.2:
             gaps, jitter = int(long.sum()), float(intervals[~long].std() * 1e3)
     return TopicFacts(
@@ -84,7 +84,7 @@ def _out_of_order(topic: RecordedTopic) -> int | None:
 
 
 def header_stamps(topic: RecordedTopic) -> NDArray[np.int64] | None:
-    """The stamps of a type that begins with a header, ns, shape (n,); None for any other."""
+    """Return the stamps of a type that begins with a header, ns, shape (n,); None for any other."""
     if not topic.definition.lstrip().startswith(("std_msgs/Header header", "std_msgs/msg/Header header")):
         return None
     heads = [message[:12] for message in topic.messages if message is not None and len(message) >= 12]

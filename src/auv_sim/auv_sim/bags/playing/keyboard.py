@@ -1,4 +1,4 @@
-"""Single keys from a terminal, without waiting for them."""
+"""Single keys from a terminal, without waiting."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from types import TracebackType
 
 
 class Keyboard:
-    """Within `with`, keys come one by one; where there is no terminal none ever comes."""
+    """Delivers single keys within `with`; none without a terminal."""
 
     def __enter__(self) -> Keyboard:
         self._before = None
@@ -21,11 +21,11 @@ class Keyboard:
 
     @property
     def there(self) -> bool:
-        """Whether keys can come."""
+        """Whether there is a terminal."""
         return self._before is not None
 
     def pressed(self) -> str:
-        """The key that was pressed since the last call; empty for none."""
+        """Return the key pressed since the last call; empty for none."""
         if self._before is None or not select.select([sys.stdin], [], [], 0.0)[0]:
             return ""
         return sys.stdin.read(1)

@@ -1,4 +1,4 @@
-"""Where a replay is and what its keys do, in one line that stays where it is."""
+"""Position and keys of a replay, in one line."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ import time
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn
 
-#: How often the line changes, s of wall time.
+#: Period of updates, s of wall time.
 _PERIOD = 0.1
-#: What the keys do, for people.
+#: The keys and their actions.
 KEYS = "space pause, s step, q end"
 
 
 class PlayBar:
-    """Shows state and position; with a keyboard, the keys too. Where there is no terminal, only the end.
+    """Shows state and position, and with a keyboard the keys. Without a terminal, only the end.
 
     Args:
-        console: where to.
-        length: of what is played, s.
+        console: to draw on.
+        length: of the selection, s.
         keys: whether there is a keyboard.
     """
 

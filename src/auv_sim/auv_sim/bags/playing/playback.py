@@ -1,4 +1,4 @@
-"""Publishes recorded messages as they are, at the pace at which they were recorded."""
+"""Publishes recorded messages unchanged, at their recorded pace."""
 
 from __future__ import annotations
 
@@ -25,16 +25,16 @@ from auv_sim.bags.playing.keyboard import Keyboard
 from auv_sim.bags.playing.play_bar import PlayBar
 from auv_sim.bags.reading.recording import Bag, RecordedTopic
 
-#: What nodes say of themselves: repeating it would only pretend that they are there.
+#: Topics about the recorded nodes, which are absent when they are played.
 _NOT_REPEATED = ("/rosout", "/parameter_events")
 _DEPTH = 1000
 _INTERRUPTED = 130
-#: The clock goes on at least so often while nothing is published, s of wall time.
+#: Longest period of /clock while nothing is published, s of wall time.
 _CLOCK_PERIOD = 0.025
 
 
 class Selected(NamedTuple):
-    """What to play: name to publish under -> topic; (log time ns, name, data) by time; seconds."""
+    """What to play: published name -> topic; (log time ns, name, data) by time; length, s; first time, ns."""
 
     topics: dict[str, RecordedTopic]
     messages: list[tuple[int, str, bytes]]
@@ -54,28 +54,43 @@ def select(
     """Choose topics and time.
 
     Raises:
-        ConfigurationError: a name that no topic has, or nothing is left.
+        ConfigurationError: no topic has a name, or nothing is left.
     """
 
-    def matches(topic: str, wanted: str) -> bool:
-        return topic == wanted or topic.rsplit("/", 1)[-1] == wanted
-
-    for wanted in [*(names or []), *exclude, *remaps]:
-        if not any(matches(topic, wanted) for topic in bag.topics):
-            known = ", ".join(sorted(bag.topics))
-            raise ConfigurationError(str(bag.path), f"no topic {wanted}", f"one of {known}")
+    _check_names(bag, [*(names or []), *exclude, *remaps])
     chosen: dict[str, RecordedTopic] = {}
     for name, topic in bag.topics.items():
-        if names is not None and not any(matches(name, wanted) for wanted in names):
+        if names is not None and not any(_matches(name, pattern) for pattern in names):
             continue
-        if any(matches(name, wanted) for wanted in exclude) or (names is None and name in _NOT_REPEATED):
+        if any(_matches(name, pattern) for pattern in exclude) or (names is None and name in _NOT_REPEATED):
             continue
         if own_clock and name == CLOCK.name:
             continue
-        new = next((new for old, new in remaps.items() if matches(name, old)), name)
+        new = next((new for old, new in remaps.items() if _matches(name, old)), name)
         chosen[new if new.startswith("/") else f"{name.rsplit('/', 1)[0]}/{new}"] = topic
     begin = bag.span_ns[0] + round(start * 1e9)
     end = begin + round(duration * 1e9) if duration is not None else bag.span_ns[1]
+    messages = _messages(bag, chosen, begin, end)
+    if not messages:
+        raise ConfigurationError(str(bag.path), "nothing to play", "messages on these topics in this time")
+    return Selected(chosen, messages, (min(end, bag.span_ns[1]) - begin) * 1e-9, begin)
+
+
+def _matches(topic: str, name: str) -> bool:
+    return topic == name or topic.rsplit("/", 1)[-1] == name
+
+
+def _check_names(bag: Bag, names: list[str]) -> None:
+    for name in names:
+        if not any(_matches(topic, name) for topic in bag.topics):
+            known = ", ".join(sorted(bag.topics))
+            raise ConfigurationError(str(bag.path), f"no topic {name}", f"one of {known}")
+
+
+def _messages(
+    bag: Bag, chosen: dict[str, RecordedTopic], begin: int, end: int
+) -> list[tuple[int, str, bytes]]:
+    """Return the messages of a time, ns, after the latched ones that are in force at its begin."""
     by_topic = {id(topic): name for name, topic in chosen.items()}
     messages, before = [], {}
     for topic, k in bag.in_order():
@@ -86,20 +101,16 @@ def select(
             before[public] = data
         elif topic.log_ns[k] <= end:
             messages.append((topic.log_ns[k], public, data))
-    # What a late subscriber would still have been told.
     latched = DurabilityPolicy.TRANSIENT_LOCAL
     kept = [(begin, n, data) for n, data in before.items() if profile_of(chosen[n]).durability == latched]
-    messages = kept + messages
-    if not messages:
-        raise ConfigurationError(str(bag.path), "nothing to play", "messages on these topics in this time")
-    return Selected(chosen, messages, (min(end, bag.span_ns[1]) - begin) * 1e-9, begin)
+    return kept + messages
 
 
 def profile_of(topic: RecordedTopic) -> QoSProfile:
-    """What the recorded publishers offered; where they differ, what all of them did."""
+    """Return the QoS that all recorded publishers of a topic offered."""
     try:
         offers = parse_qos(topic.qos) if topic.qos else []
-    except Exception:  # a damaged text makes the parser fail in any way it likes
+    except Exception:  # a damaged text makes the parser raise any exception
         offers = []
     best_effort = any(offer.reliability is QosReliability.BEST_EFFORT for offer in offers)
     latched = bool(offers) and all(offer.durability is QosDurability.TRANSIENT_LOCAL for offer in offers)
@@ -112,13 +123,13 @@ def profile_of(topic: RecordedTopic) -> QoSProfile:
 
 
 class Player:
-    """A node that publishes.
+    """A node that publishes a selection.
 
     Args:
         selected: what to play.
         rate: times the recorded speed.
         clock: whether to publish /clock.
-        console: where the position is shown.
+        console: for the position.
 
     Raises:
         ConfigurationError: a type is not installed, or /clock is published already.
@@ -141,10 +152,10 @@ class Player:
             self._publishers[name] = self._node.create_publisher(kind, name, profile_of(topic))
         self._clock = self._node.create_publisher(ClockMessage, CLOCK.name, _DEPTH) if clock else None
         self._message = ClockMessage()
-        self._told = -1
+        self._published_ns = -1
 
     def _look_around(self) -> None:
-        """Look for another /clock before this one is published."""
+        """Check for another /clock before publishing this one."""
         claim = Claim(holder="replay", namespace="/", names=(), clock=True)
         look = GraphLook(self._node, claim)
         try:
@@ -156,7 +167,7 @@ class Player:
             raise
 
     def play(self, delay: float, loop: bool, paused: bool) -> int:
-        """Play to the end (again and again); returns the exit code."""
+        """Play to the end, with `loop` repeatedly; return the exit code."""
         time.sleep(delay)
         with Keyboard() as keys, PlayBar(self._console, self._selected.length, keys.there) as bar:
             try:
@@ -170,7 +181,7 @@ class Player:
         return 0
 
     def _once(self, keys: Keyboard, bar: PlayBar, paused: bool) -> bool:
-        """One pass; False when a person has ended it."""
+        """Play once; return False when ended by a key."""
         begin, shift = self._selected.first_ns, time.monotonic()
         bar.show(0.0, paused, at_once=True)
         for at, name, data in self._selected.messages:
@@ -192,18 +203,18 @@ class Player:
                     break
                 if not paused:
                     reached = min(at, begin + round((now - shift) * self._rate * 1e9))
-                    self._tell_time(reached)
+                    self._publish_time(reached)
                     bar.show((reached - begin) * 1e-9, paused)
                 time.sleep(_CLOCK_PERIOD if paused else min(wait, _CLOCK_PERIOD))
-            self._tell_time(at)
+            self._publish_time(at)
             self._publishers[name].publish(data)
             bar.show((at - begin) * 1e-9, paused, at_once=step)
         bar.show(self._selected.length, paused, at_once=True)
         return True
 
-    def _tell_time(self, ns: int) -> None:
-        if self._clock is not None and ns != self._told:
-            self._told = ns
+    def _publish_time(self, ns: int) -> None:
+        if self._clock is not None and ns != self._published_ns:
+            self._published_ns = ns
             set_stamp(self._message.clock, max(ns, 0))
             self._clock.publish(self._message)
 

@@ -1,4 +1,4 @@
-"""Which files a recording consists of: metadata.yaml names them, and no name leads out of the directory."""
+"""The files of a recording: metadata.yaml names them, and no name leads out of the directory."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from auv_msgs_py.settings import yaml_file
 from auv_msgs_py.values.errors import ConfigurationError, printable, shortened
 from auv_sim.bags.metadata import METADATA_FILE
 
-#: What a recording is expected to be.
+#: The expected form of a recording, for messages.
 A_BAG = "a rosbag2 directory with storage files and metadata.yaml"
 #: The note of a recording that lacks this file and nothing else.
 NO_METADATA = f"no {METADATA_FILE} (the recording was not closed)"
 #: Names of storage files; the first pattern that finds one decides.
 _PATTERNS = ("*.mcap", "*.db3", "*.mcap.zstd", "*.db3.zstd", "*.bag")
-#: Suffixes of what SQLite keeps beside a file: what is not in it yet, or not any more, and an index of that.
+#: Suffixes of the files that SQLite keeps beside a database: write-ahead log, rollback journal, index.
 _COMPANIONS = ("-wal", "-journal", "-shm")
 #: Up to this version names begin with the directory's own name.
 _WITH_DIRECTORY = 3
@@ -28,7 +28,7 @@ def storage_of(path: Path) -> Path:
     """Return the recording that a path stands for: a run directory stands for the bag in it.
 
     Raises:
-        ConfigurationError: there is nothing.
+        ConfigurationError: nothing is there.
     """
     if not path.exists():
         raise ConfigurationError(str(path), "nothing", A_BAG)
@@ -91,7 +91,7 @@ def files_of(path: Path, information: dict[str, Any], notes: list[str]) -> list[
 
 
 def companions(file: Path) -> list[tuple[Path, str]]:
-    """Return what SQLite keeps beside a file until it is closed, with what it adds to the file's name."""
+    """Return the files that SQLite keeps beside an open file, with the suffixes of their names."""
     beside = [(file.with_name(file.name + suffix), suffix) for suffix in _COMPANIONS]
     return [(path, suffix) for path, suffix in beside if path.is_file()]
 
@@ -99,7 +99,7 @@ def companions(file: Path) -> list[tuple[Path, str]]:
 def _inside(directory: Path, name: str, version: object) -> Path | None:
     """Return the file of this name in the directory, or None where the name leads out of it.
 
-    A link in the directory is followed for reading only: what is renamed or deleted is the link.
+    A link in the directory is followed for reading only: renaming and deleting apply to the link.
     """
     relative = Path(name)
     if isinstance(version, int) and version <= _WITH_DIRECTORY and len(relative.parts) > 1:
@@ -117,7 +117,7 @@ def _inside(directory: Path, name: str, version: object) -> Path | None:
 
 
 def _shown(name: str) -> str:
-    """A name from a file, fit for a terminal."""
+    """Return a name from a file, safe for a terminal."""
     return shortened(printable(name), _LONG_NAME)
 
 

@@ -22,12 +22,12 @@ def everything(_: str, __: str) -> bool:
 
 
 def read_bag(path: Path, keeps: TopicFilter = everything, odometry: str | None = None) -> Bag:
-    """Read a recording, with everything that is readable in a damaged one.
+    """Read a recording; of a damaged one, all that is readable.
 
     Args:
         path: a rosbag2 directory, a run directory with one in it, or a storage file.
         keeps: which topics' messages to keep.
-        odometry: full name of the topic to take for the vehicle's odometry.
+        odometry: full name of the vehicle's odometry topic.
 
     Raises:
         ConfigurationError: there is no recording, or nothing of it can be read.
@@ -61,7 +61,7 @@ def read_bag(path: Path, keeps: TopicFilter = everything, odometry: str | None =
 
 
 def _read_any(bag: Bag, file: Path, keeps: TopicFilter) -> None:
-    """Add one storage file, of whatever kind."""
+    """Add one storage file of any kind."""
     # The other kinds are imported when met: few recordings are of them, and `rosbags` loads slowly.
     if file.suffix == PACKED:
         with tempfile.TemporaryDirectory(prefix="auv-bag-") as directory:
@@ -79,7 +79,7 @@ def _read_any(bag: Bag, file: Path, keeps: TopicFilter) -> None:
 
 
 def _unpack_messages(bag: Bag) -> None:
-    """Replace every packed message by its content; one without any stays, and is counted in a note."""
+    """Replace every packed message by its content; count the unreadable ones in a note."""
     unreadable = 0
     for topic in bag.topics.values():
         for k, data in enumerate(topic.messages):

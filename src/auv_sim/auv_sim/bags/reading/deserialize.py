@@ -13,10 +13,10 @@ from auv_sim.bags.reading.recording import RecordedTopic
 
 
 def deserializer(topic: RecordedTopic) -> Callable[[bytes], Any]:
-    """Decodes messages of a topic, by ROS 2 Jazzy's definitions or by the bag's own.
+    """Return a decoder for messages of a topic, by ROS 2 Jazzy's definitions or the bag's own.
 
     Raises:
-        ConfigurationError: neither knows the type.
+        ConfigurationError: the type is in neither.
     """
     store = typestore()
     if topic.type not in store.fielddefs:
@@ -29,7 +29,7 @@ def deserializer(topic: RecordedTopic) -> Callable[[bytes], Any]:
             store.register({name: kind for name, kind in types.items() if name not in store.fielddefs})
             store.fielddefs[topic.type]
         except Exception:
-            # A damaged definition makes the parser fail in any way it likes.
+            # A damaged definition makes the parser raise any exception.
             raise ConfigurationError(
                 topic.name, f"the type {topic.type or 'of no name'}", "a type whose definition is known"
             ) from None

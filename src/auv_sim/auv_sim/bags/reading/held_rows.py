@@ -1,4 +1,4 @@
-"""Which rows of a recorded run lie in a hold, from the words of `mission_state`."""
+"""Rows of a recorded run that lie in a hold, by `mission_state`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from auv_msgs_py.contract.mission_word import MissionState
 
 
 def held_rows(log_ns: NDArray[np.int64], states: Sequence[tuple[int, Any]]) -> NDArray[np.float64]:
-    """1 where the mission held at an odometry or since the one before, else 0; NaN without any state.
+    """Return 1 where the mission held at an odometry or since the one before, else 0; NaN without any state.
 
     Args:
         log_ns: shape (n,), log times of the odometry, ascending, ns.

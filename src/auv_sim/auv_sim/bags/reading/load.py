@@ -1,4 +1,4 @@
-"""Reads a recording back as a `Run`: any rosbag2 directory that speaks the wire contract, ours or not."""
+"""Reads a recording as a `Run`: any rosbag2 directory with the topics of the wire contract."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from auv_sim.bags.reading.held_rows import held_rows
 from auv_sim.bags.reading.recording import Bag, RecordedTopic
 from auv_sim.flight.run_record import Run
 
-#: Every topic that a `Run` takes something from.
+#: Every topic with signals of a `Run`.
 USED = (
     topics.ODOM,
     topics.WATER_VELOCITY,
@@ -44,7 +44,7 @@ USED = (
     topics.RUDDER_CMD,
     topics.THRUST_CMD,
 )
-#: Its words are intervals of time, not numbers.
+#: Its states are intervals of time, not numbers.
 _STATE = topics.MISSION_STATE  # fmt: skip
 
 _POSITION, _ORIENTATION = "pose.pose.position.", "pose.pose.orientation."
@@ -53,7 +53,7 @@ _POSE = (f"{_POSITION}x", f"{_POSITION}y", *(f"{_ORIENTATION}{axis}" for axis in
 
 
 class _Recorded(NamedTuple):
-    """One topic of the bag: log times (n,), ns, and what the messages hold."""
+    """One topic of the bag: log times (n,), ns, and the messages' fields."""
 
     log_ns: NDArray[np.int64]
     columns: Columns
@@ -68,12 +68,12 @@ def load(bag: Path, namespace: str | None = None, frame_ids: FrameIds | None = N
 
     Args:
         bag: the rosbag2 directory.
-        namespace: which vehicle's topics, needed only when the bag holds several (``/auv``).
+        namespace: of the vehicle, needed only when the bag holds several (``/auv``).
         frame_ids: the frame ids to accept; the contract's by default.
 
     Returns:
         The run in NED / FRD on the odometry's stamps, which strictly increase: a lone older or repeated
-        stamp is left out, and after a backward jump (a reset) nothing is read any more.
+        stamp is left out, and reading ends at a backward jump (a reset).
 
     Raises:
         ConfigurationError: not a readable recording, no odometry, topics of several vehicles, a topic
@@ -83,20 +83,20 @@ def load(bag: Path, namespace: str | None = None, frame_ids: FrameIds | None = N
 
 
 def is_used(name: str, type_name: str) -> bool:
-    """Whether a `Run` takes something from a topic, which may be odometry of any name."""
+    """Return whether a topic has signals of a `Run`; it may be odometry of any name."""
     used = {topic.name for topic in (*USED, _STATE)}
     return type_name == topics.ODOM.type or name.rsplit("/", 1)[-1] in used
 
 
 def run_of(bag: Bag, namespace: str | None = None, frame_ids: FrameIds | None = None) -> Run:
-    """As `load`, from a bag that has been read already.
+    """Return the run of a bag in memory, as `load`.
 
     Raises:
         ConfigurationError: as `load`.
     """
     recorded = {}
     for topic, found in _read(bag, namespace).items():
-        # By log time, as every reader gives them; messages of one time stay in the order of the file.
+        # By log time, as every reader sorts them; messages of one time stay in the order of the file.
         rows = np.argsort(np.array(found.log_ns, np.int64), kind="stable")
         messages = [message for k in rows if (message := found.messages[k]) is not None]
         if messages:
@@ -116,7 +116,7 @@ def run_of(bag: Bag, namespace: str | None = None, frame_ids: FrameIds | None = 
 
 
 def load_messages(bag: Path, name: str, namespace: str | None = None) -> list[tuple[int, Any]]:
-    """All messages of one topic, deserialised.
+    """Return all messages of one topic, deserialised.
 
     Args:
         bag: the rosbag2 directory.
@@ -137,12 +137,12 @@ def load_messages(bag: Path, name: str, namespace: str | None = None) -> list[tu
 
 
 def messages_of(topic: RecordedTopic) -> list[tuple[int, Any]]:
-    """(log time in ns, message) of every message that can be decoded, in the order of log time."""
+    """Return (log time in ns, message) of every decodable message, by log time."""
     decode_one = deserializer(topic)
     decoded = []
     for log_ns, cdr in sorted(zip(topic.log_ns, topic.messages, strict=True), key=itemgetter(0)):
         if cdr is not None:
-            with contextlib.suppress(Exception):  # damaged bytes fail in any way they like
+            with contextlib.suppress(Exception):  # damaged bytes raise any exception
                 decoded.append((log_ns, decode_one(cdr)))
     return decoded
 
@@ -163,7 +163,7 @@ def _decoded(topic: Topic, messages: list[bytes], bag: Path) -> Columns:
     try:
         return decode(topic.type, messages)
     except Exception as error:
-        # Bytes that are no such message: rosbags fails in any way it likes.
+        # Bytes of no such message: rosbags raises any exception.
         reason = " ".join(str(error).split())
         raise ConfigurationError(
             f"{bag}: {topic.name}", f"a damaged message ({reason})", topic.type
@@ -184,12 +184,6 @@ def _assemble(
     def aligned(topic: Topic, field: str = "data") -> Any:
         return _aligned(odometry, recorded.get(topic), field)
 
-    water = recorded.get(topics.WATER_VELOCITY)
-    sway = aligned(topics.WATER_VELOCITY, "twist.twist.linear.y")
-    if water is not None:
-        (frame,) = _frames(topics.WATER_VELOCITY, water.columns, bag)
-        if table.of_body(topics.WATER_VELOCITY.name, frame) is Convention.ENU_FLU:
-            sway = -sway
     Vx_est, Vy_est = swap_axes(*(aligned(topics.CURRENT_ESTIMATE, f"vector.{axis}") for axis in "xy"))
     Vx_true, Vy_true = swap_axes(*(aligned(topics.TRUE_CURRENT, f"vector.{axis}") for axis in "xy"))
     x_true, y_true, psi_true = _pose([aligned(topics.TRUE_ODOM, field) for field in _POSE], convention)
@@ -201,7 +195,7 @@ def _assemble(
             "psi": psi,
             "r": turn,
             "ur": aligned(topics.WATER_VELOCITY, "twist.twist.linear.x"),
-            "vr": sway,
+            "vr": _sway_sign(recorded, table, bag) * aligned(topics.WATER_VELOCITY, "twist.twist.linear.y"),
             "rudder": aligned(topics.RUDDER_STATE),
             "rudder_cmd": aligned(topics.RUDDER_CMD),
             "thrust_cmd": aligned(topics.THRUST_CMD),
@@ -224,8 +218,18 @@ def _assemble(
     return run.select(_first_flight(odometry.columns.stamp_ns))
 
 
+def _sway_sign(recorded: dict[Topic, _Recorded], table: FrameTable, bag: Path) -> float:
+    """Return -1 where the velocity through water is in FLU, whose sway is opposite to FRD's; else 1."""
+    water = recorded.get(topics.WATER_VELOCITY)
+    if water is None:
+        return 1.0
+    (frame,) = _frames(topics.WATER_VELOCITY, water.columns, bag)
+    convention = table.of_body(topics.WATER_VELOCITY.name, frame)
+    return -1.0 if convention is Convention.ENU_FLU else 1.0
+
+
 def _pose(columns: list[Any], convention: Convention) -> tuple[Any, Any, Any]:
-    """x, y (m) and psi (rad), NED, from the columns of `_POSE`."""
+    """Return x, y (m) and psi (rad), NED, from the columns of `_POSE`."""
     x, y, yaw = columns[0], columns[1], yaw_of_quaternion(*columns[2:])
     if convention is Convention.ENU_FLU:
         (x, y), yaw = swap_axes(x, y), flip_yaw(yaw)
@@ -233,7 +237,7 @@ def _pose(columns: list[Any], convention: Convention) -> tuple[Any, Any, Any]:
 
 
 def _first_flight(stamp: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """The rows up to the first backward jump, lone older or repeated stamps left out, shape (n,)."""
+    """Return the rows up to the first backward jump, without lone older or repeated stamps, shape (n,)."""
     newest_before = np.concatenate(([np.iinfo(np.int64).min], np.maximum.accumulate(stamp)[:-1]))
     older = stamp < newest_before
     jumps = np.flatnonzero(older[:-1] & older[1:])
@@ -251,17 +255,17 @@ def _frames(topic: Topic, columns: Columns, bag: Path) -> tuple[str, ...]:
 
 
 def _aligned(odometry: _Recorded, other: _Recorded | None, field: str) -> NDArray[np.float64]:
-    """One number of a topic for each odometry, shape (n,); NaN before the topic's first message."""
+    """Return one field of a topic for each odometry, shape (n,); NaN before the topic's first message."""
     n = odometry.log_ns.size
     if other is None:
         return np.full(n, np.nan)
     values = other.columns.column(field)
     if other.columns.frames:
         kept = _first_flight(other.columns.stamp_ns)
-        values, times, wanted = values[kept], other.columns.stamp_ns[kept], odometry.columns.stamp_ns
+        values, times, at = values[kept], other.columns.stamp_ns[kept], odometry.columns.stamp_ns
     elif values.size == n:
         return values
     else:
-        times, wanted = other.log_ns, odometry.log_ns
-    row = np.searchsorted(times, wanted, side="right") - 1
+        times, at = other.log_ns, odometry.log_ns
+    row = np.searchsorted(times, at, side="right") - 1
     return np.where(row >= 0, values[np.maximum(row, 0)], np.nan)

@@ -22,7 +22,7 @@ class RecordedTopic:
         qos: what the publishers offered, as YAML.
         original: the records that describe it in an MCAP file.
         log_ns, publish_ns, sequence, sizes: for each message, ns and bytes.
-        messages: serialised; None where only the size was asked for.
+        messages: serialised; None where only the size was requested.
     """
 
     name: str
@@ -53,19 +53,19 @@ class RecordedTopic:
 
 @dataclass
 class Bag:
-    """What was read.
+    """A recording.
 
     Attributes:
-        path: what was asked for.
+        path: of the recording.
         odometry: full name of the topic that counts as the vehicle's odometry, where one was chosen.
         files: the storage files, with the number of messages in each.
         topics: by full name.
-        notes: one line for each damage; empty when all is well.
+        notes: one line for each damage; empty for a whole recording.
         size: bytes of the files.
-        texts: what the recorder put into the bag by name (the configuration that was flown).
-        records: what else MCAP files hold, metadata and attachments of others than our recorder.
-        profile: what MCAP files say of themselves.
-        repeated: messages that a further file begins with and that an earlier one has; they are left out.
+        texts: the flown configuration that the recorder stored, by file name.
+        records: further metadata and attachments of MCAP files, from other recorders.
+        profile: of MCAP files.
+        repeated: messages at the begin of a file that an earlier one has; they are left out.
         order: (topic, number of the message in it) for every message, in the order of the files.
     """
 
@@ -93,10 +93,10 @@ class Bag:
         return (min(map(min, held)), max(map(max, held))) if held else (0, 0)
 
     def find(self, name: str, namespace: str | None = None) -> RecordedTopic | None:
-        """The topic whose name ends in `name`, of one vehicle; for odometry see `_find_odometry`.
+        """Return the topic whose name ends in `name`, of one vehicle; for odometry see `_find_odometry`.
 
         Raises:
-            ConfigurationError: several vehicles have it and none is chosen.
+            ConfigurationError: several vehicles have it, and none is chosen.
         """
         found = [
             topic
@@ -113,10 +113,10 @@ class Bag:
         return found[0] if found else None
 
     def _find_odometry(self, namespace: str | None) -> RecordedTopic | None:
-        """The odometry that was asked for, else the only one of its type; a simulator's truth is none.
+        """Return the chosen odometry, else the only one of its type; a simulator's truth does not count.
 
         Raises:
-            ConfigurationError: none has the name that was asked for, or none was and there are several.
+            ConfigurationError: the chosen one is missing, or none is chosen and there are several.
         """
         kind, truth = topics.ODOM.type, topics.TRUE_ODOM.name
         there = sorted(
@@ -126,23 +126,23 @@ class Bag:
         )
         listed = " and ".join(there)
         if self.odometry is not None:
-            asked = self.topics.get("/" + self.odometry.strip("/"))
-            if asked is None or asked.type != kind:
+            chosen = self.topics.get("/" + self.odometry.strip("/"))
+            if chosen is None or chosen.type != kind:
                 expected = f"one of {listed}" if there else f"a topic of type {kind}"
                 raise ConfigurationError("--odometry", self.odometry, expected)
-            return asked
+            return chosen
         if len(there) > 1:
             found = f"no topic {topics.ODOM.name}, but {listed}"
             raise ConfigurationError(str(self.path), found, "--odometry with one of them")
         return self.topics[there[0]] if there else None
 
     def in_order(self) -> Iterator[tuple[RecordedTopic, int]]:
-        """Every message by log time; messages of one time stay in the order of the file."""
+        """Yield every message by log time; messages of one time stay in the order of the file."""
         yield from sorted(self.order, key=lambda entry: entry[0].log_ns[entry[1]])
 
 
 def _is_of(topic: RecordedTopic, namespace: str | None, name: str | None = None) -> bool:
-    """Whether a topic is of a vehicle: directly in its namespace if a name is given, else anywhere below."""
+    """Return whether a topic is of a vehicle: directly in its namespace with a `name`, else anywhere below."""
     if namespace is None:
         return True
     above = f"/{namespace.strip('/')}/".replace("//", "/")

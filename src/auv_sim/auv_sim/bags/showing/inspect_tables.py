@@ -1,4 +1,4 @@
-"""`inspect` for people."""
+"""The tables of `inspect`."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _COLOURS = {0: "", 1: "yellow", 2: "red"}
 
 
 def show(flight: RecordedMission, facts: list[TopicFacts], events: list[Event], console: Console) -> None:
-    """One recording."""
+    """Print one recording."""
     bag = flight.bag
     first, last = bag.span_ns
     files = next(iter(bag.files)).name if len(bag.files) == 1 else f"{len(bag.files)} files"
@@ -69,7 +69,7 @@ def _topics(facts: list[TopicFacts]) -> Table:
 
 
 def mission(summary: MissionSummary, name: str) -> Table:
-    """The mission's figures, a row for each subpath."""
+    """Return the mission's figures, a row for each subpath."""
     table = Table(
         title=f"{escape(name)}: {summary.outcome()}",
         title_justify="left",
@@ -104,11 +104,11 @@ def _events(events: list[Event], start: float, console: Console) -> None:
     table.add_column("at s", justify="right", no_wrap=True)
     table.add_column("what", no_wrap=True)
     table.add_column("", overflow="fold")
-    # The same words again and again are one line.
+    # Equal events share one line.
     repeats = Counter((event.kind, event.text) for event in events)
     last = {(event.kind, event.text): event.time for event in events}
     lines = list({(event.kind, event.text): event for event in reversed(events)}.values())[::-1]
-    # The worst are kept where there are too many.
+    # Of too many, the most severe are kept.
     kept = sorted(lines, key=lambda event: -event.level)[:_EVENTS]
     for event in sorted(kept, key=lambda event: event.time):
         colour, key = _COLOURS[event.level], (event.kind, event.text)
@@ -125,7 +125,7 @@ def _events(events: list[Event], start: float, console: Console) -> None:
 
 
 def show_many(rows: list[tuple[Path, RecordedMission | None, str]], console: Console) -> None:
-    """A row for each recording."""
+    """Print a row for each recording."""
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     table.add_column("recording", overflow="fold")
     for heading in ("s", "messages", "size", "rms m", "largest m", "rudder °/m"):
@@ -151,7 +151,7 @@ def show_many(rows: list[tuple[Path, RecordedMission | None, str]], console: Con
 
 
 def size(number: int) -> str:
-    """Bytes for people."""
+    """Return a size in bytes with its unit."""
     for unit, factor in (("GB", 1e9), ("MB", 1e6), ("kB", 1e3)):
         if number >= factor:
             return f"{number / factor:.1f} {unit}"
@@ -159,7 +159,7 @@ def size(number: int) -> str:
 
 
 def _cell(text: str) -> str:
-    """A text from a recording, fit for a terminal and no markup."""
+    """Return a text from a recording, safe for a terminal and without markup."""
     return escape(printable(text))
 
 

@@ -1,4 +1,4 @@
-"""Everything that the report's page shows, as plain data."""
+"""The content of the report's page, as plain data."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from auv_sim.flight.signals import ANGLES, SIGNALS
 
 
 def page_data(flight: RecordedMission, events: list[Event], title: str) -> dict[str, Any]:
-    """The page's content; times are seconds since the first odometry."""
+    """Return the page's content; times are seconds since the first odometry."""
     run = flight.run
     start = float(run.t[0]) if run is not None and run.steps else flight.bag.span_ns[0] * 1e-9
     columns = _columns(flight) if run is not None and run.steps else {}
@@ -41,7 +41,7 @@ def page_data(flight: RecordedMission, events: list[Event], title: str) -> dict[
         "switches": [event.time - start for event in events if event.kind == "switch"],
         "begin": 0.0,
         "now": [n for n in _NOW if n["name"] in columns],
-        "panels": _panels(flight, columns, start),
+        "panels": [*_panels(flight, columns), *_diagnostics_panel(flight, start)],
         "table": _table(summary, opinion),
         "events": [{"t": e.time - start, "kind": e.kind, "text": e.text, "level": e.level} for e in events],
         "config": texts_of(flight.bag),
@@ -53,7 +53,7 @@ def _packed(values: NDArray[np.float64]) -> str:
 
 
 def _columns(flight: RecordedMission) -> dict[str, NDArray[np.float64]]:
-    """The run's columns that have values, angles in degrees, time from 0; and what follows from them."""
+    """Return the run's columns that have values, angles in degrees, time from 0, and derived columns."""
     run = flight.run
     assert run is not None
     columns: dict[str, NDArray[np.float64]] = {}
@@ -80,7 +80,7 @@ def _columns(flight: RecordedMission) -> dict[str, NDArray[np.float64]]:
 def _distance(
     run: Run, path: CompositePath, x: NDArray[np.float64], y: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Distance of the positions to the subpath of their row, m, shape (n,); NaN where that is not known."""
+    """Return the distance of the positions to the subpath of their row, m, shape (n,); NaN where unknown."""
     index = run.subpath(path.n)
     known = index >= 0
     distance = np.full(run.steps, np.nan)
@@ -89,7 +89,7 @@ def _distance(
 
 
 def _path(flight: RecordedMission) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
-    """North and east of the path: the mission's, else the one that guidance published."""
+    """Return north and east of the path: the mission's, else the one that guidance published."""
     if flight.mission is not None:
         x, y, _ = flight.mission.path.polyline(1.0)
         return x, y
@@ -132,7 +132,7 @@ def _facts(
 
 
 def _gaps(summary: MissionSummary | None) -> list[str]:
-    """The line about what was not flown, if there is anything."""
+    """Return the line about missed and skipped stretches, if there are any."""
     if summary is None or not (summary.missed or summary.skipped):
         return []
     return [summary.flown_line()]
@@ -166,12 +166,12 @@ def _series(name: str, label: str, color: str, width: float = 1.5, wraps: bool =
     return {"name": name, "label": label, "color": color, "width": width, "wraps": wraps}
 
 
-def _panels(flight: RecordedMission, columns: dict[str, Any], start: float) -> list[dict[str, Any]]:
-    """Only signals that were recorded, and only panels that have one."""
+def _panels(flight: RecordedMission, columns: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return the panels that have a recorded signal."""
     hull, erring = flight.vehicle, "x_true" in columns
     angle = [math.degrees(hull.rudder.max_angle)] if hull is not None else []
     rate = [math.degrees(hull.rudder.max_rate)] if hull is not None else []
-    wanted = [
+    panels = [
         ("Distance to the path (m)", 0.2, [], [
             _series("distance", "true distance" if erring else "geometric distance", "path", 4.0),
             _series("distance_by_odometry", "by odometry", "orange", 1.2),
@@ -193,20 +193,25 @@ def _panels(flight: RecordedMission, columns: dict[str, Any], start: float) -> l
             _series("Vx_est", "estimated north", "blue"), _series("Vy_est", "estimated east", "orange"),
         ]),
     ]  # fmt: skip
-    panels = []
-    for title, least, limits, series in wanted:
+    shown = []
+    for title, least, limits, series in panels:
         there = [s for s in series if s["name"] in columns]
         if there:
             both = [sign * limit for limit in limits for sign in (1.0, -1.0)]
-            panels.append({"title": title, "least": least, "limits": both, "series": there})
+            shown.append({"title": title, "least": least, "limits": both, "series": there})
+    return shown
+
+
+def _diagnostics_panel(flight: RecordedMission, start: float) -> list[dict[str, Any]]:
+    """Return the panel of the diagnostics, if any were recorded."""
     spans = diagnostic_spans(flight.bag)
-    if spans:
-        rows = [
-            {"name": name, "spans": [[a - start, b - start, level, text] for a, b, level, text in parts]}
-            for name, parts in sorted(spans.items())
-        ]
-        panels.append({"title": "Diagnostics (green OK, orange WARN, red ERROR)", "rows": rows})
-    return panels
+    if not spans:
+        return []
+    rows = [
+        {"name": name, "spans": [[a - start, b - start, level, text] for a, b, level, text in parts]}
+        for name, parts in sorted(spans.items())
+    ]
+    return [{"title": "Diagnostics (green OK, orange WARN, red ERROR)", "rows": rows}]
 
 
 _NOW = [

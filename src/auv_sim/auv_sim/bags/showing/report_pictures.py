@@ -18,7 +18,7 @@ from auv_sim.views.track_panel import track
 
 
 def pictures(flight: RecordedMission, directory: Path, title: str) -> list[Path]:
-    """Draw what there is to draw; returns the files."""
+    """Draw the pictures that the recording allows; return the files."""
     run, mission, summary = flight.run, flight.mission, flight.summary
     if run is None or not run.steps:
         return []

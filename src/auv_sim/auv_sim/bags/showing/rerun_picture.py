@@ -1,4 +1,4 @@
-"""Recorded against new commands, drawn."""
+"""The picture of recorded and new commands."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from auv_sim.views.plot_style import BLUE, INK, ORANGE, PATH, save, style
 
 
 def draw(found: Answers, png: Path) -> None:
-    """Rudder, its difference and thrust over time, 1400 x 900 pixels."""
+    """Draw rudder, its difference and thrust over time, 1400 x 900 pixels."""
     figure = Figure(figsize=(14.0, 9.0), dpi=100, facecolor="white")
     FigureCanvasAgg(figure)
     rows = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": (2.0, 1.2, 1.0)})

@@ -6,7 +6,7 @@ import argparse
 
 
 def add_choice(parser: argparse.ArgumentParser) -> None:
-    """Which of several vehicles, and which of several odometries."""
+    """Add the options that choose one of several vehicles and odometries."""
     parser.add_argument("--namespace", metavar="NAME", help="which vehicle, where there are several")
     parser.add_argument(
         "--odometry", metavar="TOPIC", help="which nav_msgs/Odometry, where none or several are named odom"

@@ -1,10 +1,11 @@
-"""Lay several runs over each other: a table of their differences and one picture, for tuning."""
+"""Compare several runs: a table of their differences and one picture, for tuning."""
 
 from __future__ import annotations
 
 import argparse
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from rich import box
@@ -13,7 +14,7 @@ from rich.table import Table
 
 from auv_msgs_py.values.errors import ConfigurationError, printable
 from auv_sim.bags.content.flown_settings import differences
-from auv_sim.bags.content.recorded_mission import mission_in
+from auv_sim.bags.content.recorded_mission import RecordedMission, mission_in
 from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.showing.compare_picture import draw
 from auv_sim.bags.verbs.arguments import add_choice
@@ -45,9 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "bag", type=Path, nargs="+", metavar="BAG", help="two or more recordings or run directories"
     )
-    parser.add_argument(
-        "--mission", metavar="FILE", help="the mission that was flown, where a recording does not tell"
-    )
+    parser.add_argument("--mission", metavar="FILE", help="the flown mission, where it is not recorded")
     add_choice(parser)
     parser.add_argument(
         "--png", type=target, metavar="FILE", default=Path("compare.png"), help="default: compare.png"
@@ -56,19 +55,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Compare with the first one."""
+    """Compare with the first run."""
     if len(arguments.bag) < 2:
         raise ConfigurationError("compare", "one recording", "two or more")
-    flights = []
-    for path in arguments.bag:
-        flight = mission_in(
-            read_bag(path, odometry=arguments.odometry), arguments.mission, arguments.namespace
-        )
-        if flight.summary is None:
-            raise ConfigurationError(
-                str(path), flight.notes[0] if flight.notes else "no mission", "a flown mission"
-            )
-        flights.append(flight)
+    flights = [_flight(path, arguments) for path in arguments.bag]
     labels = _labels(arguments.bag)
     summaries = [flight.summary for flight in flights if flight.summary is not None]
     opinions = [flight.by_odometry for flight in flights]
@@ -80,15 +70,7 @@ def run(arguments: argparse.Namespace) -> int:
             str(arguments.png), f"{error.strerror}", "a picture that can be written"
         ) from None
     if arguments.json:
-        data = {
-            "runs": {label: json.loads(s.to_json()) for label, s in zip(labels, summaries, strict=True)},
-            "by_odometry": {
-                label: {"rms_distance": found.rms, "largest_distance": found.largest} if found else None
-                for label, found in zip(labels, opinions, strict=True)
-            },
-            "settings": settings,
-        }
-        print(json.dumps(data, indent=2, allow_nan=False))
+        print(json.dumps(_data(labels, summaries, opinions, settings), indent=2, allow_nan=False))
         return 0
     console = terminal()
     console.print(_table(labels, summaries, opinions))
@@ -102,8 +84,38 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _flight(path: Path, arguments: argparse.Namespace) -> RecordedMission:
+    """Read a recording.
+
+    Raises:
+        ConfigurationError: it has no mission with figures.
+    """
+    flight = mission_in(read_bag(path, odometry=arguments.odometry), arguments.mission, arguments.namespace)
+    if flight.summary is None:
+        found = flight.notes[0] if flight.notes else "no mission"
+        raise ConfigurationError(str(path), found, "a flown mission")
+    return flight
+
+
+def _data(
+    labels: list[str],
+    summaries: list[MissionSummary],
+    opinions: list[ByOdometry | None],
+    settings: dict[str, list[str | None]],
+) -> dict[str, Any]:
+    """Return the comparison as plain data."""
+    return {
+        "runs": {label: json.loads(s.to_json()) for label, s in zip(labels, summaries, strict=True)},
+        "by_odometry": {
+            label: {"rms_distance": found.rms, "largest_distance": found.largest} if found else None
+            for label, found in zip(labels, opinions, strict=True)
+        },
+        "settings": settings,
+    }
+
+
 def _labels(paths: list[Path]) -> list[str]:
-    """The shortest names that tell the runs apart."""
+    """Return the shortest names that distinguish the runs."""
     resolved = [path.resolve() for path in paths]
     names = [path.parent.name if path.name == "bag" else path.stem for path in resolved]
     return names if len(set(names)) == len(names) else [str(path) for path in paths]
@@ -155,6 +167,6 @@ def _settings_table(labels: list[str], settings: dict[str, list[str | None]]) ->
 
 
 def _cell(value: str) -> str:
-    """A text from a recording in a table: long lists are cut, for only their difference counts."""
+    """Return a text from a recording for a table; long lists are cut."""
     value = printable(value)
     return escape(value if len(value) <= _LONG else f"{value[:_LONG]}…")

@@ -1,4 +1,4 @@
-"""Show what is in a recording: duration, topics, mission, events. Damaged and foreign ones are welcome.
+"""Show the content of a recording: duration, topics, mission, events; also of damaged and foreign ones.
 
 A directory with several recordings gets one row for each.
 """
@@ -27,7 +27,7 @@ from auv_sim.command_line import say, to_type
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on
 
-#: Larger messages are images or point clouds of somebody else: their sizes are enough.
+#: Large messages of other nodes, of which only the sizes are read.
 _HEAVY = ("sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/CompressedImage")
 
 
@@ -37,19 +37,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "bag", type=Path, nargs="+", metavar="BAG", help="recording, run directory, or a directory of many"
     )
     parser.add_argument("--json", action="store_true", help="for programs")
-    parser.add_argument(
-        "--mission", metavar="FILE", help="the mission that was flown, where the recording does not tell"
-    )
+    parser.add_argument("--mission", metavar="FILE", help="the flown mission, where it is not recorded")
     add_choice(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print; 2 when nothing at all could be read."""
+    """Print; return 2 when nothing can be read."""
     bags = [bag for path in arguments.bag for bag in find_bags(path)]
     console = terminal()
     if len(bags) > 1:
         return _many(bags, arguments, console)
-    bag = read_bag(bags[0], _wanted, arguments.odometry)
+    bag = read_bag(bags[0], _is_light, arguments.odometry)
     flight = mission_in(bag, arguments.mission, arguments.namespace)
     facts, events = facts_of(bag), events_of(flight)
     if arguments.json:
@@ -61,7 +59,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _next(flight: RecordedMission, path: Path) -> tuple[str, str]:
-    """What follows, and its command."""
+    """Return the next step and its command."""
     if flight.bag.notes:
         return "Make it whole", to_type("bag.py", "repair", path)
     if flight.run is not None:
@@ -69,15 +67,15 @@ def _next(flight: RecordedMission, path: Path) -> tuple[str, str]:
     return "Play it into a live graph", to_type("bag.py", "replay", path)
 
 
-def _wanted(_: str, type_name: str) -> bool:
+def _is_light(_: str, type_name: str) -> bool:
     return type_name not in _HEAVY
 
 
 def find_bags(path: Path) -> list[Path]:
-    """The recordings below a directory; the path itself when it is one.
+    """Return the recordings below a directory, or the path itself if it is one.
 
     Raises:
-        ConfigurationError: there is nothing.
+        ConfigurationError: nothing is there.
     """
     bag = storage_of(path)
     if bag.is_file() or _is_bag(bag):
@@ -96,7 +94,7 @@ def _many(bags: list[Path], arguments: argparse.Namespace, console: Console) -> 
     rows: list[tuple[Path, RecordedMission | None, str]] = []
     for path in bags:
         try:
-            bag = read_bag(path, _wanted, arguments.odometry)
+            bag = read_bag(path, _is_light, arguments.odometry)
             flight = mission_in(bag, arguments.mission, arguments.namespace)
             rows.append((path, flight, "; ".join(flight.bag.notes)))
         except ConfigurationError as error:
@@ -121,7 +119,7 @@ def _many(bags: list[Path], arguments: argparse.Namespace, console: Console) -> 
 
 
 def as_data(flight: RecordedMission, facts: list[TopicFacts], events: list[Event]) -> dict[str, Any]:
-    """Everything that the tables show, for programs; unknown values are null."""
+    """Return the content of the tables as plain data; unknown values are null."""
     bag: Bag = flight.bag
     first, last = bag.span_ns
     summary, own = flight.summary, flight.by_odometry

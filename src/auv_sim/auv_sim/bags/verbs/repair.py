@@ -1,7 +1,7 @@
-"""Make a damaged or unfinished recording whole: everything that is readable gets an index and metadata.yaml.
+"""Repair a damaged or unfinished recording: everything readable gets an index and metadata.yaml.
 
-It is replaced in its place (files that held more than could be read stay beside it as *.damaged), or
-written anew with --out. A recording that is whole is left as it is.
+It is replaced in its place (files with unreadable parts stay beside it as *.damaged), or written to a new
+place with --out. A whole recording is left unchanged.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Repair and say what was wrong."""
+    """Repair, and print the damage."""
     done = repair(arguments.bag, arguments.out, arguments.compression)
     for note in done.notes:
         say(f"was damaged: {note}")

@@ -1,6 +1,6 @@
 """Play recorded topics into a live graph, with their recorded QoS and timing.
 
-While it plays: space pauses and goes on, s plays the next instant while paused, q ends.
+Keys while it plays: space pauses and resumes, s plays the next message while paused, q ends.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--rate", type=positive, default=1.0, metavar="N", help="times the recorded speed (default 1)"
     )
-    parser.add_argument("--start", type=not_negative, default=0.0, metavar="S", help="skip so many seconds")
+    parser.add_argument("--start", type=not_negative, default=0.0, metavar="S", help="skip this many seconds")
     parser.add_argument(
-        "--duration", type=positive, metavar="S", help="play so many seconds of the recording"
+        "--duration", type=positive, metavar="S", help="play this many seconds of the recording"
     )
     parser.add_argument("--loop", action="store_true", help="begin again at the end, until stopped")
     parser.add_argument("--clock", action="store_true", help="publish the recorded time on /clock")
     parser.add_argument(
-        "--topics", nargs="+", metavar="NAME", help="only these; a last part of a name will do"
+        "--topics", nargs="+", metavar="NAME", help="only these; the last part of a name is enough"
     )
     parser.add_argument("--exclude", nargs="+", default=[], metavar="NAME", help="not these")
     parser.add_argument(
@@ -39,13 +39,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=not_negative,
         default=1.0,
         metavar="S",
-        help="wait so long for subscribers first (default 1)",
+        help="time to wait for subscribers first (default 1)",
     )
     parser.add_argument("--start-paused", action="store_true", help="wait for the space bar")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Play; 0 at the end, 130 when interrupted."""
+    """Play; return 0 at the end, 130 when interrupted."""
     bag = read_bag(arguments.bag)
     for note in bag.notes:
         say(f"damaged: {note}")

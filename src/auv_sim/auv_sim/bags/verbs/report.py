@@ -5,10 +5,8 @@ from __future__ import annotations
 import argparse
 import html
 import json
-import math
 from importlib import resources
 from pathlib import Path
-from typing import Any
 
 from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.errors import ConfigurationError
@@ -20,6 +18,7 @@ from auv_sim.bags.showing.report_data import page_data
 from auv_sim.bags.showing.report_pictures import pictures
 from auv_sim.bags.verbs.arguments import add_choice
 from auv_sim.command_line import say, to_type
+from auv_sim.flight.metrics import without_nan
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, wrote
 
@@ -39,9 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", type=Path, metavar="DIR", help="where to (default: report/ beside the recording)"
     )
-    parser.add_argument(
-        "--mission", metavar="FILE", help="the mission that was flown, where the recording does not tell"
-    )
+    parser.add_argument("--mission", metavar="FILE", help="the flown mission, where it is not recorded")
     add_choice(parser)
 
 
@@ -70,10 +67,10 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def page_of(flight: RecordedMission) -> str:
-    """The page as text: everything is in it."""
+    """Return the self-contained page as text."""
     title = _title(flight)
-    data = json.dumps(_plain(page_data(flight, events_of(flight), title)), allow_nan=False)
-    # The data must not be able to end the element they stand in.
+    data = json.dumps(without_nan(page_data(flight, events_of(flight), title)), allow_nan=False)
+    # The data must not end the element that contains it.
     data = data.replace("<", "\\u003c")
     template = (
         resources.files("auv_sim.bags.showing").joinpath("page", "report.html").read_text(encoding="utf-8")
@@ -91,12 +88,3 @@ def _beside(bag: Bag) -> Path:
     return (
         bag.path.parent / "report" if bag.path.name == "bag" else bag.path.parent / f"{bag.path.stem}-report"
     )
-
-
-def _plain(value: Any) -> Any:
-    """Strict JSON knows no NaN."""
-    if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value

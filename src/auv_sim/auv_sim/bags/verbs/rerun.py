@@ -48,7 +48,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--params", metavar="FILE", help="parameters to try; what the file leaves out stays as flown"
     )
     parser.add_argument("--mission", metavar="FILE", help="another mission than the recorded one")
-    parser.add_argument("--vehicle", metavar="FILE", help="another hull than the nodes were told")
+    parser.add_argument("--vehicle", metavar="FILE", help="another hull than the recorded one of the nodes")
     add_choice(parser)
     parser.add_argument("--png", type=target, metavar="FILE", help="draw recorded and new commands")
     parser.add_argument("--csv", type=target, metavar="FILE", help="write recorded and new commands")
@@ -56,7 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """0 when every command is the same bit for bit, else 1; with --params (--mission, --vehicle) always 0."""
+    """Return 0 when all commands are bit-identical, else 1; with --params, --mission or --vehicle always 0."""
     found = rerun(
         arguments.bag, arguments.params, arguments.mission, arguments.vehicle, arguments.namespace,
         arguments.odometry,
@@ -89,13 +89,13 @@ def rerun(
     namespace: str | None = None,
     odometry: str | None = None,
 ) -> Answers:
-    """What the chain would have answered.
+    """Return what the pilot would have commanded.
 
     Args:
         path: the recording; its configuration is in it or beside it.
         params, mission, hull: files that replace the recorded configuration.
-        namespace: which vehicle's topics.
-        odometry: which topic, where it has another name than the contract's.
+        namespace: of the vehicle.
+        odometry: the topic, where its name differs from the contract's.
 
     Raises:
         ConfigurationError: a file cannot be used, or the recording lacks something.
@@ -128,7 +128,7 @@ def _is_needed(name: str, type_name: str) -> bool:
 
 
 def _parameters(recorded: Path, new: str | None) -> dict[str, Any]:
-    """The recorded parameters with those of a file laid over them."""
+    """Return the recorded parameters, overridden by those of a file."""
     if new is None:
         return (
             params_file.load(recorded, SUITE)
@@ -150,7 +150,7 @@ def _parameters(recorded: Path, new: str | None) -> dict[str, Any]:
 
 
 def _flat(path: Path) -> dict[str, dict[str, Any]]:
-    """Node name -> dotted name -> value."""
+    """Return node name -> dotted name -> value."""
     flat: dict[str, dict[str, Any]] = {}
     for pattern, body in yaml_file.parse(path).items():
         flat.setdefault(str(pattern).rsplit("/", 1)[-1], {}).update(dotted(body["ros__parameters"]))

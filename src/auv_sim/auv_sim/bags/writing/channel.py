@@ -1,4 +1,4 @@
-"""One recorded topic, from the writer's side."""
+"""One recorded topic, as the writer sees it."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 from mcap import records
 
-#: What describes a topic in another file.
+#: The records that describe a topic in another file.
 Original = tuple[records.Channel, records.Schema | None]
 
 
@@ -15,8 +15,8 @@ class Channel:
 
     Attributes:
         name, type: full topic name, ROS type.
-        qos: what its publishers offer, as metadata.yaml has it.
-        original: how another file describes it, where it was copied from one.
+        qos: of its publishers, as in metadata.yaml.
+        original: its description in another file, where it was copied from one.
         number: in the present file; 0 until something is written.
         count: messages written to it.
         repeated: messages written once more at the beginning of a further file.
@@ -35,11 +35,11 @@ class Channel:
         self._newest: list[tuple[int, int, bytes]] = []
 
     def keep(self, sequence: int, publish_time_ns: int, cdr: bytes) -> None:
-        """Remember a message for the files to come."""
+        """Keep a message for further files."""
         self._newest.append((sequence, publish_time_ns, cdr))
         del self._newest[: -self.latched]
 
     @property
     def kept(self) -> list[tuple[int, int, bytes]]:
-        """What every further file begins with: sequence, publish time (ns), message."""
+        """Messages with which every further file begins: sequence, publish time (ns), message."""
         return self._newest if self.latched else []

@@ -1,4 +1,4 @@
-"""QoS: rclpy's profiles as the records that a bag's metadata wants, and what a recorder has to ask for."""
+"""QoS: rclpy's profiles as records of a bag's metadata, and the profile that a recorder requests."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _FOREVER = QosTime(9223372036, 854775807)
 
 
 def qos_record(profile: QoSProfile) -> Qos:
-    """The same QoS, as rosbags writes it."""
+    """Return a profile as rosbags writes it."""
     return Qos(
         history=QosHistory(int(profile.history)),
         depth=profile.depth,
@@ -27,13 +27,13 @@ def qos_record(profile: QoSProfile) -> Qos:
 
 
 def _time(duration: Duration) -> QosTime:
-    """Zero is rclpy's "not set", which rosbag2 writes as infinite."""
+    """Return a duration; zero, rclpy's "not set", becomes rosbag2's infinity."""
     sec, nsec = divmod(duration.nanoseconds, 1_000_000_000)
     return QosTime(sec, nsec) if sec or nsec else _FOREVER
 
 
 def matching(offers: Sequence[QoSProfile], depth: int) -> QoSProfile:
-    """The most that all of these publishers can give: a stricter wish would match none of the others."""
+    """Return the strictest profile that all these publishers match."""
     reliable = all(offer.reliability == ReliabilityPolicy.RELIABLE for offer in offers)
     kept = all(offer.durability == DurabilityPolicy.TRANSIENT_LOCAL for offer in offers)
     return QoSProfile(

@@ -1,4 +1,4 @@
-"""Which topics are recorded, and with which QoS: the contract from the start, others as they appear."""
+"""The recorded topics and their QoS: the contract from the start, others as they appear."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ ROS_OWN = (
 
 
 class Selection:
-    """Keeps the subscriptions.
+    """The recorder's subscriptions.
 
     Args:
         node: the recorder.
-        parameters: what is wanted.
-        writer: gets a channel for each topic.
+        parameters: of the recorder.
+        writer: receives a channel for each topic.
 
     Raises:
-        ConfigurationError: nothing is wanted.
+        ConfigurationError: no topics are selected.
     """
 
     def __init__(self, node: Node, parameters: RecorderParameters, writer: BagWriter) -> None:
@@ -59,26 +59,26 @@ class Selection:
         lockstep, name = self._p.lockstep, self._node.resolve_topic_name(topic.name)
         self._promised[name] = qos.offered(topic)
         reliable = lockstep or topic.latched or topic.publisher != topics.PLANT
-        wanted = qos.requested(topic, reliable, qos.RECORDER_DEPTH)
-        self._follow(name, topic.type, [qos.offered(topic)], wanted, lockstep)
+        requested = qos.requested(topic, reliable, qos.RECORDER_DEPTH)
+        self._follow(name, topic.type, [qos.offered(topic)], requested, lockstep)
         self.topics[-1].channel.latched = int(topic.latched and topic is not LOG)
 
-    def _follow(self, name: str, type_name: str, offers: list[Any], wanted: Any, fixed: bool) -> None:
+    def _follow(self, name: str, type_name: str, offers: list[Any], requested: Any, fixed: bool) -> None:
         channel = self._writer.add_topic(name, type_name, [qos_record(offer) for offer in offers])
-        self.topics.append(PolledTopic(self._node, name, type_name, wanted, channel, fixed))
+        self.topics.append(PolledTopic(self._node, name, type_name, requested, channel, fixed))
 
     def look_around(self) -> list[str]:
-        """Subscribe to what has appeared and is wanted, and fit the QoS of what is still silent.
+        """Subscribe to selected topics that have appeared, and adapt the QoS of those that are still silent.
 
         Returns:
-            One line for each topic that is wanted and cannot be had.
+            One line for each selected topic that cannot be recorded.
         """
         for topic in self.topics:
             if not topic.fixed and not topic.known:
                 offers = self._offers(topic.name)
-                wanted = matching(offers, qos.RECORDER_DEPTH)
-                if offers and _kind(wanted) != _kind(topic.profile):
-                    topic.resubscribe(wanted)
+                requested = matching(offers, qos.RECORDER_DEPTH)
+                if offers and _kind(requested) != _kind(topic.profile):
+                    topic.resubscribe(requested)
             elif topic.known:
                 topic.publishers = self._node.count_publishers(topic.name)
                 if topic.channel.latched:
@@ -88,7 +88,7 @@ class Selection:
         followed = {topic.name for topic in self.topics}
         troubles = []
         for name, types in self._node.get_topic_names_and_types():
-            if name in followed or name in self._refused or not self._wanted(name):
+            if name in followed or name in self._refused or not self._is_selected(name):
                 continue
             offers = self._offers(name)
             if not offers:
@@ -102,7 +102,7 @@ class Selection:
                 troubles.append(f"not recorded: {error}")
         return troubles
 
-    def _wanted(self, name: str) -> bool:
+    def _is_selected(self, name: str) -> bool:
         if name in self._listed:
             return True
         if self._p.exclude and re.search(self._p.exclude, name):
@@ -110,24 +110,24 @@ class Selection:
         return self._p.all_topics or bool(self._p.regex and re.search(self._p.regex, name))
 
     def meet(self, topic: PolledTopic) -> None:
-        """The first message of a topic has come: now its publishers are known."""
+        """Process the first message of a topic: its publishers are now known."""
         topic.known = True
         offers = self._offers(topic.name)
         topic.publishers = max(1, len(offers))
-        # Discovery does not tell a history's depth. Where the contract does, it knows more.
+        # Discovery has no depth of the history; the contract has.
         promised = self._promised.get(topic.name)
-        told = [promised if promised and _kind(offer) == _kind(promised) else offer for offer in offers]
-        # Log lines are transient local too, and no state that a further file has to begin with.
+        described = [promised if promised and _kind(offer) == _kind(promised) else offer for offer in offers]
+        # Log lines are transient local, too, but not a state with which a further file begins.
         if offers and topic.name != LOG.name and _is_latched(offers):
             topic.channel.latched = topic.publishers
-        if told:
-            self._writer.set_qos(topic.channel, [qos_record(offer) for offer in told])
+        if described:
+            self._writer.set_qos(topic.channel, [qos_record(offer) for offer in described])
 
     def _offers(self, name: str) -> list[Any]:
         return [info.qos_profile for info in self._node.get_publishers_info_by_topic(name)]
 
     def close(self) -> None:
-        """Leave all topics."""
+        """End all subscriptions."""
         for topic in self.topics:
             topic.close()
 

@@ -1,4 +1,4 @@
-"""Adds MCAP files to a recording: what belongs together by topic, over all files."""
+"""Adds MCAP files to a recording, joined by topic over all files."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from pathlib import Path
 from mcap.records import Channel, Schema
 
 from auv_sim.bags.reading.recording import Bag, RecordedTopic, TopicFilter
-from auv_sim.bags.reading.storage.mcap_scan import scan
+from auv_sim.bags.reading.storage.mcap_scan import ScanResult, scan
 from auv_sim.bags.writing.bag_writer import TEXTS
 
 #: The metadata record in which rosbag2 repeats metadata.yaml.
 _REPEATED = "rosbag2"
-#: More publishers of one latched topic there are not.
+#: Most publishers of one latched topic.
 _LATCHED = 100
 
 
@@ -34,40 +34,16 @@ def read_mcap(bag: Bag, file: Path, keeps: TopicFilter) -> None:
 
     result = scan(file, take)
     bag.notes += [f"{file.name}: {note}" for note in result.notes]
-    bag.profile = result.profile
-    for record in result.metadata:
-        if record.name == TEXTS:
-            bag.texts |= record.metadata
-        elif record.name != _REPEATED and record not in bag.records:
-            bag.records.append(record)  # once: a recorder repeats what it says in every file
-    bag.records += result.attachments
+    _take_records(bag, result)
     renumbered: dict[int, tuple[RecordedTopic, int, int]] = {}
     for number, channel in result.channels.items():
-        schema = result.schemas.get(channel.schema_id)
         here = by_number.setdefault(number, RecordedTopic("", ""))
-        type_name = schema.name if schema else ""
-        topic = bag.topics.get(channel.topic)
-        if topic is None:
-            topic = bag.topics[channel.topic] = RecordedTopic(channel.topic, type_name)
-            topic.qos = channel.metadata.get("offered_qos_profiles", "")
-            topic.original = channel, schema
-            if schema:
-                topic.definition = schema.data.decode("utf-8", "replace")
-                topic.encoding = schema.encoding
-        elif topic.original is not None and not _alike(*topic.original, channel, schema):
-            if here.count:
-                said = f"{here.count} messages of a second type '{type_name}' on {channel.topic} left out"
-                bag.notes.append(f"{file.name}: {said}")
-            continue
-        repeated = _repeats(topic, here)
-        bag.repeated += repeated
-        renumbered[id(here)] = topic, topic.count - repeated, repeated
-        keep = keeps(channel.topic, topic.type)
-        topic.log_ns += here.log_ns[repeated:]
-        topic.publish_ns += here.publish_ns[repeated:]
-        topic.sequence += here.sequence[repeated:]
-        topic.sizes += here.sizes[repeated:]
-        topic.messages += here.messages[repeated:] if keep else [None] * (here.count - repeated)
+        topic = _joined(bag, file, channel, result.schemas.get(channel.schema_id), here)
+        if topic is not None:
+            repeated = _repeats(topic, here)
+            bag.repeated += repeated
+            renumbered[id(here)] = topic, topic.count - repeated, repeated
+            _append(topic, here, repeated, keeps(channel.topic, topic.type))
     nameless = [t for number, t in by_number.items() if number not in result.channels]
     if nameless:
         number = sum(topic.count for topic in nameless)
@@ -79,10 +55,51 @@ def read_mcap(bag: Bag, file: Path, keeps: TopicFilter) -> None:
                 bag.order.append((topic, offset + k))
 
 
-def _repeats(topic: RecordedTopic, here: RecordedTopic) -> int:
-    """How many messages of a further file are the last ones of the files before it, said again.
+def _take_records(bag: Bag, result: ScanResult) -> None:
+    """Add the file's profile, texts, and other records."""
+    bag.profile = result.profile
+    for record in result.metadata:
+        if record.name == TEXTS:
+            bag.texts |= record.metadata
+        elif record.name != _REPEATED and record not in bag.records:
+            bag.records.append(record)  # once: a recorder repeats it in every file
+    bag.records += result.attachments
 
-    A recorder begins each file with what is latched, under the numbers and times that it was published with.
+
+def _joined(
+    bag: Bag, file: Path, channel: Channel, schema: Schema | None, here: RecordedTopic
+) -> RecordedTopic | None:
+    """Return the recording's topic of a channel; None, with a note, for one of another type."""
+    type_name = schema.name if schema else ""
+    topic = bag.topics.get(channel.topic)
+    if topic is None:
+        topic = bag.topics[channel.topic] = RecordedTopic(channel.topic, type_name)
+        topic.qos = channel.metadata.get("offered_qos_profiles", "")
+        topic.original = channel, schema
+        if schema:
+            topic.definition = schema.data.decode("utf-8", "replace")
+            topic.encoding = schema.encoding
+    elif topic.original is not None and not _alike(*topic.original, channel, schema):
+        if here.count:
+            found = f"{here.count} messages of a second type '{type_name}' on {channel.topic} left out"
+            bag.notes.append(f"{file.name}: {found}")
+        return None
+    return topic
+
+
+def _append(topic: RecordedTopic, here: RecordedTopic, repeated: int, keep: bool) -> None:
+    """Append a file's messages to a topic, without those that are repeated."""
+    topic.log_ns += here.log_ns[repeated:]
+    topic.publish_ns += here.publish_ns[repeated:]
+    topic.sequence += here.sequence[repeated:]
+    topic.sizes += here.sizes[repeated:]
+    topic.messages += here.messages[repeated:] if keep else [None] * (here.count - repeated)
+
+
+def _repeats(topic: RecordedTopic, here: RecordedTopic) -> int:
+    """Return how many messages of a further file repeat the last ones of the files before it.
+
+    A recorder begins each file with the latched messages, under their original numbers and times.
     """
     if "transient_local" not in topic.qos:
         return 0
@@ -98,7 +115,7 @@ def _repeats(topic: RecordedTopic, here: RecordedTopic) -> int:
 
 
 def _alike(a: Channel, a_schema: Schema | None, b: Channel, b_schema: Schema | None) -> bool:
-    """Whether two channels of one name hold the same kind of message."""
+    """Return whether two channels of one name hold the same kind of message."""
     if a.message_encoding != b.message_encoding or (a_schema is None) != (b_schema is None):
         return False
     return a_schema is None or (a_schema.name, a_schema.encoding) == (b_schema.name, b_schema.encoding)  # type: ignore[union-attr]

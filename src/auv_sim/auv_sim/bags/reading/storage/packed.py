@@ -1,4 +1,4 @@
-"""What rosbag2 compressed as a whole: files (`*.zstd`) or single messages."""
+"""Unpacks files (`*.zstd`) and single messages that rosbag2 compressed as a whole."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 
 #: The suffix of a file that is packed.
 SUFFIX = ".zstd"
-#: Recordings shrink to a tenth; what grows by more than this is no recording but fills the disk.
+#: Largest growth: recordings shrink to a tenth, and more than this is an attack on the disk.
 LARGEST_RATIO = 200
 #: Small files may grow to this size in any case, bytes.
 SMALL = 64_000_000
@@ -18,7 +18,7 @@ _STEP = 1 << 20
 
 
 def unpack(file: Path, directory: Path) -> Path:
-    """Write a packed file's content into a directory; of one that was cut off, what there is.
+    """Write a packed file's content into a directory; of a truncated one, its readable part.
 
     Raises:
         ConfigurationError: it is not packed, grows without measure, or finds no room.

@@ -42,7 +42,7 @@ def read_ros1(bag: Bag, file: Path, keeps: TopicFilter) -> None:
                     bag.order.append((topic, topic.count))
                     topic.put(0, log_ns, log_ns, cdr, keeps(topic.name, topic.type))
     except Exception as error:
-        # A damaged file makes the reader fail in any way it likes.
+        # A damaged file makes the reader raise any exception.
         reason = " ".join(str(error).split())
         if bag.count == before:
             found = f"a recording that cannot be read ({reason})"
@@ -51,7 +51,7 @@ def read_ros1(bag: Bag, file: Path, keeps: TopicFilter) -> None:
 
 
 def _store(recorded: Typestore) -> Typestore:
-    """ROS 2 Jazzy's types, its header without `seq` among them, and those recorded that it does not have."""
+    """Return ROS 2 Jazzy's types, with its header without `seq`, and the recorded types that it lacks."""
     store = get_typestore(Stores.ROS2_JAZZY)
     known = typestore().fielddefs
     store.register({name: kind for name, kind in recorded.fielddefs.items() if name not in known})
@@ -72,7 +72,7 @@ def _topic(bag: Bag, file: Path, connection: Connection, store: Typestore) -> Re
 
 
 def _converter(recorded: Typestore, store: Typestore, name: str) -> Callable[[bytes], bytes]:
-    """Realign the bytes where ROS 2's type has the same fields (but for `seq`), else go field by field."""
+    """Return a converter: by realignment where ROS 2's type has the same fields (except `seq`), else by field."""
     if is_same_wireformat(recorded, store, name, name):
         return lambda data: bytes(store.ros1_to_cdr(data, name))
     cache: dict[str, Any] = {}

@@ -1,4 +1,4 @@
-"""Reads rosbag2's SQLite storage, whole or damaged. The file is never changed, nor what lies beside it."""
+"""Reads rosbag2's SQLite storage, whole or damaged; the file and its companions are never changed."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ from auv_sim.bags.reading.recording import Bag, RecordedTopic, TopicFilter
 from auv_sim.bags.reading.storage.sqlite_pages import Row, rows_of
 
 _SQLITE = "a rosbag2 SQLite file"
-#: What reading a damaged file raises: names of columns may be no text.
+#: Errors of a damaged file, in which even names of columns may be no text.
 _DAMAGE = (sqlite3.Error, UnicodeError)
 _TABLES = ("topics", "messages")
-#: Longer values than the file has bytes are never asked for; a small file still needs room for its schema.
+#: Lengths of values are limited to the file's size, but at least to this, for the schema of a small file.
 _LEAST_LENGTH = 100_000
 
 
 @dataclass
 class _Content:
-    """Number of a topic -> topic; the rows that were seen, messages and others; why reading ended early."""
+    """Number of a topic -> topic; the rows seen, messages and others; the reason why reading ended early."""
 
     topics: dict[int, RecordedTopic] = field(default_factory=dict)
     seen: set[int] = field(default_factory=set)
@@ -77,13 +77,13 @@ def _notes(file: Path, content: _Content) -> Iterator[str]:
 
 
 def _unmerged(file: Path) -> list[Path]:
-    """What lies beside a file that was not closed: opening the file would merge it into it."""
+    """Return the companions of a file that was not closed; opening the file would merge them into it."""
     return [path for path, suffix in companions(file) if suffix != "-shm" and path.stat().st_size]
 
 
 @contextlib.contextmanager
 def _opened(file: Path) -> Iterator[tuple[sqlite3.Connection, Path]]:
-    """A connection, and the file behind it: a copy where something is to be merged into it first."""
+    """Open the file, or a copy where companions must be merged first; yield connection and file."""
     beside = _unmerged(file)
     with contextlib.ExitStack() as stack:
         readable, mode = file, "mode=ro&immutable=1"
@@ -105,13 +105,13 @@ def _opened(file: Path) -> Iterator[tuple[sqlite3.Connection, Path]]:
 
 
 def _topics(connection: sqlite3.Connection) -> Iterator[tuple[RecordedTopic, int]]:
-    """Each topic with its number.
+    """Yield each topic with its number.
 
     Raises:
         sqlite3.Error: no such tables, or they cannot be read.
     """
     connection.execute("PRAGMA trusted_schema = OFF")
-    # A file that was cut off has fewer pages than it says; this makes the library go on with those it has.
+    # A truncated file has fewer pages than its header states; with this the library reads those it has.
     connection.execute("PRAGMA writable_schema = ON")
     query = "SELECT name FROM sqlite_master WHERE type = 'table' AND sql LIKE 'CREATE TABLE%'"
     tables = {name for (name,) in connection.execute(query)}
@@ -134,7 +134,7 @@ def _topics(connection: sqlite3.Connection) -> Iterator[tuple[RecordedTopic, int
 
 
 def _topic(row: dict[str, Any], definitions: dict[str, tuple[str, str]]) -> RecordedTopic:
-    """One row of the table of topics; a column that an older rosbag2 did not have is empty."""
+    """Return a topic from its row; a column that an older rosbag2 lacked is empty."""
     name, type_name, encoding, qos, type_hash = (
         str(row.get(column) or "")
         for column in (
@@ -157,7 +157,7 @@ def _topic(row: dict[str, Any], definitions: dict[str, tuple[str, str]]) -> Reco
 
 
 def _joined(bag: Bag, file: Path, topic: RecordedTopic) -> RecordedTopic:
-    """The recording's topic of this name; one of another type stays apart and is not read."""
+    """Return the recording's topic of this name; one of another type stays separate and is not read."""
     there = bag.topics.setdefault(topic.name, topic)
     if there.type != topic.type:
         bag.notes.append(f"{file.name}: messages of a second type {topic.type!r} on {topic.name} left out")

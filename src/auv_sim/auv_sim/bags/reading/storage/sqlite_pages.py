@@ -1,8 +1,8 @@
 """Messages from the pages of a damaged SQLite file.
 
-Where a page is missing or damaged the library gives up on everything that it leads to. Rows, however, lie in
-leaf pages that need no other page to be read (but those that continue a long row), so that they are found
-by looking at each page. The format: https://www.sqlite.org/fileformat2.html, sections 1.6 and 2.1.
+Where a page is missing or damaged the library loses everything below it. Rows, however, are in leaf pages,
+which can be read without any other page (except the continuation of a long row), so they are found page by
+page. The format: https://www.sqlite.org/fileformat2.html, sections 1.6 and 2.1.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Row = tuple[int, int, int, bytes]
 
 
 def rows_of(file: Path) -> Iterator[Row]:
-    """Yield what looks like a row of rosbag2's table of messages, page by page, each that is whole."""
+    """Yield every complete row that has the form of rosbag2's table of messages, page by page."""
     with file.open("rb") as stream:
         data = stream.read()
     if len(data) < _FIRST_PAGE_HEADER:
@@ -54,7 +54,7 @@ def _page(data: bytes, start: int, head: int, size: int, usable: int) -> Iterato
 
 
 def _cell(data: bytes, at: int, end: int, size: int, usable: int) -> Row | None:
-    """One row, or None where it is incomplete or none of ours."""
+    """Return one row, or None where it is incomplete or of another table."""
     length, at = _varint(data, at)
     number, at = _varint(data, at)
     if length > len(data):
@@ -75,7 +75,7 @@ def _cell(data: bytes, at: int, end: int, size: int, usable: int) -> Row | None:
 
 
 def _continued(data: bytes, page: int, missing: int, size: int, usable: int) -> bytes:
-    """The rest of a long row, in pages each of which names the next; what there is of it."""
+    """Return the rest of a long row, in a chain of pages, as far as it is there."""
     parts = []
     while missing > 0 and page > 0 and page * size <= len(data):
         start = (page - 1) * size
@@ -86,7 +86,7 @@ def _continued(data: bytes, page: int, missing: int, size: int, usable: int) -> 
 
 
 def _record(record: bytes, number: int) -> Row | None:
-    """A row of the table of messages: its number stands outside of it, then topic, time and message."""
+    """Return a row of the table of messages, whose number is outside of the record; None for another form."""
     at, kinds = 0, []
     header, at = _varint(record, at)
     while at < header:
@@ -110,7 +110,7 @@ def _integer(record: bytes, at: int, kind: int) -> tuple[int, int]:
 
 
 def _varint(data: bytes, at: int) -> tuple[int, int]:
-    """A number of one to nine bytes, seven bits in each but the ninth, and where it ends."""
+    """Return a number of one to nine bytes, seven bits in each but the ninth, and its end."""
     value = 0
     for k in range(8):
         byte = data[at + k]
