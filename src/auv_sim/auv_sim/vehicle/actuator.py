@@ -1,4 +1,4 @@
-"""Rudder servo: limited in angle and rate; a real one also has a dead band, play and a dead time."""
+"""Rudder servo: limited in angle and rate; optionally with dead band, backlash and dead time."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from auv_path_following.vehicle import Rudder, Vehicle
 
 @settings
 class RudderFlaws:
-    """What an ideal servo does not have; each is off by default."""
+    """Imperfections of a servo; each is off by default."""
 
     dead_band_deg: float = setting(
-        0.0, "a servo at rest does not start for a smaller difference", unit="deg", ge=0.0, le=20.0
+        0.0, "largest difference for which a servo at rest does not start", unit="deg", ge=0.0, le=20.0
     )
     backlash_deg: float = setting(
-        0.0, "play between servo and rudder, from stop to stop", unit="deg", ge=0.0, le=20.0
+        0.0, "backlash between servo and rudder, from stop to stop", unit="deg", ge=0.0, le=20.0
     )
-    dead_time: float = setting(0.0, "from a command to the servo's start", unit="s", ge=0.0, le=5.0)
+    dead_time: float = setting(0.0, "time from a command to the servo's start", unit="s", ge=0.0, le=5.0)
 
 
-#: Commanded angle, rad, and whether it was commanded at the beginning of this step or is held.
+#: Commanded angle, rad, and whether it is new at the begin of this step or held.
 Order = tuple[float, bool]
 #: Angle of the rudder itself at the beginning, the middle and the end of a step, rad.
 Deflection = tuple[float, float, float]
@@ -61,8 +61,8 @@ class FlawedServo(NamedTuple):
         band: dead band, rad.
         play: half of the backlash, rad.
         dead_time: s.
-        size: how many commands can be within their dead time.
-        ring: written; when their dead time is over (s), then their angles (rad), `size` each.
+        size: most commands within their dead time.
+        ring: written; the ends of their dead times (s), then their angles (rad), `size` each.
     """
 
     max_angle: float
@@ -78,10 +78,10 @@ class FlawedServoState(NamedTuple):
     """State of a servo with flaws.
 
     Attributes:
-        angle: of the servo, which it measures, rad.
-        target, fin: where it turns to, and the angle of the rudder itself, rad.
+        angle: of the servo, as measured, rad.
+        target, fin: of the servo, and the angle of the rudder itself, rad.
         clock: s.
-        first, after: the range of commands within their dead time, as numbers of all commands.
+        first, after: range of the commands within their dead time, in the count of all commands.
     """
 
     angle: float = 0.0
@@ -121,12 +121,12 @@ def flawed_servo_of(rudder: Rudder, flaws: RudderFlaws, step: float) -> FlawedSe
 def turn_flawed(
     config: FlawedServo, state: FlawedServoState, inputs: Order, dt: float
 ) -> tuple[FlawedServoState, Deflection]:
-    """Move towards the last command whose dead time is over; the rudder follows at the end of the play.
+    """Move towards the last command whose dead time is over; the rudder follows with the backlash.
 
-    A command whose dead time ends within the step counts from its end on.
+    A command whose dead time ends within the step counts from the step's end.
 
     Raises:
-        IndexError: commands came faster than the ring was made for.
+        IndexError: more commands within their dead time than the ring holds.
     """
     max_angle, max_rate, band, play, dead_time, size, ring = config
     angle, target, fin, clock, first, after = state

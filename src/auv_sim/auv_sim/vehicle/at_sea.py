@@ -1,4 +1,4 @@
-"""The vehicle in a sea that is not ideal: water, propeller, servo, instruments and navigator in one step."""
+"""The vehicle in a sea with imperfections: water, propeller, servo, instruments and navigator in one step."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from auv_sim.vehicle.sensors import Sensors, SensorsState, sense, sensors_of
 
 
 class VehicleAtSea(NamedTuple):
-    """Configuration of a vehicle in one run at sea; `memory` is written."""
+    """Configuration of a vehicle in one run at sea; `memory` is written to."""
 
     plant: Plant
     water: Water
@@ -45,8 +45,8 @@ class AtSea(NamedTuple):
         own: the sea's own current where the vehicle is, m/s, NED.
         north, east: variation of the water, m/s.
         propeller: drift of its efficiency.
-        sensors, navigator: theirs.
-        time: since the beginning, s.
+        sensors, navigator: their states.
+        time: since the start, s.
         k: number of the next measurement.
     """
 
@@ -65,12 +65,12 @@ class Seen(NamedTuple):
     """A vehicle's measurements and the truth behind them.
 
     Attributes:
-        navigation: as the vehicle reports it, NED.
-        water: velocity through the water as its log reports it, m/s, FRD.
-        water_lock: whether that was measured now; otherwise it is the last one that was.
-        u, v: measured velocity over ground, m/s, FRD; NaN without bottom lock, and where none is measured.
+        navigation: reported by the vehicle, NED.
+        water: velocity through the water, reported by its log, m/s, FRD.
+        water_lock: whether it was measured now; otherwise it is the last measurement.
+        u, v: measured velocity over ground, m/s, FRD; NaN without bottom lock or without a measurement.
         motion: true pose and velocity through the water.
-        rudder: angle that the servo measures, rad.
+        rudder: measured angle of the servo, rad.
         current: true current where the vehicle is, m/s, NED.
     """
 
@@ -87,14 +87,14 @@ class Seen(NamedTuple):
 def at_sea_of(
     vehicle: Vehicle, initial: PlantState, sea: Sea, seed: int, draws: Draws
 ) -> tuple[VehicleAtSea, AtSea]:
-    """Return configuration and first state of a vehicle at sea; `draws` has drawn when it returns.
+    """Return configuration and first state of a vehicle at sea, with all numbers of `draws` drawn.
 
     Args:
         vehicle: hull, rudder, thruster.
         initial: first state of the hull.
-        sea: what is not ideal.
-        seed: of everything that is random in it.
-        draws: an empty layout of the run; decides about lists or arrays.
+        sea: its imperfections.
+        seed: of its random numbers.
+        draws: an empty layout of the run, for lists or arrays.
     """
     initial = PlantState(*map(float, initial))
     servo = flawed_servo_of(vehicle.rudder, sea.rudder, draws.step)
@@ -112,11 +112,11 @@ def at_sea_of(
 
 @pure
 def measure_at_sea(config: VehicleAtSea, state: AtSea, inputs: PlantInputs, dt: float) -> tuple[AtSea, Seen]:
-    """Let the sea pass and measure, `dt` seconds after the last time; 0 for the first.
+    """Advance the sea and measure, `dt` seconds after the last measurement; 0 for the first.
 
     Args:
         config, state: of the vehicle.
-        inputs: with the constant current, m/s, NED, that comes on top of the sea's own.
+        inputs: with the constant current, m/s, NED, added to the sea's own.
         dt: s.
     """
     _, constant, _ = inputs
@@ -125,7 +125,7 @@ def measure_at_sea(config: VehicleAtSea, state: AtSea, inputs: PlantInputs, dt: 
 
 @pure
 def step_at_sea(config: VehicleAtSea, state: AtSea, inputs: PlantInputs, dt: float) -> tuple[AtSea, Seen]:
-    """Let `dt` seconds pass under a held command, then measure: `measure_at_sea`."""
+    """Advance by `dt` seconds under a held command, then measure as `measure_at_sea`."""
     own, (command, constant, _) = state.own, inputs
     propeller, error = noise(config.propeller, state.propeller, config.memory, dt)
     current = Current(constant.Vx + own.Vx, constant.Vy + own.Vy)

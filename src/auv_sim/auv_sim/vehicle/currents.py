@@ -1,4 +1,4 @@
-"""Water that moves: a mean current that varies in time, sheared and jet-like in space, turned by the tide."""
+"""Currents: a mean that varies in time, shear and jet in space, and a tidal ellipse."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ class Variation:
 
 @settings
 class Shear:
-    """A current that grows linearly across its course: to starboard of the line through `point`."""
+    """A current that grows linearly across its course, to starboard of the line through `point`."""
 
     gradient: float = setting(0.0, "growth for each metre to starboard", unit="1/s", ge=-0.1, le=0.1)
-    course_deg: float = setting(0.0, "where it flows to", unit="deg")
+    course_deg: float = setting(0.0, "course of the flow", unit="deg")
     point: Pair = setting((0.0, 0.0), "north and east of a point without this current", unit="m")
-    limit: float = setting(1.0, "it grows no further than to this", unit="m/s", ge=0.0, le=5.0)
+    limit: float = setting(1.0, "largest speed", unit="m/s", ge=0.0, le=5.0)
 
 
 @settings
@@ -36,18 +36,18 @@ class Jet:
     """A sheared jet (Bickley): fastest on its axis, falling off as sech^2 to both sides."""
 
     speed: float = setting(0.0, "on the axis", unit="m/s", ge=0.0, le=5.0)
-    width: float = setting(50.0, "where it has fallen to 42 %", unit="m", gt=0.0)
-    course_deg: float = setting(0.0, "where it flows to", unit="deg")
+    width: float = setting(50.0, "distance at which it has fallen to 42 %", unit="m", gt=0.0)
+    course_deg: float = setting(0.0, "course of the flow", unit="deg")
     point: Pair = setting((0.0, 0.0), "north and east of a point of the axis", unit="m")
 
 
 @settings
 class Tide:
-    """A tidal ellipse: the tip of the current's arrow runs round it once in a period."""
+    """A tidal ellipse, traversed by the current vector once in a period."""
 
-    major: float = setting(0.0, "half of the long axis", unit="m/s", ge=0.0, le=5.0)
+    major: float = setting(0.0, "semi-major axis", unit="m/s", ge=0.0, le=5.0)
     minor: float = setting(
-        0.0, "half of the short axis; negative turns counter-clockwise", unit="m/s", ge=-5.0, le=5.0
+        0.0, "semi-minor axis; negative turns counter-clockwise", unit="m/s", ge=-5.0, le=5.0
     )
     course_deg: float = setting(0.0, "course of the long axis", unit="deg")
     period: float = setting(44714.16, "12.42 h: the principal lunar tide", unit="s", gt=0.0)
@@ -104,7 +104,7 @@ class TideFlow(NamedTuple):
 
 
 class Water(NamedTuple):
-    """Configuration of the water's own movement; mean and variation are north and east."""
+    """Configuration of the sea's own current; mean and variation are north and east."""
 
     mean: Current
     north: GaussMarkov
@@ -153,14 +153,14 @@ def vary(config: Water, north: float, east: float, memory: RunMemory, dt: float)
 def flow(config: Water, north: float, east: float, x: float, y: float, time: float) -> Current:
     """Return the velocity of the water at a place, m/s, NED.
 
-    The plant takes it as constant over a step and the hull's inertia against its changes as nothing, which
-    holds while the water changes slowly against the hull's own second or two.
+    The plant holds it constant over a step and neglects the hull's inertia against its changes, which is
+    valid while the water changes slowly relative to the hull's time constant of one or two seconds.
 
     Args:
         config: the parts.
         north, east: deviation from the mean, m/s.
         x, y: NED, m.
-        time: since the beginning, s.
+        time: since the start, s.
     """
     Vx, Vy = config.mean.Vx + north, config.mean.Vy + east
     shear, jet, tide = config.shear, config.jet, config.tide
@@ -182,5 +182,5 @@ def flow(config: Water, north: float, east: float, x: float, y: float, time: flo
 
 @pure
 def _across(x: float, y: float, x0: float, y0: float, course: Heading) -> float:
-    """Return how far (x, y) is to starboard of the line through (x0, y0), m."""
+    """Return the distance of (x, y) to starboard of the line through (x0, y0), m."""
     return -(x - x0) * course.sin + (y - y0) * course.cos

@@ -1,8 +1,8 @@
 """Random numbers and rings of one run at sea, laid out before it: steps read, count and overwrite.
 
-Every law has generators of its own, made from the seed of the run and the law's place in it: two runs are
-equal to the last bit, a reset begins the same run again, and switching one error off leaves all others as
-they were. What a generator gives does not depend on how many numbers are drawn at once.
+Every law has its own generators, made from the seed of the run and the law's place in it: two runs are equal
+to the last bit, a reset repeats the same run, and disabling one error leaves all others unchanged. The
+numbers of a generator do not depend on how many are drawn at once.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ _Kind = Literal["standard_normal", "standard_exponential", "random"]
 
 
 class RunMemory(NamedTuple):
-    """What steps write to: lists for CPython, arrays for compiled code.
+    """Memory that steps write to: lists for CPython, arrays for compiled code.
 
     Attributes:
         drawn: random numbers, one row for each law.
-        used: for each row, where its next number is in `drawn`; counted up.
+        used: for each row, the place of its next number in `drawn`; counted up.
         kept: rings; overwritten.
     """
 
@@ -36,7 +36,7 @@ class RunMemory(NamedTuple):
 
 
 class Now(NamedTuple):
-    """The run's memory, and the time (s) and the number of this measurement; both begin with 0."""
+    """The run's memory, and the time (s) and the number of this measurement, both from 0."""
 
     memory: RunMemory
     time: float
@@ -44,14 +44,14 @@ class Now(NamedTuple):
 
 
 class DrawnRow(NamedTuple):
-    """A row of random numbers: its place in `RunMemory.used`, and where it ends in `RunMemory.drawn`."""
+    """A row of random numbers: its place in `RunMemory.used`, and its end in `RunMemory.drawn`."""
 
     number: int
     end: int
 
 
 class Ring(NamedTuple):
-    """A ring in `RunMemory.kept`: where it begins, how many entries it has, and the numbers of each."""
+    """A ring in `RunMemory.kept`: its begin, the number of its entries, and the numbers in each."""
 
     begin: int
     size: int
@@ -75,18 +75,18 @@ def draw(memory: RunMemory, row: DrawnRow) -> float:
 
 @pure
 def slot(ring: Ring, k: int) -> int:
-    """Return where entry `k` of a ring begins in `RunMemory.kept`."""
+    """Return the begin of entry `k` of a ring in `RunMemory.kept`."""
     return ring.begin + k % ring.size * ring.width
 
 
 class Draws:
-    """Lays out a run's rows and rings while its laws are prepared, draws, and draws on between two steps.
+    """Lays out a run's rows and rings while its laws are prepared, and draws their numbers.
 
     Args:
         step: time between two steps of the run, s.
-        steps: how many steps the rows last.
-        arrays: whether the memory is for compiled code; otherwise it is for CPython, whose lists are several
-            times as fast as arrays there.
+        steps: number of steps for which the rows last.
+        arrays: whether the memory is for compiled code; otherwise for CPython, where lists are several times
+            as fast as arrays.
     """
 
     def __init__(self, step: float, steps: int, arrays: bool = False) -> None:
@@ -107,7 +107,7 @@ class Draws:
         return self._row(generator, "random", count * self._samples(rate))
 
     def exponentials(self, generator: np.random.Generator, mean: float) -> DrawnRow:
-        """Lay out exponential numbers, one for every `mean` seconds and ample ones more."""
+        """Lay out exponential numbers, one for every `mean` seconds, with an ample reserve."""
         expected = self.steps * self.step / mean
         return self._row(
             generator, "standard_exponential", math.ceil(expected + 12.0 * math.sqrt(expected)) + 20
@@ -131,11 +131,11 @@ class Draws:
         return DrawnRow(len(self._rows) - 1, self._drawn)
 
     def table(self, size: int) -> Any:
-        """Return a table of zeros of its own."""
+        """Return a separate table of zeros."""
         return np.zeros(size) if self._arrays else [0.0] * size
 
     def memory(self) -> RunMemory:
-        """Draw; return the memory of the run. To be called once, when everything is laid out."""
+        """Draw all numbers; return the memory of the run. Call it once, after the layout is complete."""
         drawn = np.empty(self._drawn)
         for generator, kind, begin, size in self._rows:
             drawn[begin : begin + size] = getattr(generator, kind)(size)
@@ -144,7 +144,7 @@ class Draws:
         return memory if self._arrays else RunMemory(*(values.tolist() for values in memory))
 
     def refill(self, memory: RunMemory) -> None:
-        """Draw on between two steps: replace what was used of every row, so that it lasts as long again.
+        """Replace the used numbers of every row between two steps, so that it lasts as long again.
 
         Args:
             memory: lists.

@@ -1,7 +1,7 @@
 """The simulated vehicle's own navigation: dead reckoning by Doppler log, corrected by acoustic fixes.
 
-With bottom lock the velocity over ground carries the position on, in between the velocity through the water
-and a current that it has learned. A Kalman filter weighs the fixes against it; what no fix can be is refused.
+With bottom lock the position is propagated by the velocity over ground, otherwise by the velocity through the
+water and an estimated current. A Kalman filter corrects it by the fixes; implausible ones are refused.
 """
 
 from __future__ import annotations
@@ -16,33 +16,35 @@ from auv_sim.vehicle.draws import Draws, Now, Ring, slot
 from auv_sim.vehicle.position_fixes import Fixes
 from auv_sim.vehicle.sensors import Measurements
 
-#: For so long dead reckoning is kept, s: no fix is older.
+#: Time for which dead reckoning is kept, s: no fix is older.
 TRACK_TIME = 30.0
 
 
 @numbers
 @settings
 class NavigatorConfig:
-    """What the navigator assumes of its instruments."""
+    """The navigator's assumptions about its instruments."""
 
     start: float = setting(
-        0.5, "standard deviation of the position it starts with, north and east", unit="m", gt=0.0
+        0.5, "standard deviation of the initial position, north and east", unit="m", gt=0.0
     )
     fix: float = setting(1.0, "standard deviation of a fix, north and east", unit="m", gt=0.0)
-    gate: float = setting(3.5, "a fix is refused beyond so many standard deviations", gt=0.0, le=100.0)
-    patience: int = setting(5, "after so many refusals in a row the navigator doubts itself", ge=1)
-    walk: float = setting(
-        0.05, "how fast dead reckoning goes astray at random: m after a second", unit="m/s^0.5", gt=0.0
+    gate: float = setting(
+        3.5, "deviation beyond which a fix is refused, in standard deviations", gt=0.0, le=100.0
     )
+    patience: int = setting(5, "refusals in a row after which the navigator increases its own variance", ge=1)
+    walk: float = setting(0.05, "random walk of dead reckoning: m after one second", unit="m/s^0.5", gt=0.0)
     bottom_error: float = setting(
         0.03, "standard deviation of the error of the velocity over ground", unit="m/s", gt=0.0
     )
     water_error: float = setting(
-        0.15, "standard deviation of the error of the current it has learned", unit="m/s", gt=0.0
+        0.15, "standard deviation of the error of its current estimate", unit="m/s", gt=0.0
     )
-    error_time: float = setting(2000.0, "time in which these errors change", unit="s", gt=0.0)
-    current_time: float = setting(20.0, "over which the current is learned", unit="s", gt=0.0)
-    blend: float = setting(5.0, "a correction is spread over so long: the pose never jumps", unit="s", ge=0.0)
+    error_time: float = setting(2000.0, "time constant of these errors", unit="s", gt=0.0)
+    current_time: float = setting(20.0, "time constant of the current estimate", unit="s", gt=0.0)
+    blend: float = setting(
+        5.0, "time over which a correction is spread, so that the pose never jumps", unit="s", ge=0.0
+    )
 
 
 class Navigator(NamedTuple):
@@ -51,7 +53,7 @@ class Navigator(NamedTuple):
     Attributes:
         assumed: the numbers of a `NavigatorConfig`.
         latency, fixes: of the position fixes: s, and their ring.
-        track: ring of 30 s of dead reckoning: time (s), way north and east (m) since the beginning.
+        track: ring of 30 s of dead reckoning: time (s), displacement north and east (m) since the start.
     """
 
     assumed: Any
@@ -65,14 +67,14 @@ class NavigatorState(NamedTuple):
 
     Attributes:
         z: position, north + i east, m.
-        shown: what is still to be corrected in the pose that is shown, m.
+        shown: correction that the reported pose still lacks, m.
         P_z, P_ze: variance of the position, m^2; covariance with the error of the source of velocity.
         bottom, water: the slow errors of both sources of velocity, north + i east, m/s.
         P_bottom, P_water: their variances.
-        on_water: whether the last velocity was one through the water.
+        on_water: whether the last velocity was through the water.
         velocity: the last one, north + i east, m/s.
-        way: dead reckoning since the beginning, m.
-        in_a_row, refused: fixes that were refused since one was taken, and in all.
+        way: displacement by dead reckoning since the start, m.
+        in_a_row, refused: fixes refused since the last accepted one, and in all.
     """
 
     z: complex
@@ -94,8 +96,8 @@ def navigator_of(config: NavigatorConfig, fixes: Fixes, draws: Draws) -> Navigat
     """Return the configuration of a navigator.
 
     Args:
-        config: what it assumes of its instruments.
-        fixes: the position fixes that it gets.
+        config: its assumptions about its instruments.
+        fixes: its position fixes.
         draws: of the run.
     """
     track = draws.ring(math.ceil(TRACK_TIME / draws.step) + 3, 3)
@@ -115,11 +117,11 @@ def navigator_at(config: Navigator, x: float, y: float) -> NavigatorState:
 def navigate(
     config: Navigator, state: NavigatorState, measured: Measurements, now: Now, dt: float
 ) -> tuple[NavigatorState, Navigation]:
-    """Carry on by dead reckoning, weigh the fixes that came; return the pose that is shown as well.
+    """Propagate by dead reckoning, correct by the fixes that arrived; return the reported pose as well.
 
-    A Kalman filter for the position and the slow error of the velocity that carries it on. North and east are
-    the real and the imaginary part of one complex number, for their errors are alike and independent: so two
-    states are enough, z (m) and the error e (m/s), which walks at random. With bottom lock
+    A Kalman filter for the position and the slow error of its velocity. North and east are the real and the
+    imaginary part of one complex number, as their errors are equal in distribution and independent. So two
+    states suffice, z (m) and the error e (m/s), a random walk. With bottom lock
     z' = exp(i psi) (u + i v + e), and e turns with the vehicle: a crooked compass, a wrong scale. Without,
     z' = exp(i psi) (ur + i vr) + e, and e is the current. Variances are those of one axis: P_z and that of e
     are real, P_ze, between them, is complex.
@@ -188,7 +190,7 @@ def _carry_on(
 
 @pure
 def _weigh(config: Navigator, state: NavigatorState, fix: complex, age: float, now: Now) -> NavigatorState:
-    """Take a fix (north + i east, m) that was true `age` seconds ago, or refuse it."""
+    """Correct by a fix (north + i east, m) of `age` seconds ago, or refuse it."""
     c = config.assumed
     z, shown, P_z, P_ze, bottom, P_bottom, water, P_water, on_water, velocity, way, in_a_row, refused = state
     innovation = fix - (z - _way_since(config.track, way, age, now))
@@ -217,7 +219,7 @@ def _weigh(config: Navigator, state: NavigatorState, fix: complex, age: float, n
 
 @pure
 def _way_since(track: Ring, newest: complex, age: float, now: Now) -> complex:
-    """Return how far dead reckoning has come since `age` seconds ago, north + i east, m."""
+    """Return the displacement by dead reckoning since `age` seconds ago, north + i east, m."""
     then, kept = now.time - age, now.memory.kept
     later, further = now.time, newest
     for k in range(now.k, -1, -1):

@@ -1,4 +1,4 @@
-"""What a measurement has besides the truth: white noise, a constant offset, a slow drift, gaps, lateness."""
+"""Errors of a measurement: white noise, a constant offset, a slow drift, gaps, delay."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ SAME = 1e-9
 
 @settings
 class NoiseConfig:
-    """Errors of a measured number, in that number's unit. With all at 0 the truth comes through unchanged."""
+    """Errors of a measured number, in its unit; with all at 0 the truth is unchanged."""
 
     white: float = setting(0.0, "standard deviation of each measurement", ge=0.0)
     bias: float = setting(0.0, "standard deviation of a constant offset, drawn once for a run", ge=0.0)
@@ -25,7 +25,7 @@ class NoiseConfig:
 
 @settings
 class DropoutConfig:
-    """Gaps that come and go at random; both times are means of exponential distributions."""
+    """Random gaps; both times are means of exponential distributions."""
 
     every: float = setting(0.0, "mean time from the end of a gap to the next; 0: no gaps", unit="s", ge=0.0)
     length: float = setting(1.0, "mean length of a gap", unit="s", gt=0.0)
@@ -38,8 +38,8 @@ class GaussMarkov(NamedTuple):
         deviation: standard deviation.
         time: time constant T, s.
         limit: the value is kept within +- this.
-        step, keep, fresh: the discrete process for the usual step (s): what it keeps of its value, and the
-            standard deviation of what it adds.
+        step, keep, fresh: the discrete process for the usual step (s): the share of its value that it keeps,
+            and the standard deviation of its increment.
         row: normal numbers.
     """
 
@@ -61,7 +61,7 @@ def gauss_markov_of(
         deviation, time, limit: as in `GaussMarkov`.
         seed: of its generator.
         draws: of the run.
-        rate: how often it is asked, 1/s; 0: at every step.
+        rate: of its evaluation, 1/s; 0: at every step.
     """
     generator = draws.generator(seed)
     first = deviation * float(generator.standard_normal())
@@ -101,7 +101,7 @@ def noise_of(config: NoiseConfig, seed: Seed, draws: Draws, rate: float = 0.0) -
     """Return the configuration of an error and the first value of its drift.
 
     Args:
-        config: how large it is.
+        config: its size.
         seed: of its generators.
         draws: of the run.
         rate: measurements a second; 0: at every step.
@@ -144,7 +144,7 @@ def dropouts_of(config: DropoutConfig, seed: Seed, draws: Draws) -> tuple[Dropou
 
 @pure
 def dropouts(config: Dropouts, silent: bool, left: float, memory: RunMemory, dt: float) -> tuple[bool, float]:
-    """Return whether a sensor is silent `dt` seconds later, and for how long this remains so, s."""
+    """Return whether a sensor is silent `dt` seconds later, and the time until that changes, s."""
     left -= dt
     while left <= 0.0:
         silent = not silent
@@ -159,9 +159,9 @@ def period_of(rate: float) -> float:
 
 @pure
 def sampler(period: float, until: float, dt: float) -> tuple[float, bool]:
-    """Return when a sensor measures next, in s, and whether it measures `dt` seconds later.
+    """Return the time until a sensor's next measurement, s, and whether it measures `dt` seconds later.
 
-    The beat is kept; a step longer than the period is one measurement all the same.
+    The period is kept; a step longer than it gives one measurement.
 
     Args:
         period: s; 0 for a measurement at every step.
@@ -175,7 +175,7 @@ def sampler(period: float, until: float, dt: float) -> tuple[float, bool]:
 
 
 class Delay(NamedTuple):
-    """Configuration of a delay: how many steps it takes, and the ring of what is on its way."""
+    """Configuration of a delay: its steps, and the ring of delayed entries."""
 
     steps: int
     ring: Ring
@@ -189,5 +189,5 @@ def delay_of(latency: float, draws: Draws, width: int = 1) -> Delay:
 
 @pure
 def delayed(delay: Delay, k: int) -> int:
-    """Return where in `RunMemory.kept` the entry lies that arrives at step `k`; at first, the oldest one."""
+    """Return the place in `RunMemory.kept` of the entry that arrives at step `k`; at first, of the oldest."""
     return slot(delay.ring, max(k - delay.steps, 0))

@@ -1,4 +1,4 @@
-"""Acoustic position fixes from outside (USBL): seldom, late, sometimes an echo from elsewhere."""
+"""Acoustic position fixes from outside (USBL): infrequent, delayed, sometimes a false echo."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ from auv_sim.vehicle.noise import (
 
 @settings
 class FixConfig:
-    """Acoustic position fixes from outside (USBL), each with the time at which it was true."""
+    """Acoustic position fixes from outside (USBL), each with its time of measurement."""
 
     noise: NoiseConfig = setting(factory=NoiseConfig, doc="errors north and east, m")
     rate: float = setting(0.0, "fixes a second; 0: at every step", unit="1/s", ge=0.0)
     latency: float = setting(0.0, "from the measurement to its arrival on board", unit="s", ge=0.0, le=30.0)
     dropouts: DropoutConfig = setting(factory=DropoutConfig, doc="gaps")
-    outliers: float = setting(0.0, "share of the fixes that are false echoes", ge=0.0, le=1.0)
-    outlier_nearest: float = setting(10.0, "a false echo lies at least so far off", unit="m", ge=0.0)
-    outlier_farthest: float = setting(50.0, "and at most so far", unit="m", ge=0.0)
+    outliers: float = setting(0.0, "share of false echoes among the fixes", ge=0.0, le=1.0)
+    outlier_nearest: float = setting(10.0, "least distance of a false echo", unit="m", ge=0.0)
+    outlier_farthest: float = setting(50.0, "largest distance of a false echo", unit="m", ge=0.0)
 
 
 class Fixes(NamedTuple):
@@ -42,9 +42,9 @@ class Fixes(NamedTuple):
     Attributes:
         x, y: noise north and east, m.
         dropouts, period, latency: gaps; s, s.
-        outliers, nearest, farthest: share of false echoes, and how far off they are, m.
+        outliers, nearest, farthest: share of false echoes, and their distances, m.
         echoes: uniform numbers, three for each fix.
-        ring: fixes on their way: when they arrive (s), north, east (m).
+        ring: fixes on their way: time of arrival (s), north, east (m).
     """
 
     x: Noise
@@ -87,9 +87,9 @@ def fixes_of(config: FixConfig, seed: Seed, draws: Draws) -> tuple[Fixes, FixesS
 
 @pure
 def measure_position(config: Fixes, state: FixesState, x: float, y: float, now: Now, dt: float) -> FixesState:
-    """Return the state after a fix may have set out and others have arrived: seldom, late, sometimes an echo.
+    """Return the state after a fix may have been measured and others have arrived.
 
-    Those that arrived are the ones before its `first` that were on their way before.
+    The arrived ones lie between the former and the new `first`.
 
     Args:
         config, state: of the fixes.

@@ -109,7 +109,7 @@ def planar_slopes(
 def planar_step(
     config: PlanarHull, state: PlantState, inputs: HullInputs, dt: float
 ) -> tuple[PlantState, PlantState]:
-    """One Runge-Kutta step, written flat; the output is the state."""
+    """Take one Runge-Kutta step, written flat; the output is the state."""
     hull = config[:]  # a plain tuple, which unpacks four times as fast as a named one
     x, y, psi, ur, vr, r = state
     (begin, middle, end), thrust, (Vx, Vy) = inputs
@@ -182,7 +182,7 @@ def plant_at(hull: PlantState) -> Afloat:
 
 @pure
 def plant_step(config: Plant, state: Afloat, inputs: PlantInputs, dt: float) -> tuple[Afloat, PlantState]:
-    """Let `dt` seconds pass under a held command and current; the output is the hull's motion."""
+    """Advance by `dt` seconds under a held command and current; the output is the hull's motion."""
     hull, servo = state
     command, current, efficiency = inputs
     order, thrust = command
@@ -210,5 +210,5 @@ def ground_velocity(state: PlantState, current: Current) -> tuple[float, float]:
 
 @pure
 def navigation_of(state: PlantState) -> Navigation:
-    """Return what an ideal navigation measures."""
+    """Return ideal navigation."""
     return Navigation(state.x, state.y, state.psi, state.r)

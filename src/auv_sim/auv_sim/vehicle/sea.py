@@ -1,4 +1,4 @@
-"""A sea and a vehicle that are not ideal, as one file describes them: `config/seas/*.yaml`."""
+"""Imperfections of sea and vehicle in one file: `config/seas/*.yaml`."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from auv_sim.vehicle.sensors import SensorsConfig
 
 @settings
 class Sea:
-    """Water, rudder, propeller, instruments and navigator. What a file leaves out is ideal."""
+    """Water, rudder, propeller, instruments and navigator; keys left out are ideal."""
 
-    name: str = setting(doc="what people call it")
-    current: CurrentConfig = setting(factory=CurrentConfig, doc="the water's own movement")
-    rudder: RudderFlaws = setting(factory=RudderFlaws, doc="what the servo does wrong")
+    name: str = setting(doc="display name")
+    current: CurrentConfig = setting(factory=CurrentConfig, doc="the sea's own current")
+    rudder: RudderFlaws = setting(factory=RudderFlaws, doc="imperfections of the servo")
     thrust: NoiseConfig = setting(factory=NoiseConfig, doc="errors of the thrust, as a share of it")
     sensors: SensorsConfig = setting(factory=SensorsConfig, doc="instruments")
-    navigator: NavigatorConfig = setting(factory=NavigatorConfig, doc="what it assumes of them")
+    navigator: NavigatorConfig = setting(factory=NavigatorConfig, doc="its assumptions about the instruments")
 
 
 def load(name_or_path: str) -> Sea:

@@ -40,11 +40,11 @@ class Measurements(NamedTuple):
 
     Attributes:
         psi, r: rad, rad/s.
-        water: through the water, m/s, FRD; the last one measured.
+        water: velocity through the water, m/s, FRD; the last measurement.
         water_lock: whether it was measured now.
-        u, v: over ground, m/s, FRD; the last ones measured.
-        bottom_lock: whether they were measured now.
-        first, after: the range of fixes that arrived, as numbers of entries in the ring of fixes.
+        u, v: velocity over ground, m/s, FRD; the last measurement.
+        bottom_lock: whether it was measured now.
+        first, after: range of the fixes that arrived, in the count of the ring's entries.
     """
 
     psi: float
@@ -87,7 +87,7 @@ class Sensors(NamedTuple):
 
 
 class SensorsState(NamedTuple):
-    """State of all instruments: the drifts of compass and gyro, and of the others what their names say."""
+    """State of all instruments; of compass and gyro, their drifts."""
 
     heading: float
     yaw_rate: float
@@ -121,14 +121,14 @@ def sensors_of(config: SensorsConfig, seed: Seed, draws: Draws) -> tuple[Sensors
 def sense(
     config: Sensors, state: SensorsState, truth: PlantState, u: float, v: float, now: Now, dt: float
 ) -> tuple[SensorsState, Measurements]:
-    """Measure, `dt` seconds after the last time.
+    """Measure, `dt` seconds after the last measurement.
 
     Args:
         config, state: of the instruments.
         truth: pose and velocity through the water.
         u, v: true velocity over ground, m/s, FRD.
         now: of the run.
-        dt: s; 0 for the first time.
+        dt: s; 0 for the first measurement.
     """
     x, y, true_psi, ur, vr, true_r = truth
     compass, gyro, water, bottom, fixes = state

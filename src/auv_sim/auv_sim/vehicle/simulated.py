@@ -1,7 +1,7 @@
 """The simulated vehicle as its driver sees it: commands in, its own navigation out.
 
-Without a sea the navigation is ideal and only the current given moves the water. With one, instruments
-measure, the navigator fuses, the servo has play, and only the truth is true.
+Without a sea the navigation is ideal, and the water moves only with the given current. With a sea,
+instruments, navigator and servo have errors, and the truth is available separately.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ from auv_sim.vehicle.remus import (
 )
 from auv_sim.vehicle.sea import Sea
 
-#: After so many steps random numbers are drawn anew.
+#: Steps after which random numbers are drawn anew.
 _BLOCK = 1000
 
 
 @pure
 def measure(config: Plant, state: Afloat, inputs: PlantInputs, dt: float) -> tuple[Afloat, Seen]:
-    """Return ideal measurements; velocity over ground is not among them."""
+    """Return ideal measurements, without velocity over ground."""
     hull, (_, current, _) = state.hull, inputs
     water = WaterVelocity(hull.ur, hull.vr)
     seen = Seen(navigation_of(hull), water, True, math.nan, math.nan, hull, state.servo.angle, current)
@@ -42,13 +42,13 @@ def measure(config: Plant, state: Afloat, inputs: PlantInputs, dt: float) -> tup
 
 @pure
 def step(config: Plant, state: Afloat, inputs: PlantInputs, dt: float) -> tuple[Afloat, Seen]:
-    """Let `dt` seconds pass under a held command and current, then measure."""
+    """Advance by `dt` seconds under a held command and current, then measure."""
     state, _ = plant_step(config, state, inputs, dt)
     return measure(config, state, inputs, dt)
 
 
 #: The first measurement of a vehicle, and one step of it: (configuration, state, `PlantInputs` with the
-#: constant current, dt) -> (state, `Seen`). A vehicle without a sea pays nothing for one.
+#: constant current, dt) -> (state, `Seen`). Without a sea there is no cost for one.
 vehicle_measure = dispatched({Plant: measure, VehicleAtSea: measure_at_sea})
 vehicle_step = dispatched({Plant: step, VehicleAtSea: step_at_sea})
 
@@ -58,11 +58,11 @@ class SimulatedVehicle:
 
     Args:
         vehicle: hull, rudder, thruster.
-        initial: state to begin with, and to go back to on reset.
-        sea: what is not ideal; None: nothing.
-        seed: of everything that is random in it.
-        current: constant current, m/s, NED, on top of the sea's own; may be changed at any time.
-        step: time that passes at each `advance` at sea, s.
+        initial: first state, also after a reset.
+        sea: imperfections; None: an ideal sea.
+        seed: of its random numbers.
+        current: constant current, m/s, NED, added to the sea's own; may be changed at any time.
+        step: time of each `advance` at sea, s.
     """
 
     def __init__(
@@ -80,7 +80,7 @@ class SimulatedVehicle:
         self.reset()
 
     def reset(self) -> None:
-        """Begin the same run again."""
+        """Restart the same run."""
         self._left = _BLOCK
         self._config: Any
         self.state: Any
@@ -88,7 +88,7 @@ class SimulatedVehicle:
         if self._sea is None:
             self._config, self.state = plant_of(self._vehicle), plant_at(self._initial)
         else:
-            # One more for the first measurement.
+            # One more step for the first measurement.
             self._draws = Draws(self._step, _BLOCK + 1)
             self._config, self.state = at_sea_of(
                 self._vehicle, self._initial, self._sea, self._seed, self._draws
@@ -97,13 +97,13 @@ class SimulatedVehicle:
         self.state, self.seen = vehicle_measure(self._config, self.state, inputs, 0.0)
 
     def advance(self, command: Command, dt: float) -> Seen:
-        """Let `dt` seconds pass under a held command, then measure.
+        """Advance by `dt` seconds under a held command, then measure.
 
         Returns:
             The measurements, which `seen` keeps.
 
         Raises:
-            ValueError: at sea, not the step that random numbers and rings were laid out for.
+            ValueError: at sea, `dt` is not the step of the random numbers and rings.
         """
         if self._sea is not None:
             if dt != self._step:
@@ -137,12 +137,12 @@ class SimulatedVehicle:
 
     @property
     def rudder(self) -> float:
-        """The rudder angle that its servo measures, rad."""
+        """Measured rudder angle, rad."""
         return self._afloat.servo.angle  # type: ignore[no-any-return]
 
     @property
     def navigation(self) -> Navigation:
-        """Navigation as the vehicle reports it."""
+        """Navigation reported by the vehicle."""
         return self.seen.navigation
 
     @property
@@ -159,12 +159,12 @@ class SimulatedVehicle:
 
     @property
     def water_velocity(self) -> WaterVelocity:
-        """Velocity through the water as its log reports it, m/s, FRD."""
+        """Velocity through the water reported by the log, m/s, FRD."""
         return self.seen.water
 
     @property
     def water_lock(self) -> bool:
-        """Whether that was measured; otherwise it is the last one that was."""
+        """Whether `water_velocity` was measured now; otherwise it is the last measurement."""
         return self.seen.water_lock
 
     @property

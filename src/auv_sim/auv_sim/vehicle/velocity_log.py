@@ -1,4 +1,4 @@
-"""A Doppler log: velocity over ground or through the water, with scale, noise, gaps and lateness."""
+"""A Doppler log: velocity over ground or through the water, with scale error, noise, gaps and delay."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class VelocityConfig:
     rate: float = setting(0.0, "measurements a second; 0: at every step", unit="1/s", ge=0.0)
     latency: float = setting(0.0, "age of its measurements", unit="s", ge=0.0, le=5.0)
     dropouts: DropoutConfig = setting(factory=DropoutConfig, doc="gaps")
-    lock: bool = setting(True, "whether there is anything within its reach: bottom or water")
+    lock: bool = setting(True, "whether bottom or water is within its range")
 
 
 class Log(NamedTuple):
@@ -56,7 +56,7 @@ class LogState(NamedTuple):
     Attributes:
         u, v: the last measurement, m/s.
         forward, starboard: drifts, m/s.
-        silent, left: whether it is silent, and for how long this remains so, s.
+        silent, left: whether it is silent, and the time until that changes, s.
         until, since: time until the next measurement and since the last one, s.
     """
 
@@ -85,9 +85,9 @@ def log_of(config: VelocityConfig, seed: Seed, draws: Draws) -> tuple[Log, LogSt
 def measure_velocity(
     config: Log, state: LogState, u: float, v: float, now: Now, dt: float
 ) -> tuple[LogState, bool]:
-    """Return the state with what the log reports, and whether it sees bottom or water.
+    """Return the state with the reported velocity, and whether the log has lock on bottom or water.
 
-    Between two of its measurements it repeats the last one.
+    Between two measurements it repeats the last one.
 
     Args:
         config, state: of the log.

@@ -31,7 +31,7 @@ def check(page: Path, name: str) -> None:
 
 
 def renew(page: Path, name: str, text: str) -> None:
-    """Put new text between the marks.
+    """Replace the text between the marks.
 
     Raises:
         ConfigurationError: as `check`.

@@ -1,4 +1,4 @@
-"""Texts on a picture that keep out of each other's way."""
+"""Texts on a picture without overlap."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ _POINTS_PER_INCH = 72.0
 _CORNERS = ((0.08, 0.1), (0.76, 0.1), (0.08, 0.9), (0.76, 0.9))
 #: Half of the room that an arrow and its words take there.
 _ROOM = (0.26, 0.1)
-#: A slower current is none, m/s.
+#: A slower current is not drawn, m/s.
 _STILL = 1e-3
 
 
 class Labels:
-    """Writes a text where nothing was written before; a text that would cover another one is left out.
+    """Writes texts; one that would cover an earlier one is left out.
 
     The axes must have their final limits: boxes are compared on the page, not in the data.
 
     Args:
-        axes: where to write.
+        axes: to write on.
     """
 
     def __init__(self, axes: Axes) -> None:
@@ -38,7 +38,7 @@ class Labels:
     def write(
         self, text: str, at: tuple[float, float], offset: tuple[float, float], size: float, **look: Any
     ) -> bool:
-        """Write beside a point.
+        """Write a text beside a point.
 
         Args:
             text: one line.
@@ -75,7 +75,7 @@ def arrow(axes: Axes, name: str, north: float, east: float, path: CompositePath)
         axes: the map, east to the right and north up, with its final limits.
         name: of the current.
         north, east: its components, m/s.
-        path: what the arrow must not cover, NED.
+        path: that the arrow must not cover, NED.
     """
     strength = float(np.hypot(north, east))
     if strength < _STILL:

@@ -1,4 +1,4 @@
-"""One picture of a flown mission: the track over the path, and what happened along it."""
+"""The overview of a flown mission: the track over the path, and signals over time."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from pathlib import Path
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.gridspec import GridSpec
 
 from auv_path_following.curves.composite import CompositePath
 from auv_sim.flight.flown_share import percent
@@ -38,11 +39,11 @@ def draw(
     Args:
         run: the flown mission.
         path: the path of that mission, NED.
-        summary: its figures, told in the headline.
+        summary: its figures, for the headline.
         png: the file to write.
-        title: what was flown.
+        title: mission and vehicle.
         rudder_limit, rudder_rate_limit: drawn where given, rad and rad/s.
-        command: what flies this mission again, printed below the picture.
+        command: the command that flies this mission again, printed below the picture.
     """
     figure = Figure(figsize=_SIZE_INCHES, dpi=_DOTS_PER_INCH, facecolor="white")
     FigureCanvasAgg(figure)
@@ -53,6 +54,22 @@ def draw(
     left = grid[:, 0].subgridspec(2, 1, height_ratios=(2.5, 1.0), hspace=0.18)
     track(figure.add_subplot(left[0]), flown, path, summary.missed)
     table(figure.add_subplot(left[1]), summary)
+    _signals(figure, grid, flown, path, rudder_limit, rudder_rate_limit)
+    figure.text(
+        0.05, 0.018, command, fontsize=10, family="monospace", color=MUTED, va="center", parse_math=False
+    )
+    save(figure, png, dpi=_DOTS_PER_INCH)
+
+
+def _signals(
+    figure: Figure,
+    grid: GridSpec,
+    flown: Run,
+    path: CompositePath,
+    rudder_limit: float | None,
+    rudder_rate_limit: float | None,
+) -> None:
+    """Draw the panels of the right half."""
     rows = [figure.add_subplot(grid[0, 1])]
     rows += [figure.add_subplot(grid[k, 1], sharex=rows[0]) for k in range(1, 5)]
     if flown.steps:
@@ -67,10 +84,6 @@ def draw(
         axes.tick_params(labelbottom=False)
     rows[-1].set_xlabel("time since the start (s)", color=INK)
     figure.align_ylabels(rows)
-    figure.text(
-        0.05, 0.018, command, fontsize=10, family="monospace", color=MUTED, va="center", parse_math=False
-    )
-    save(figure, png, dpi=_DOTS_PER_INCH)
 
 
 def _headline(figure: Figure, summary: MissionSummary, title: str) -> None:

@@ -26,12 +26,12 @@ HALO = [withStroke(linewidth=3.0, foreground="white")]
 
 
 def fact(value: float, form: str) -> str:
-    """`value` in the form given; nothing when it is not known."""
+    """Return `value` in the given format; empty when it is unknown."""
     return form.format(value) if np.isfinite(value) else ""
 
 
 def save(figure: Figure, target: Path, **options: Any) -> None:
-    """Write a picture in the format that its suffix names; PNG without one.
+    """Write a picture in the format of its suffix; PNG without one.
 
     Raises:
         NotWritten: it cannot be written.
@@ -42,7 +42,7 @@ def save(figure: Figure, target: Path, **options: Any) -> None:
 
 
 def style(axes: Axes, ylabel: str) -> None:
-    """What every panel has."""
+    """Style the axes of a panel."""
     axes.set_ylabel(ylabel, color=INK)
     axes.grid(color=GRID, linewidth=0.8)
     axes.set_axisbelow(True)

@@ -1,4 +1,4 @@
-"""The right half of the overview: signals over time, one panel for each question."""
+"""The right half of the overview: signals over time."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from auv_sim.flight.run_record import Column, Run
 from auv_sim.views.labels import Labels
 from auv_sim.views.plot_style import BLUE, MUTED, ORANGE, PATH, RED, style
 
-#: More switches than this are not drawn one by one: they would grey the panels.
+#: Most switches that are drawn; more would cover the panels.
 _MOST_SWITCHES = 200
 
 
 def cross_track(axes: Axes, time: Column, flown: Run, path: CompositePath) -> None:
-    """How far from the path: the geometric distance, and the error that guidance works on, Eq. (20)."""
+    """Draw the distance to the path, and guidance's cross-track error, Eq. (20)."""
     style(axes, "distance (m)")
     distance = path.distance(*flown.track, flown.subpath(path.n))
     label = "true distance to the path" if np.isfinite(flown.x_true).any() else "distance to the path"
@@ -28,7 +28,7 @@ def cross_track(axes: Axes, time: Column, flown: Run, path: CompositePath) -> No
 
 
 def heading_error(axes: Axes, time: Column, flown: Run) -> None:
-    """wrap(psi - psi_d)."""
+    """Draw wrap(psi - psi_d)."""
     style(axes, "heading error (°)")
     _line(axes, time, np.degrees(flown.psi_e), BLUE, "psi − psi_d")
     _spread(axes, 1.0)
@@ -36,7 +36,7 @@ def heading_error(axes: Axes, time: Column, flown: Run) -> None:
 
 
 def rudder(axes: Axes, time: Column, flown: Run, limit: float | None) -> None:
-    """Rudder angle, limit in rad."""
+    """Draw the rudder angle; limit in rad."""
     style(axes, "rudder (°)")
     _line(axes, time, np.degrees(flown.rudder_cmd), ORANGE, "commanded")
     _line(axes, time, np.degrees(flown.rudder), BLUE, "measured (port positive)")
@@ -46,7 +46,7 @@ def rudder(axes: Axes, time: Column, flown: Run, limit: float | None) -> None:
 
 
 def rudder_rate(axes: Axes, time: Column, flown: Run, limit: float | None) -> None:
-    """Rate between rows of the measured rudder, or of the commanded one; limit in rad/s."""
+    """Draw the rate between rows of the measured rudder, or of the command; limit in rad/s."""
     style(axes, "rudder rate (°/s)")
     rudder = flown.rudder if np.isfinite(flown.rudder).any() else flown.rudder_cmd
     if time.size > 1:
@@ -58,7 +58,7 @@ def rudder_rate(axes: Axes, time: Column, flown: Run, limit: float | None) -> No
 
 
 def current(axes: Axes, time: Column, flown: Run) -> None:
-    """The estimate, Eq. (35), against the truth where a simulator told it."""
+    """Draw the current estimate, Eq. (35), against the truth where a simulator recorded it."""
     style(axes, "current (m/s)")
     _line(axes, time, flown.Vx_true, PATH, "true", width=5.0)
     _line(axes, time, flown.Vy_true, PATH, "", width=5.0)
@@ -69,7 +69,7 @@ def current(axes: Axes, time: Column, flown: Run) -> None:
 
 
 def switches(rows: list[Axes], time: Column, flown: Run, path: CompositePath) -> None:
-    """Light lines where the next subpath begins; the subpaths' numbers in the top panel."""
+    """Draw light lines where a subpath begins, and the subpaths' numbers in the top panel."""
     subpath = flown.subpath(path.n)
     starts = [0.0, *time[1:][np.diff(subpath) > 0]]
     numbers = [int(subpath[0]), *subpath[1:][np.diff(subpath) > 0]]
@@ -108,7 +108,7 @@ def _legend(axes: Axes) -> None:
 
 
 def _spread(axes: Axes, least: float) -> None:
-    """Leave room above for the legend, and do not blow noise up to the full height."""
+    """Leave room above for the legend, and limit the magnification of noise."""
     low, high = axes.get_ylim()
     lacking = max(0.0, least - (high - low)) / 2.0
     axes.set_ylim(low - lacking, high + lacking + 0.08 * (high - low))

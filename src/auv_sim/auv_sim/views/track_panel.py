@@ -1,4 +1,4 @@
-"""The left half of the overview: the track over the path as the paper draws it, and its figures."""
+"""The left half of the overview: the track over the path as in the paper, and its figures."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from auv_sim.views.labels import Labels, arrow
 from auv_sim.views.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, PATH, RED, fact, style
 
 _TABLE_ROWS = 9
-#: Up to so many joints each has its kind beside it; of the subpaths the longest are numbered.
+#: Most joints that are labelled with their kind; of the subpaths the longest are numbered.
 _FEW, _NUMBERS = 30, 60
-#: A smaller jump of the course is no corner, rad.
+#: Least jump of the course at a corner, rad.
 _STRAIGHT = 1e-3
-#: Where the table's columns stand: the left edge of the first, the right edges of the others.
+#: The table's columns: left edge of the first, right edges of the others.
 _TABLE_COLUMNS = (0.0, 0.33, 0.49, 0.64, 0.83, 1.0)
 
 
@@ -83,7 +83,7 @@ def _numbers(axes: Axes, path: CompositePath) -> None:
         color = RED if joint.geometric == "G0" else MUTED
         before, point = path.evaluate(joint.index - 1, 1.0), path.evaluate(joint.index, 0.0)
         turn = wrap(point.chi - before.chi)
-        # Outside of a corner; where the course does not jump, to starboard.
+        # Outside of a corner; without a jump of the course, to starboard.
         side = -18.0 if turn > _STRAIGHT else 18.0
         labels.write(text, (point.y, point.x), _beside(before.chi + 0.5 * turn, side), 8, color=color)
     longest_first = sorted(range(path.n), key=lambda k: -path.segments[k].length)
@@ -94,7 +94,7 @@ def _numbers(axes: Axes, path: CompositePath) -> None:
 
 
 def _beside(chi: float, points: float) -> tuple[float, float]:
-    """An offset on the page to starboard of a course (to port when negative), points."""
+    """Return an offset on the page to starboard of a course (to port when negative), points."""
     return points * math.cos(chi), -points * math.sin(chi)
 
 
@@ -110,7 +110,7 @@ def _current_arrow(axes: Axes, flown: Run, path: CompositePath) -> None:
 
 
 def table(axes: Axes, summary: MissionSummary) -> None:
-    """The figures of each subpath; of many, those on which the vehicle was farthest from the path."""
+    """Write the figures of each subpath; of many, those farthest from the path."""
     axes.set_axis_off()
     subpaths, head = summary.subpaths, "subpath"
     if len(subpaths) > _TABLE_ROWS:

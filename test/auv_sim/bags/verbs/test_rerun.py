@@ -153,7 +153,7 @@ def test_after_a_gap_the_chain_rejoins_as_the_nodes_did(resumes: bool) -> None:
     """16 s without odometry, the vehicle carried to 12 m: at its last speed P would be at 36 m."""
     parameters = params_file.load(config_files.find("params", "paper"), SUITE)
     mission, hull = mission_file.load("paper_composite"), vehicle.load("remus100")
-    chain = _RerunPilot(
+    rerun_pilot = _RerunPilot(
         parameters, dataclasses.replace(mission, path=CompositePath([Line(0, 0, 100.0, 0)])), hull
     )
 
@@ -169,7 +169,7 @@ def test_after_a_gap_the_chain_rejoins_as_the_nodes_did(resumes: bool) -> None:
             "nav_msgs/msg/Odometry", stamped(stamp, "map"), "base_link", covered, twist(vector(1.9, 0.0))
         )
         through = make(TYPES["velocity_through_water"], stamped(stamp, "base_link"), twist(vector(1.9, 0.0)))
-        answer = chain.step(_Step(odometry, stamp, stamp, through), phase)
+        answer = rerun_pilot.step(_Step(odometry, stamp, stamp, through), phase)
         assert answer is not None
         return answer.path_parameter
 

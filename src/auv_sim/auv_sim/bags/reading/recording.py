@@ -142,7 +142,7 @@ class Bag:
 
 
 def _is_of(topic: RecordedTopic, namespace: str | None, name: str | None = None) -> bool:
-    """Return whether a topic is of a vehicle: directly in its namespace with a `name`, else anywhere below."""
+    """Return whether a topic is of a vehicle: directly in its namespace if named, else anywhere below."""
     if namespace is None:
         return True
     above = f"/{namespace.strip('/')}/".replace("//", "/")

@@ -56,7 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Return 0 when all commands are bit-identical, else 1; with --params, --mission or --vehicle always 0."""
+    """Return 0 if all commands are bit-identical, else 1; with --params, --mission or --vehicle always 0."""
     found = rerun(
         arguments.bag, arguments.params, arguments.mission, arguments.vehicle, arguments.namespace,
         arguments.odometry,

@@ -72,7 +72,7 @@ def _topic(bag: Bag, file: Path, connection: Connection, store: Typestore) -> Re
 
 
 def _converter(recorded: Typestore, store: Typestore, name: str) -> Callable[[bytes], bytes]:
-    """Return a converter: by realignment where ROS 2's type has the same fields (except `seq`), else by field."""
+    """Return the converter: realign where ROS 2's type has the same fields (except `seq`), else migrate."""
     if is_same_wireformat(recorded, store, name, name):
         return lambda data: bytes(store.ros1_to_cdr(data, name))
     cache: dict[str, Any] = {}
