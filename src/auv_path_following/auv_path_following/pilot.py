@@ -1,4 +1,4 @@
-"""The pilot: observer, guidance and autopilot in their order. The three nodes each run their part of it."""
+"""The pilot: observer, guidance and autopilot in their order. Each of the three nodes runs one part."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ class Pilot(NamedTuple):
 
     Attributes:
         observer, guide, autopilot: of the three parts.
-        longest_gap: after a longer gap between measurements the autopilot starts anew, s.
-        by_wire: whether psi_d has the last bits that it has after its way over the wire.
+        longest_gap: a longer gap between measurements resets the autopilot, s.
+        by_wire: whether psi_d is rounded as on the wire.
     """
 
     observer: Any
@@ -44,7 +44,7 @@ class PilotState(NamedTuple):
     autopilot: AutopilotState
 
 
-#: The estimated current (NED, m/s), the result of guidance, its request to the autopilot, the command.
+#: The estimated current (NED, m/s), the result of guidance, the reference for the autopilot, the command.
 PilotOutput = tuple[Current, GuidanceOutput, Reference, Command]
 
 

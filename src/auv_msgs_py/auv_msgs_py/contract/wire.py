@@ -43,7 +43,7 @@ LIGHT: dict[str, Any] = {}
 
 
 class ForeignLayout(ValueError):
-    """Bytes that only the middleware's own deserialiser understands: big endian, cut short."""
+    """Bytes that only the middleware's own deserialiser can judge: big endian, or cut short."""
 
 
 class Message:
@@ -124,7 +124,7 @@ class Clock(Message, type_name="rosgraph_msgs/msg/Clock"):
 
 
 class _Stamped(Message):
-    """A header, perhaps further frame ids, then nothing but float64.
+    """A header, perhaps further frame ids, then only float64.
 
     Frame ids hardly ever change, so their bytes are kept, for reading and for writing.
     """

@@ -15,7 +15,7 @@ _PIECE = 65536
 _MOST_ELEMENTS = 400_000
 
 
-class _Builder(ElementTree.TreeBuilder):
+class _BoundedTree(ElementTree.TreeBuilder):
     def __init__(self) -> None:
         super().__init__()
         self._elements = 0
@@ -41,7 +41,7 @@ def parse(data: bytes, what: str, roots: tuple[str, ...]) -> ElementTree.Element
     Raises:
         ConfigurationError: it has a document type, is not XML, or is another format.
     """
-    parser = ElementTree.XMLParser(target=_Builder())  # noqa: S314 - without a document type no entities
+    parser = ElementTree.XMLParser(target=_BoundedTree())  # noqa: S314 - without a document type no entities
     try:
         for begin in range(0, len(data), _PIECE):
             parser.feed(data[begin : begin + _PIECE])
