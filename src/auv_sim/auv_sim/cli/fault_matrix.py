@@ -1,4 +1,4 @@
-"""`scripts/fault_matrix.py`: everything that can fail, made to fail, and what the suite does about it."""
+"""`scripts/fault_matrix.py`: make everything fail that can, and check the suite's reaction."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from auv_sim.command_line import Parser, command, not_default, positive, ros_dom
 
 
 def parser() -> argparse.ArgumentParser:
-    """The command line."""
+    """Return the command line's parser."""
     p = Parser(
         prog="fault_matrix.py",
-        description="Kill nodes and spoil topics in flight; check who notices and what is done.",
+        description="Kill nodes and spoil topics in flight; check what is noticed and what is done.",
         allow_abbrev=False,
     )
     p.add_argument(
@@ -34,7 +34,7 @@ def parser() -> argparse.ArgumentParser:
 
 @command("fault matrix")
 def main(argv: Sequence[str] | None = None) -> int:
-    """Returns 0 when all rows are as expected, 1 when one is not, 2 for bad input, 130 when interrupted."""
+    """Return 0 when all rows are as expected, 1 when one is not, 2 for bad input, 130 when interrupted."""
     p = parser()
     options = p.parse_args(argv)
     from auv_sim.checks.faults.fault_session import run

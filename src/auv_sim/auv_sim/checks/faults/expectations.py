@@ -1,6 +1,6 @@
-"""What has to happen when something fails: the table that the fault matrix holds the suite to.
+"""The required reaction to each fault: the table that the fault matrix checks the suite against.
 
-docs/safety.md prints it for people, and a test compares the two.
+docs/safety.md prints it, and a test compares the two.
 """
 
 from __future__ import annotations
@@ -16,26 +16,26 @@ Kind = Fault | Literal["kill"]
 #: stops       the vehicle is stopped, and goes on when the fault is over.
 #: holds       guidance holds, and goes on from there when the fault is over.
 #: aborts      the mission ends, and the vehicle is stopped.
-#: waits       the vehicle is stopped until somebody starts the mission again.
+#: waits       the vehicle is stopped until the mission is started again.
 Outcome = Literal["goes on", "stops", "holds", "aborts", "waits"]
 
 
 class Expectation(NamedTuple):
-    """One row: a fault and what the suite owes.
+    """One row: a fault and the required reaction.
 
     Attributes:
         place: the topic, or the node that is killed.
         fault: what is done to it.
-        noticed_by: who names it in /diagnostics; empty where it cannot be told from what is normal.
-        says: part of what is said there.
-        within: by then at the latest, s of ROS time after the fault began.
+        noticed_by: the node that names it in /diagnostics; empty where it looks like normal operation.
+        says: part of its report.
+        within: latest time of that report, s of ROS time after the fault began.
         outcome: what becomes of the mission.
-        safe: rudder and thrust of the vehicle are 0 by then, s of ROS time; 0: they need not be.
+        safe: latest time at which rudder and thrust are 0, s of ROS time; 0: they need not be.
         set_by: the parameters that set the bounds.
-        lasts: how long the matrix keeps the fault up, s of ROS time.
+        lasts: duration of the fault, s of ROS time.
         delay: of the fault `delay`, s.
         then_abort: the matrix calls `abort` meanwhile, and the bounds count from there.
-        wall: `within` is s of wall time: it is looked for where the ROS clock may stand still.
+        wall: whether `within` is s of wall time, for faults in which the ROS clock may stand still.
     """
 
     place: str
@@ -53,7 +53,7 @@ class Expectation(NamedTuple):
 
     @property
     def name(self) -> str:
-        """For people and for choosing it."""
+        """The name by which a row is printed and chosen."""
         return f"{self.place} {self.fault}" + (" then abort" if self.then_abort else "")
 
 
@@ -214,18 +214,18 @@ REPRESENTATIVE = (
 
 
 def chosen(names: tuple[str, ...]) -> list[Expectation]:
-    """The rows of these names, in the table's order.
+    """Return the rows of these names, in the table's order.
 
     Raises:
         KeyError: there is no such row.
     """
     by_name = {row.name: row for row in TABLE}
-    wanted = {by_name[name].name for name in names}
-    return [row for row in TABLE if row.name in wanted]
+    names_chosen = {by_name[name].name for name in names}
+    return [row for row in TABLE if row.name in names_chosen]
 
 
 def as_markdown() -> str:
-    """The table as docs/safety.md has it."""
+    """Return the table as docs/safety.md prints it."""
     lines = [
         "| place | fault | noticed by | within (s) | stopped (s) | mission | set by |",
         "| --- | --- | --- | ---: | ---: | --- | --- |",

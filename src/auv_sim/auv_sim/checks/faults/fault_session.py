@@ -1,4 +1,4 @@
-"""What `scripts/fault_matrix.py` does: spoil a flight row by row and print what was noticed."""
+"""What `scripts/fault_matrix.py` does: spoil a flight row by row and print the reactions."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from auv_sim.command_line import (
 )
 from auv_sim.launch.processes.domains import free_domain
 from auv_sim.terminal import console as terminal
-from auv_sim.terminal import go_on, progress_bar
+from auv_sim.terminal import go_on, headed_table, progress_bar
 
 
 def run(arguments: argparse.Namespace, not_default: Mapping[str, Any]) -> int:
@@ -58,7 +58,7 @@ def run(arguments: argparse.Namespace, not_default: Mapping[str, Any]) -> int:
         results = _run(rows, arguments.out or Path(scratch), arguments.speed, console)
     good = sum(result.good for result in results)
     if arguments.json is not None:
-        from auv_sim.checks.faults.matrix import as_data
+        from auv_sim.checks.faults.row_judge import as_data
 
         record = {"speed": arguments.speed, "good": good, "rows": [as_data(result) for result in results]}
         write_text(arguments.json, json.dumps(record, indent=2) + "\n")
@@ -78,7 +78,8 @@ def _rows(arguments: argparse.Namespace) -> list[Expectation]:
 
 
 def _run(rows: list[Expectation], directory: Path, speed: float, console: Console) -> list:  # type: ignore[type-arg]
-    from auv_sim.checks.faults.matrix import Matrix, RowResult  # rclpy, only when it is needed
+    from auv_sim.checks.faults.matrix import Matrix  # rclpy, only when it is needed
+    from auv_sim.checks.faults.row_judge import RowResult
     from auv_sim.checks.faults.simulator_restart import kill_simulator
 
     begin = time.monotonic()
@@ -86,7 +87,7 @@ def _run(rows: list[Expectation], directory: Path, speed: float, console: Consol
     with progress_bar(console, disable=not console.is_terminal) as bar:
         task = bar.add_task("spoiling", total=len(rows))
 
-        def tell(result: RowResult) -> None:
+        def show(result: RowResult) -> None:
             bar.update(task, advance=1, description=result.row.name)
             if not result.good:
                 console.print(f"{result.row.name}: {'; '.join(result.wrong)}", style="red", highlight=False)
@@ -94,10 +95,10 @@ def _run(rows: list[Expectation], directory: Path, speed: float, console: Consol
         simulator = [row for row in rows if row.place == topics.PLANT]
         others = [row for row in rows if row not in simulator]
         if others:
-            results += Matrix(directory, speed, tell).run(others)
+            results += Matrix(directory, speed, show).run(others)
         for row in simulator:
             results.append(kill_simulator(row, directory / "simulator", speed))
-            tell(results[-1])
+            show(results[-1])
     console.print(_table(results))
     good = sum(result.good for result in results)
     console.print(
@@ -116,9 +117,8 @@ def _besiege(directory: Path, speed: float, seconds: float, console: Console) ->
         found = besiege(
             directory, speed, seconds, lambda share: bar.update(task, completed=round(share * seconds))
         )
-    table = Table(title=f"{seconds:g} s beside a hostile node", title_justify="left")
-    for heading in ("process", "grew by (MB)", "topics named in /diagnostics"):
-        table.add_column(heading)
+    headings = ("process", "grew by (MB)", "topics named in /diagnostics")
+    table = headed_table(f"{seconds:g} s beside a hostile node", headings)
     for name, grown in found.growth.items():
         table.add_row(name, f"{grown:.1f}", ", ".join(sorted(found.named.get(name, ()))))
     console.print(table)
@@ -132,11 +132,9 @@ def _besiege(directory: Path, speed: float, seconds: float, console: Console) ->
 
 
 def _table(results: list) -> Table:  # type: ignore[type-arg]
-    table = Table(title="What failed, and what was done about it", title_justify="left")
-    for heading in ("place", "fault", "noticed by"):
-        table.add_column(heading)
-    for heading in ("after (s)", "at most", "stopped (s)", "at most"):
-        table.add_column(heading, justify="right")
+    numbers = ("after (s)", "at most", "stopped (s)", "at most")
+    title = "What failed, and what was done about it"
+    table = headed_table(title, ("place", "fault", "noticed by"), numbers)
     table.add_column("mission")
     table.add_column("")
     place = ""

@@ -1,4 +1,4 @@
-"""A hostile participant: on every topic of the contract it publishes what no vehicle and no node would.
+"""A hostile participant: publishes on every topic of the contract what no vehicle or node would.
 
     python3 -m auv_sim.checks.faults.hostile 300        # for 300 s, in namespace /auv of ROS_DOMAIN_ID
 
@@ -26,7 +26,7 @@ from auv_msgs_py.node.transport import WirePublisher
 
 #: All that it publishes on.
 TOPICS = (*topics.CONTRACT, topics.RECORDED_STEPS, topics.GRAPH_CLAIMS)
-#: One message on every topic so often, s; every `_FLOOD_EVERY` s one topic is flooded for a second.
+#: Period of the messages on every topic, s; period of the floods, s; messages of a flood, sent in 1 s.
 _PERIOD, _FLOOD_EVERY, _FLOOD = 0.05, 5.0, 1000
 _NUMBERS = (math.nan, math.inf, 1e308, -1e308, 5e-324, 0.3, 1e6)
 _WORDS = ("complete", "idle", "aborted", "holding", "", "\x1b[2J", "x" * 1_000_000)
@@ -80,7 +80,7 @@ class Malice:
 
 
 def publish(seconds: float, namespace: str = "/auv", seed: int = 0) -> None:
-    """Publish for so long, s of wall time."""
+    """Publish for `seconds` s of wall time."""
     rclpy.init(args=[])
     node = rclpy.create_node("hostile", namespace=namespace, start_parameter_services=False)
     publishers = {
@@ -120,7 +120,7 @@ def _rounds() -> Iterator[Topic]:
 
 
 def main(argv: Sequence[str]) -> int:
-    """Seconds, then perhaps a namespace."""
+    """Publish; the arguments are seconds and, optionally, a namespace."""
     publish(float(argv[0]), argv[1] if len(argv) > 1 else "/auv")
     return 0
 

@@ -1,4 +1,4 @@
-"""A flying graph beside a hostile participant: what has to hold, measured."""
+"""Measures a flying graph beside a hostile participant, and judges it."""
 
 from __future__ import annotations
 
@@ -12,16 +12,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from auv_msgs_py.contract import topics
-from auv_path_following.missions import mission_file
-from auv_sim.checks.faults.matrix import MISSION
-from auv_sim.checks.faults.spoiled_graph import Nodes, SpoiledFlight
+from auv_sim.checks.faults.graph_processes import GraphProcesses
+from auv_sim.checks.faults.spoiled_graph import SpoiledFlight, write_mission
 from auv_sim.checks.soak.memory import resident
 
 #: Largest growth of a process after the warm-up, MB.
 FLAT = 20.0
-#: Share of the time, and at least so many seconds, after which a process has all that it needs.
+#: Warm-up after which a process has all the memory it needs: share of the time, and at least s.
 _WARM, _WARM_AT_LEAST = 0.2, 10.0
-#: The mission is started again so often if it has ended, s of wall time: a hostile node can stop it.
+#: A mission that has ended is started again with this period, s of wall time: a hostile node can stop it.
 _RESTART = 5.0
 _CHAIN = (topics.OBSERVER, topics.GUIDANCE, topics.AUTOPILOT)
 _NODES = (topics.RECORDER, *_CHAIN)
@@ -32,11 +31,11 @@ class Siege:
     """What was measured.
 
     Attributes:
-        wrong: what was not as it has to be, a line each.
-        named: node -> topics that it refused messages of, or named a second publisher of.
+        wrong: every deviation from what was expected, a line each.
+        named: node -> topics whose messages it refused, or whose second publisher it named.
         growth: process -> growth of its resident memory after the warm-up, MB.
-        largest_rudder: that the vehicle was given, rad.
-        refused: messages, all nodes.
+        largest_rudder: largest rudder command, rad.
+        refused: number of refused messages, all nodes.
     """
 
     wrong: list[str] = field(default_factory=list)
@@ -47,7 +46,7 @@ class Siege:
 
 
 class _Watch:
-    """Looks at one flight while it is under attack."""
+    """Measures one flight while it is under attack."""
 
     def __init__(self, flight: SpoiledFlight, seconds: float) -> None:
         self.flight, self.found = flight, Siege()
@@ -58,7 +57,7 @@ class _Watch:
         self._limit = flight.plant.vehicle.rudder.max_angle
 
     def look(self) -> None:
-        """Take in the present state."""
+        """Take the present state into account."""
         plant, found = self.flight.plant, self.found
         assert plant is not None
         for rudder in (plant.command.rudder, plant.simulated.rudder):
@@ -81,7 +80,7 @@ class _Watch:
 
     def _read_reports(self) -> None:
         for name in (*_CHAIN, topics.PLANT):
-            status = self.flight.said.get(name)
+            status = self.flight.graph.said.get(name)
             for pair in status.values if status is not None else ():
                 named = self.found.named.setdefault(name, set())
                 if pair.key.startswith("refused "):
@@ -91,37 +90,46 @@ class _Watch:
 
     def start_again(self) -> None:
         """Start a mission that has ended, as an operator would."""
-        if time.monotonic() >= self._next_start and self.flight.thrust_cmd == 0.0:
+        if time.monotonic() >= self._next_start and self.flight.graph.thrust_cmd == 0.0:
             self._next_start = time.monotonic() + _RESTART
             self.flight.call(topics.START_SERVICE)
 
 
-def besiege(directory: Path, speed: float, seconds: float, tell: Callable[[float], None]) -> Siege:
-    """Fly beside a hostile participant for so long.
+def besiege(directory: Path, speed: float, seconds: float, on_progress: Callable[[float], None]) -> Siege:
+    """Fly beside a hostile participant.
 
     Args:
-        directory: logs and bag.
+        directory: of logs and bag.
         speed: of the simulator, times real time.
         seconds: of wall time.
-        tell: called with the share that is done.
+        on_progress: called with the share that is done.
 
     Raises:
         GraphFailed: the graph does not come up.
     """
-    directory.mkdir(parents=True, exist_ok=True)
-    mission = directory / "mission.yaml"
-    mission.write_text(MISSION, encoding="utf-8")
-    nodes = Nodes(directory / "log", mission, {topics.RECORDER: {"directory": str(directory / "bag")}})
+    mission, start = write_mission(directory)
+    bag = {topics.RECORDER: {"directory": str(directory / "bag")}}
+    nodes = GraphProcesses(directory / "log", mission, bag)
     for name in _NODES:
         nodes.start(name)
-    flight = SpoiledFlight(nodes, speed, mission_file.load(str(mission)).path.start_pose)
-    hostile = None
+    flight = SpoiledFlight(nodes, speed, start)
     try:
-        flight.until(lambda: set(_NODES) <= set(flight.said), "all nodes to report")
+        flight.until(lambda: set(_NODES) <= set(flight.graph.said), "all nodes to report")
         flight.call(topics.START_SERVICE)
-        flight.until(lambda: flight.thrust_cmd > 0.0, "the mission to run")
-        command = [sys.executable, "-m", "auv_sim.checks.faults.hostile", str(seconds)]
-        hostile = subprocess.Popen(command, stdin=subprocess.DEVNULL)  # noqa: S603 - our own module
+        flight.until(lambda: flight.graph.thrust_cmd > 0.0, "the mission to run")
+        found = _watch(flight, seconds, on_progress)
+        _judge(found, flight)
+        return found
+    finally:
+        flight.close()
+        nodes.stop()
+
+
+def _watch(flight: SpoiledFlight, seconds: float, on_progress: Callable[[float], None]) -> Siege:
+    """Start the hostile participant and watch the flight until it ends."""
+    command = [sys.executable, "-m", "auv_sim.checks.faults.hostile", str(seconds)]
+    hostile = subprocess.Popen(command, stdin=subprocess.DEVNULL)  # noqa: S603 - our own module
+    try:
         watch = _Watch(flight, seconds)
         begin = time.monotonic()
         while hostile.poll() is None:
@@ -129,15 +137,12 @@ def besiege(directory: Path, speed: float, seconds: float, tell: Callable[[float
             flight.check_stop()
             watch.look()
             watch.start_again()
-            tell(min((time.monotonic() - begin) / seconds, 1.0))
-        _judge(watch.found, flight)
+            on_progress(min((time.monotonic() - begin) / seconds, 1.0))
         return watch.found
     finally:
-        if hostile is not None and hostile.poll() is None:
+        if hostile.poll() is None:
             hostile.kill()
             hostile.wait()
-        flight.close()
-        nodes.stop()
 
 
 def _judge(found: Siege, flight: SpoiledFlight) -> None:
@@ -152,6 +157,6 @@ def _judge(found: Siege, flight: SpoiledFlight) -> None:
             found.wrong.append(f"{name} grew by {grown:.1f} MB, at most {FLAT:g} MB")
     found.refused = sum(
         int(pair.value)
-        for status in flight.said.values() for pair in status.values if pair.key.startswith("refused ")
+        for status in flight.graph.said.values() for pair in status.values if pair.key.startswith("refused ")
     )  # fmt: skip
     found.wrong = list(dict.fromkeys(found.wrong))

@@ -1,9 +1,9 @@
-"""Strangers at the MAVLink driver's door: what a thousand datagrams a second cost the vehicle.
+"""Strange datagrams at the MAVLink driver's port: what a thousand a second cost the vehicle.
 
     python3 -m auv_sim.checks.faults.strangers --seconds 60
 
 starts the driver and an emulated vehicle on the loopback interface, counts odometries without and then with
-strangers, and watches that no stranger ever receives a command. It ends after twice `--seconds`.
+strangers, and checks that no stranger ever receives a command. It ends after twice `--seconds`.
 """
 
 from __future__ import annotations
@@ -121,7 +121,7 @@ class Strangers(threading.Thread):
 
 
 class StrangerCounts(NamedTuple):
-    """What was counted.
+    """Odometries and datagrams of a measurement.
 
     Attributes:
         calm, disturbed: odometries a second without and with strangers.
@@ -151,7 +151,7 @@ class StrangerCounts(NamedTuple):
 
 
 def measure(seconds: float, rate: float = 1000.0) -> StrangerCounts:
-    """Start driver and emulated vehicle, count odometries for `seconds` without and with strangers.
+    """Start driver and emulated vehicle; count odometries for `seconds` s each without and with strangers.
 
     Raises:
         SuiteError: no odometry came at all.
@@ -181,7 +181,7 @@ def _count(port: int, seconds: float, rate: float) -> StrangerCounts:
     ]
 
     def spin(duration: float) -> int:
-        """How many odometries came; a command is sent for each, as the autopilot does."""
+        """Return how many odometries came; answer each with a command, as the autopilot does."""
         heard.clear()
         answered, end = 0, time.monotonic() + duration
         while time.monotonic() < end:
@@ -212,7 +212,7 @@ def _count(port: int, seconds: float, rate: float) -> StrangerCounts:
 
 @command("strangers")
 def main(argv: Sequence[str] | None = None) -> int:
-    """Measure, and say whether the vehicle was disturbed; returns the exit code."""
+    """Measure and print; return 0 if the vehicle was not disturbed, else 1."""
     p = Parser(prog="mavlink_strangers", description="Strangers at the MAVLink driver's door.")
     p.add_argument("--seconds", type=positive, default=60.0, help="without, and with strangers (default 60)")
     p.add_argument("--rate", type=positive, default=1000.0, help="datagrams a second (default 1000)")
