@@ -9,7 +9,7 @@ from collections.abc import Container, Sequence
 
 from auv_sim.command_line import Parser, command
 
-#: In the order in which a person needs them.
+#: In the order of a session with a recording.
 VERBS = {
     "inspect": "what is in a recording, and what happened: topics, mission, events",
     "report": "one interactive HTML page, and pictures beside it",
@@ -22,7 +22,7 @@ VERBS = {
 
 
 def parser(verbs_with_options: Container[str] = VERBS) -> argparse.ArgumentParser:
-    """The command line. Verbs without their options are not imported, which would take long."""
+    """Return the command line's parser; only verbs that get their options are imported, which takes long."""
     top = Parser(
         prog="bag.py", description="Look into recordings of missions and work with them.", allow_abbrev=False
     )
@@ -43,7 +43,7 @@ def parser(verbs_with_options: Container[str] = VERBS) -> argparse.ArgumentParse
 
 @command("bag.py")
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run one verb; returns 0 done, 1 a difference was found, 2 bad input, 130 interrupted."""
+    """Run one verb; return 0 done, 1 a difference was found, 2 bad input, 130 interrupted."""
     words = sys.argv[1:] if argv is None else argv
     arguments = parser(words[:1]).parse_args(words)
     return int(arguments.run(arguments))

@@ -13,9 +13,9 @@ SECTIONS = ("lockstep", "latency", "simulation", "start_up", "subpaths", "record
 
 
 def parser() -> argparse.ArgumentParser:
-    """The command line."""
+    """Return the command line's parser."""
     p = Parser(prog="benchmark.py", description=__doc__, allow_abbrev=False)
-    p.add_argument("--quick", action="store_true", help="a minute: whether it works, not how fast it is")
+    p.add_argument("--quick", action="store_true", help="a minute, to see that it works, not how fast it is")
     p.add_argument(
         "--only", nargs="+", choices=SECTIONS, metavar="SECTION", help=f"some of {', '.join(SECTIONS)}"
     )
@@ -33,7 +33,7 @@ def parser() -> argparse.ArgumentParser:
 
 @command("benchmark", interrupted="interrupted; nothing was written")
 def main(argv: Sequence[str] | None = None) -> int:
-    """Measure; returns the exit code: 0 done, 1 something did not run, 2 bad input, 130 interrupted."""
+    """Measure; return the exit code: 0 done, 1 something did not run, 2 bad input, 130 interrupted."""
     options = parser().parse_args(argv)
     from auv_sim.checks.benchmark.benchmark_session import measure
 

@@ -26,13 +26,19 @@ from auv_sim.launch.processes.adopted import Loader
 
 
 def parser() -> argparse.ArgumentParser:
-    """The command line."""
+    """Return the command line's parser."""
     p = Parser(
         prog="mission.py", description="Fly a mission over ROS 2, record it, draw it.", allow_abbrev=False
     )
-    shipped = {
-        kind: ", ".join(config_files.shipped(kind)) for kind in ("missions", "vehicles", "params", "seas")
-    }
+    _add_files(p)
+    _add_simulation(p)
+    _add_vehicle(p)
+    _add_run(p)
+    return p
+
+
+def _add_files(p: argparse.ArgumentParser) -> None:
+    shipped = {kind: ", ".join(config_files.shipped(kind)) for kind in ("missions", "vehicles", "params")}
     p.add_argument(
         "--mission",
         default=DEFAULT_MISSION,
@@ -54,6 +60,10 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument(
         "--params", default=DEFAULT_PARAMS, metavar="FILE", help=f"file or one of: {shipped['params']}"
     )
+
+
+def _add_simulation(p: argparse.ArgumentParser) -> None:
+    seas = ", ".join(config_files.shipped("seas"))
     p.add_argument(
         "--current", nargs=2, type=finite, metavar=("VX", "VY"), help="current towards north and east, m/s"
     )
@@ -68,7 +78,7 @@ def parser() -> argparse.ArgumentParser:
         "--sea",
         metavar="FILE",
         help="what is not ideal: noise, fixes, currents, rudder;"
-        f" file or one of: {shipped['seas']} (default: all is ideal)",
+        f" file or one of: {seas} (default: all is ideal)",
     )
     p.add_argument("--seed", type=whole, metavar="N", help="of all that is random in the sea (default 0)")
     p.add_argument("--switching", choices=MODES, help="joints with a circle of acceptance")
@@ -78,11 +88,14 @@ def parser() -> argparse.ArgumentParser:
         metavar="N",
         help="free running at N times real time; without it lockstep, as fast as it goes",
     )
+
+
+def _add_vehicle(p: argparse.ArgumentParser) -> None:
     p.add_argument(
         "--no-sim", action="store_true", help="all but the simulator: a vehicle speaks the contract's topics"
     )
     p.add_argument(
-        "--use-sim-time", action="store_true", help="with --no-sim: follow the /clock that somebody publishes"
+        "--use-sim-time", action="store_true", help="with --no-sim: follow the /clock of another publisher"
     )
     p.add_argument(
         "--vehicle-driver",
@@ -94,6 +107,9 @@ def parser() -> argparse.ArgumentParser:
         metavar="ADDRESS",
         help="with --vehicle-driver: udpin:HOST:PORT to wait there, udpout:HOST:PORT to talk to it",
     )
+
+
+def _add_run(p: argparse.ArgumentParser) -> None:
     p.add_argument("--out", type=Path, metavar="DIR", help="run directory (default: runs/MISSION-DATE)")
     p.add_argument("--composed", action="store_true", help="all nodes in one process")
     p.add_argument(
@@ -106,7 +122,6 @@ def parser() -> argparse.ArgumentParser:
     add_flown_option(p, None)
     p.add_argument("--force", action="store_true", help="fly what the check of the plan refuses")
     p.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
-    return p
 
 
 @command("mission", interrupted="mission interrupted")

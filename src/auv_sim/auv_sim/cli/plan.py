@@ -12,7 +12,7 @@ from auv_sim.command_line import Parser, command, finite, not_default
 
 
 def parser() -> argparse.ArgumentParser:
-    """The command line."""
+    """Return the command line's parser."""
     shipped = {kind: ", ".join(config_files.shipped(kind)) for kind in ("missions", "vehicles", "params")}
     p = Parser(
         prog="plan.py",
@@ -44,7 +44,7 @@ def parser() -> argparse.ArgumentParser:
 
 @command("plan")
 def main(argv: Sequence[str] | None = None) -> int:
-    """Plan; returns the exit code: 0 flyable, 2 refused or bad input, 130 interrupted."""
+    """Plan; return the exit code: 0 flyable, 2 refused or bad input, 130 interrupted."""
     p = parser()
     options = p.parse_args(argv)
     from auv_sim.checks.mission_check.plan_session import plan

@@ -10,7 +10,7 @@ from auv_sim.command_line import Parser, command, positive
 
 
 def parser() -> argparse.ArgumentParser:
-    """The command line."""
+    """Return the command line's parser."""
     p = Parser(
         prog="soak.py",
         description="Fly a looped survey for an hour of mission time and watch.",
@@ -30,7 +30,7 @@ def parser() -> argparse.ArgumentParser:
 
 @command("soak")
 def main(argv: Sequence[str] | None = None) -> int:
-    """Returns 0 when nothing grew or was lost, 1 when something did, 2 for bad input, 130 interrupted."""
+    """Return 0 when nothing grew or was lost, 1 when something did, 2 for bad input, 130 interrupted."""
     options = parser().parse_args(argv)
     from auv_sim.checks.soak.long_flight import soak
 

@@ -1,4 +1,4 @@
-"""How much the rudder works against the level of noise, with and without the filter behind dr/dt."""
+"""Rudder activity against the level of noise, with and without the filter behind dr/dt."""
 
 from __future__ import annotations
 
@@ -17,12 +17,13 @@ from auv_sim.launch import mission_plan
 from auv_sim.launch.options import Options
 from auv_sim.studies.settings_changes import changed
 from auv_sim.studies.trials import Trial, judge
+from auv_sim.terminal import headed_table
 from auv_sim.vehicle.actuator import RudderFlaws
 from auv_sim.vehicle.sea import Sea
 from auv_sim.views.doc_pages import markdown_table
 from auv_sim.views.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, save, style
 
-#: Of the page.
+#: Name of the table's part of the page.
 PART = "noise"
 #: The sea's white noise is multiplied by these.
 LEVELS = (0.0, 0.25, 0.5, 1.0, 2.0)
@@ -58,13 +59,13 @@ class NoiseJob(NamedTuple):
     level: float
 
 
-#: Runs `work` on each item and shows how far it is: (what, work, items) -> results.
+#: Runs `work` on each item and shows the progress: (what, work, items) -> results.
 Runner = Callable[[str, Callable[[Any], Any], Sequence[Any]], list[Any]]
 Study = dict[tuple[str, str, float], Trial]
 
 
 def fly(mission: str, vehicle: str, sea: str, run: Runner) -> Study:
-    """Fly every line, rudder and level: (label, rudder, level) -> its figures.
+    """Fly every line, rudder and level; return (label, rudder, level) -> figures.
 
     Raises:
         ConfigurationError: a file that cannot be used.
@@ -75,7 +76,7 @@ def fly(mission: str, vehicle: str, sea: str, run: Runner) -> Study:
         for rudder in RUDDERS
         for level in LEVELS
     ]
-    _scenario(jobs[0])  # a mistake is told before the pool starts
+    _scenario(jobs[0])  # report a mistake before the pool starts
     trials = run("flying", _fly, jobs)
     return {(job.gains.label, job.rudder, job.level): trial for job, trial in zip(jobs, trials, strict=True)}
 
@@ -99,7 +100,7 @@ def _scenario(job: NoiseJob) -> Scenario:
 
 
 def with_noise(sea: Sea, level: float) -> Sea:
-    """The sea with `level` times the white noise of compass, gyro and both logs."""
+    """Return the sea with `level` times the white noise of compass, gyro and both logs."""
     sensors = sea.sensors
     noises = {
         "heading.noise_deg.white": sensors.heading.noise_deg.white,
@@ -111,7 +112,7 @@ def with_noise(sea: Sea, level: float) -> Sea:
 
 
 def draw(study: Study, png: Path) -> None:
-    """Travel and rate of the rudder over the level of noise."""
+    """Draw travel and rate of the rudder over the level of noise."""
     figure = Figure(figsize=(12.0, 4.8), dpi=80, facecolor="white")
     FigureCanvasAgg(figure)
     for axes, name, label in (
@@ -154,17 +155,15 @@ _HEADS = ("gains", "rudder", *(f"noise × {level:g}" for level in LEVELS))
 
 
 def table(study: Study) -> Table:
-    """For the terminal."""
-    shown = Table(title="Rudder: travel (°/m) / rms rate (°/s)", title_justify="left")
-    for column, head in enumerate(_HEADS):
-        shown.add_column(head, justify="left" if column < 2 else "right")
+    """Return the table for the terminal."""
+    shown = headed_table("Rudder: travel (°/m) / rms rate (°/s)", _HEADS[:2], _HEADS[2:])
     for row in _rows(study):
         shown.add_row(*row)
     return shown
 
 
 def record(study: Study) -> list[dict[str, Any]]:
-    """For programs: one entry for each flight."""
+    """Return the figures for programs: one entry for each flight."""
     return [
         {"gains": label, "rudder": rudder, "noise": level, **dataclasses.asdict(trial)}
         for (label, rudder, level), trial in study.items()
@@ -172,5 +171,5 @@ def record(study: Study) -> list[dict[str, Any]]:
 
 
 def markdown(study: Study) -> str:
-    """For a page."""
+    """Return the table for a page."""
     return markdown_table(_HEADS, _rows(study), left=2)

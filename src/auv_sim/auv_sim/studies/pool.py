@@ -1,4 +1,4 @@
-"""Processes that share out work, and are gone when whoever started them is, or with his Ctrl-C."""
+"""Worker pool that ends with its parent process or on Ctrl-C."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ T = TypeVar("T")
 
 
 class WorkerDied(SuiteError):
-    """A process that shared in the work is gone."""
+    """A worker process has ended."""
 
 
 class _Pool(ProcessPoolExecutor):
-    """A terminal sends Ctrl-C to the workers too: it waits until they can take it without a traceback."""
+    """Blocks Ctrl-C, which a terminal also sends to the workers, until they can end without a traceback."""
 
     def submit(self, fn: Callable[..., T], /, *args: Any, **kwargs: Any) -> Future[T]:
-        # Whoever is missing is started in here, and inherits what is blocked; what comes meanwhile is kept.
+        # Missing workers are started in here and inherit the blocked signals; a signal meanwhile is kept.
         before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         try:
             return super().submit(fn, *args, **kwargs)
@@ -36,7 +36,7 @@ class _Pool(ProcessPoolExecutor):
 
 
 def worker_pool(workers: int) -> ProcessPoolExecutor:
-    """So many processes. Spawned, not forked: whoever calls may have threads."""
+    """Return a pool of `workers` processes, spawned, not forked: the caller may have threads."""
     resource_tracker.ensure_running()  # its start, which would come with the first worker's, unblocks SIGINT
     return _Pool(workers, mp_context=multiprocessing.get_context("spawn"), initializer=_end_with_parent)
 
@@ -44,16 +44,16 @@ def worker_pool(workers: int) -> ProcessPoolExecutor:
 def each(
     work: Callable[[Any], T], items: Sequence[Any], workers: int, done: Callable[[], None] = lambda: None
 ) -> Iterator[tuple[int, T]]:
-    """`work` on every item in a pool of processes; (index, result) as they come.
+    """Run `work` on every item in a pool of processes; yield (index, result) as they finish.
 
     Args:
         work: a function of a module, or a `functools.partial` of one.
         items: what to work on.
-        workers: processes; 1 works here.
+        workers: processes; 1 works in this one.
         done: called after each.
 
     Raises:
-        WorkerDied: killed, or out of memory; what has come until then counts.
+        WorkerDied: a worker was killed, or out of memory; results until then are valid.
     """
     if workers <= 1:
         for index, item in enumerate(items):
@@ -75,14 +75,14 @@ def each(
 def tracked(
     bar: Progress, workers: int, what: str, work: Callable[[Any], T], items: Sequence[Any]
 ) -> list[T]:
-    """`work` on each item, with a bar; results in the order of the items."""
+    """Run `work` on each item under a progress bar; return the results in the order of the items."""
     task = bar.add_task(what, total=len(items))
     found = dict(each(work, items, workers, lambda: bar.advance(task)))
     return [found[index] for index in range(len(items))]
 
 
 def _end_with_parent() -> None:
-    """A worker whose parent was killed would wait for work for ever; Ctrl-C ends it as any other program."""
+    """End this worker with its parent, for whose work it would otherwise wait for ever, and on Ctrl-C."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     parent = multiprocessing.parent_process()

@@ -1,4 +1,4 @@
-"""Many flights of one mission as figures: each flight's, and what all of them have in common."""
+"""Figures of many flights of one mission: of each flight, and of all together."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from auv_sim.flight.run_record import Column, Run
 
 @dataclass(frozen=True)
 class Trial:
-    """One flight, judged by where the vehicle really was.
+    """One flight, judged by the vehicle's true position.
 
     Attributes:
         params: which gains: the file, or the name of a shipped one.
@@ -46,12 +46,12 @@ class Trial:
 
 
 def judge(run: Run, path: CompositePath, params: str, seed: int) -> Trial:
-    """The figures of one flight.
+    """Return the figures of one flight.
 
     Args:
         run: as flown.
         path: what it followed, NED.
-        params, seed: what it was flown with.
+        params, seed: gains and seed of the flight.
     """
     summary = summarise(run, path)
     flown = under_way(run, path.n)
@@ -100,7 +100,7 @@ FIGURES = (
 
 
 def _of_known(figure: Callable[[Column], Any], column: Column) -> float:
-    """A figure of the numbers that are there, NaN if none is: a flight may end before its first corner."""
+    """Return a figure of the finite numbers, NaN without any: a flight may end before its first corner."""
     known = column[np.isfinite(column)]
     return float(figure(known)) if known.size else math.nan
 
@@ -110,7 +110,7 @@ def _kept(trial: Trial, limit: float, least_share: float) -> bool:
 
 
 def together(trials: Sequence[Trial], limit: float, least_share: float) -> list[Together]:
-    """One row for each set of gains, in order of appearance.
+    """Return a row for each set of gains, in order of appearance.
 
     Args:
         trials: the flights.

@@ -45,9 +45,9 @@ def test_a_lockstep_run_is_timed_step_by_step(setup: Setup) -> None:
 
 def test_every_odometry_is_answered_against_the_wall_clock() -> None:
     seen = free_running(20.0, 1.0)
-    assert len(seen.told["sent"]) == 22  # the first and the last odometry, and a second in between
-    assert len(seen.told["latencies"]) + seen.told["missed"] >= 20
-    assert min(seen.told["latencies"]) > 0.0
+    assert len(seen.report["sent"]) == 22  # the first and the last odometry, and a second in between
+    assert len(seen.report["latencies"]) + seen.report["missed"] >= 20
+    assert min(seen.report["latencies"]) > 0.0
 
 
 def test_a_section_as_table_and_json(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -56,19 +56,19 @@ def test_a_section_as_table_and_json(tmp_path: Path, capsys: pytest.CaptureFixtu
     figures = json.loads(file.read_text())
     assert figures["machine"]["cores"]
     assert set(figures["subpaths"]["step_us"]) == {"10", "100"}
-    told = capsys.readouterr().out
-    assert "Guidance, by number of subpaths" in told
-    assert "benchmark.py --write-docs" in told
+    shown = capsys.readouterr().out
+    assert "Guidance, by number of subpaths" in shown
+    assert "benchmark.py --write-docs" in shown
 
 
 def test_one_vehicle_and_many_are_counted_in_vehicle_steps() -> None:
-    told: list[str] = []
+    ticks: list[str] = []
     scale = dataclasses.replace(QUICK, vehicles=(3,), flight=0.5)
-    assert law_speed.closed_loop_figures(scale, told.append)["vehicle_steps_per_second"] > 0.0
-    batch = law_speed.batch_figures(scale, told.append)
+    assert law_speed.closed_loop_figures(scale, ticks.append)["vehicle_steps_per_second"] > 0.0
+    batch = law_speed.batch_figures(scale, ticks.append)
     assert batch["vehicle_steps_per_second"]["3"] > 0.0
     assert batch["fixed_us"]["3"] >= 0.0
-    assert told == ["closed loop", "batch, 3 vehicles"]
+    assert ticks == ["closed loop", "batch, 3 vehicles"]
 
 
 def test_without_numba_few_vehicles_are_flown_and_the_table_says_so(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,4 +1,4 @@
-"""This checkout against another one, in one run and in turns: what a change has gained."""
+"""Compares this checkout with another one, in one run and in turns: what a change has gained."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def interpreter_of(checkout: Path) -> str:
 
 
 class Contender:
-    """A process that flies a round whenever it is asked to."""
+    """A process that flies a round on request."""
 
     def __init__(self, python: str, *words: object) -> None:
         self.times: list[float] = []
@@ -50,18 +50,18 @@ class Contender:
         )
 
     def fly(self, counts: bool = True) -> None:
-        """Fly a round, s a vehicle-step; one that does not count warms up."""
+        """Fly a round and keep its time, s a vehicle-step, unless it only warms up."""
         assert self._process.stdin is not None and self._process.stdout is not None
         self._process.stdin.write("fly\n")
         self._process.stdin.flush()
         answer = self._process.stdout.readline()
         if not answer:
-            raise BenchmarkFailed("a checkout to compare with does not fly; its words stand above")
+            raise BenchmarkFailed("a checkout to compare with does not fly; its output stands above")
         if counts:
             self.times.append(float(answer))
 
     def close(self) -> None:
-        """End it."""
+        """End the process."""
         self._process.kill()
         self._process.communicate()
 
@@ -88,7 +88,7 @@ def _contenders(theirs: str, scale: Scale) -> Iterator[dict[str, Contender]]:
 
 
 def ticks(scale: Scale) -> int:
-    """How often `figures` calls back."""
+    """Return how often `figures` calls back."""
     return 3 * scale.rounds
 
 
@@ -103,30 +103,10 @@ def figures(scale: Scale, tick: Tick, theirs: str) -> dict[str, Any]:
     Returns:
         Ratios, best of the rounds: ours / theirs for times, how many times as fast for engines.
     """
-    with _contenders(theirs, scale) as flying:
-        for _ in range(scale.rounds):
-            tick("against: without ROS")
-            for _ in range(3):
-                for one in flying.values():
-                    one.fly()
-        best = {name: min(one.times) for name, one in flying.items()}
-    starts: dict[str, list[float]] = {}
-    for _ in range(scale.rounds):
-        tick("against: start-up")
-        for composed in (False, True):
-            for side, python in (("theirs", theirs), ("ours", sys.executable)):
-                starts.setdefault(f"{side}{', composed' * composed}", []).append(
-                    first_command(python, composed)
-                )
-    recorded: dict[str, list[float]] = {}
-    for _ in range(scale.rounds):
-        tick("against: recording")
-        for composed in (False, True):
-            for is_recorded in (False, True):
-                setup = Setup(recorded=is_recorded, composed=composed, steps=scale.steps)
-                recorded.setdefault(f"{composed} {is_recorded}", []).append(lockstep(setup).step)
-    step = {name: min(times) for name, times in recorded.items()}
+    best = _best_speeds(scale, tick, theirs)
+    starts = _starts(scale, tick, theirs)
     middle = {name: statistics.median(times) for name, times in starts.items()}
+    step = _lockstep_times(scale, tick)
     return {
         "closed_loop": best["our closed_loop"] / best["their closed_loop"],
         "batch": best["their closed_loop"] / best["our batch"],
@@ -140,3 +120,38 @@ def figures(scale: Scale, tick: Tick, theirs: str) -> dict[str, Any]:
         "start_up_s": starts,
         "lockstep_us": {name: 1e6 * time for name, time in step.items()},
     }
+
+
+def _best_speeds(scale: Scale, tick: Tick, theirs: str) -> dict[str, float]:
+    """Fly without ROS in turns: contender -> its best time, s a vehicle-step."""
+    with _contenders(theirs, scale) as flying:
+        for _ in range(scale.rounds):
+            tick("against: without ROS")
+            for _ in range(3):
+                for one in flying.values():
+                    one.fly()
+        return {name: min(one.times) for name, one in flying.items()}
+
+
+def _starts(scale: Scale, tick: Tick, theirs: str) -> dict[str, list[float]]:
+    """Start missions in turns: side -> times to the first rudder command, s."""
+    starts: dict[str, list[float]] = {}
+    for _ in range(scale.rounds):
+        tick("against: start-up")
+        for composed in (False, True):
+            for side, python in (("theirs", theirs), ("ours", sys.executable)):
+                times = starts.setdefault(f"{side}{', composed' * composed}", [])
+                times.append(first_command(python, composed))
+    return starts
+
+
+def _lockstep_times(scale: Scale, tick: Tick) -> dict[str, float]:
+    """Run our lockstep in turns: "composed recorded" -> its best time, s a step."""
+    found: dict[str, list[float]] = {}
+    for _ in range(scale.rounds):
+        tick("against: recording")
+        for composed in (False, True):
+            for is_recorded in (False, True):
+                setup = Setup(recorded=is_recorded, composed=composed, steps=scale.steps)
+                found.setdefault(f"{composed} {is_recorded}", []).append(lockstep(setup).step)
+    return {name: min(times) for name, times in found.items()}

@@ -7,6 +7,7 @@ import json
 from collections.abc import Callable
 from typing import Any
 
+from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from auv_msgs_py.settings.result_files import write_text
@@ -40,7 +41,11 @@ _SECTIONS: dict[str, tuple[Callable[[Scale, Tick], dict[str, Any]], Callable[[Sc
 
 
 def measure(options: argparse.Namespace) -> int:
-    """Measure as the command line asks; returns the exit code."""
+    """Measure, print, and renew the page as the command line asks; return the exit code.
+
+    Raises:
+        ConfigurationError: an option, the page or the other checkout cannot be used.
+    """
     if options.write_docs:
         if options.only:
             raise ConfigurationError(
@@ -48,10 +53,27 @@ def measure(options: argparse.Namespace) -> int:
             )
         doc_pages.check(options.page, figures_page.PART)  # before minutes of measuring, not after
         make_directory(options.images, "--images")
+    out = console()
+    figures = _measured(options, out)
+    found = sheets.sheets(figures)
+    out.print(", ".join(f"{name} {value}" for name, value in figures["machine"].items()), soft_wrap=True)
+    sheets.show(found, out)
+    if options.json is not None:
+        write_text(options.json, json.dumps(figures, indent=2) + "\n")
+        wrote(out, options.json, "all figures")
+    if options.write_docs:
+        figures_page.renew(options.page, options.images, figures, found)
+        wrote(out, options.page, f"renewed, with {options.images / figures_page.PICTURE}")
+    else:
+        go_on(out, "Measure everything and renew the page", to_type("benchmark.py", write_docs=True))
+    return EXIT_DONE
+
+
+def _measured(options: argparse.Namespace, out: Console) -> dict[str, Any]:
+    """Measure the chosen sections under a progress bar: section -> its figures."""
     scale = QUICK if options.quick else FULL
     chosen = options.only or ([] if options.against and not options.write_docs else list(_SECTIONS))
     theirs = against.interpreter_of(options.against) if options.against is not None else ""
-    out = console()
     figures: dict[str, Any] = {"machine": machine.describe(), "load": machine.load(), "quick": options.quick}
     total = sum(_SECTIONS[name][1](scale) for name in chosen) + (against.ticks(scale) if theirs else 0)
     columns = (BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), TextColumn("{task.description}"))
@@ -68,15 +90,4 @@ def measure(options: argparse.Namespace) -> int:
             figures[name] = _SECTIONS[name][0](scale, tick)
         if theirs:
             figures["against"] = against.figures(scale, tick, theirs)
-    found = sheets.sheets(figures)
-    out.print(", ".join(f"{name} {value}" for name, value in figures["machine"].items()), soft_wrap=True)
-    sheets.show(found, out)
-    if options.json is not None:
-        write_text(options.json, json.dumps(figures, indent=2) + "\n")
-        wrote(out, options.json, "all figures")
-    if options.write_docs:
-        figures_page.renew(options.page, options.images, figures, found)
-        wrote(out, options.page, f"renewed, with {options.images / figures_page.PICTURE}")
-    else:
-        go_on(out, "Measure everything and renew the page", to_type("benchmark.py", write_docs=True))
-    return EXIT_DONE
+    return figures

@@ -1,4 +1,4 @@
-"""One side of a comparison of two checkouts: flies when it is asked to, and answers with the time it took.
+"""One side of a comparison of two checkouts: flies on request and answers with the time it took.
 
 The source of this file runs with the interpreter of either checkout (`python -c`), so it uses nothing of the
 benchmark, and of the suite only what every version has: `scenario(options)`, `closed_loop.fly`, `engine.fly`.

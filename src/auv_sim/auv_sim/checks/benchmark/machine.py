@@ -1,4 +1,4 @@
-"""Which machine, and which versions: a figure without them says nothing."""
+"""Describes the machine and the versions: a figure means nothing without them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _LIBRARIES = ("ros-jazzy-rclpy", "ros-jazzy-rmw-fastrtps-cpp", "ros-jazzy-fastrt
 
 
 def describe() -> dict[str, str]:
-    """Processor, cores, memory, system, Python, libraries."""
+    """Return processor, cores, memory, system, Python and libraries by name."""
     found = {
         "processor": _first_line("/proc/cpuinfo", "model name") or platform.processor(),
         "cores": str(len(os.sched_getaffinity(0))),
@@ -35,5 +35,5 @@ def _first_line(file: str, key: str) -> str:
 
 
 def load() -> float:
-    """How many processes want a processor at the moment, beside this one's."""
+    """Return the load average of the last minute."""
     return os.getloadavg()[0]

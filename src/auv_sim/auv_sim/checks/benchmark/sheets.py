@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from rich.console import Console
-from rich.table import Table
 
+from auv_sim.terminal import headed_table
 from auv_sim.views.doc_pages import markdown_table
 
 #: Simulated seconds per lockstep step, the simulator's default.
@@ -32,7 +33,7 @@ class Sheet:
 
 
 def sheets(figures: dict[str, Any]) -> list[Sheet]:
-    """A table for everything that was measured."""
+    """Return the tables of everything that was measured."""
     makers = {
         "lockstep": _lockstep, "latency": _latency, "simulation": _simulation, "start_up": _start_up,
         "subpaths": _subpaths, "recording": _recording, "against": _against,
@@ -45,46 +46,42 @@ def sheets(figures: dict[str, Any]) -> list[Sheet]:
 
 
 def _lockstep(figures: dict[str, Any]) -> list[Sheet]:
+    heads = ("", "times its floor", "us a step", "processor us", "switches", "times real time")
     found = []
     for place, title in (("separate", "one process for each node"), ("composed", "all nodes in one process")):
         runs = figures[place]
-        rows = []
-        for kind, text, yardstick in _LOCKSTEP_ROWS:
-            if kind not in runs:
-                continue
-            run, floor = runs[kind], runs[yardstick]
-            rows.append(
-                (
-                    text,
-                    f"{run['step_us'] / floor['step_us']:.2f}",
-                    f"{run['step_us']:.0f}",
-                    f"{run['cpu_us']:.0f}",
-                    f"{run['switches']:.1f}",
-                    f"{STEP * 1e6 / run['step_us']:.0f}",
-                )
-            )
-        heads = ("", "times its floor", "us a step", "processor us", "switches", "times real time")
-        found.append(Sheet(f"Lockstep, {title}", heads, tuple(rows)))
+        found.append(Sheet(f"Lockstep, {title}", heads, tuple(_lockstep_rows(runs))))
         cost = {k: runs[f"{k}, recorded"]["step_us"] / runs[k]["step_us"] for k in ("floor", "suite")}
         ratios = tuple(f"{cost[k]:.2f}" for k in ("suite", "floor"))
-        found.append(
-            Sheet(
-                f"Recording, {title}", ("step recorded / not recorded", "mission", "floor"), (("", *ratios),)
+        recording = ("step recorded / not recorded", "mission", "floor")
+        found.append(Sheet(f"Recording, {title}", recording, (("", *ratios),)))
+    return [*found, _by_node(figures["separate"]["suite, recorded"]["cpu_by_process_us"], figures["memory"])]
+
+
+def _lockstep_rows(runs: dict[str, Any]) -> Iterator[tuple[str, ...]]:
+    for kind, text, yardstick in _LOCKSTEP_ROWS:
+        if kind in runs:
+            run, floor = runs[kind], runs[yardstick]
+            yield (
+                text,
+                f"{run['step_us'] / floor['step_us']:.2f}",
+                f"{run['step_us']:.0f}",
+                f"{run['cpu_us']:.0f}",
+                f"{run['switches']:.1f}",
+                f"{STEP * 1e6 / run['step_us']:.0f}",
             )
-        )
-    used = figures["separate"]["suite, recorded"]["cpu_by_process_us"]
+
+
+def _by_node(used: dict[str, float], memory: dict[str, dict[str, float]]) -> Sheet:
+    """Processor time (us a step) and memory (bytes) of each node, and of all."""
     by_node = [
-        (name, f"{used[name]:.0f}", f"{memory['rss'] / 2**20:.0f}", f"{memory['pss'] / 2**20:.0f}")
-        for name, memory in figures["memory"].items()
+        (name, f"{used[name]:.0f}", *(f"{held[kind] / 2**20:.0f}" for kind in ("rss", "pss")))
+        for name, held in memory.items()
     ]
-    total = (
-        "all",
-        f"{sum(used.values()):.0f}",
-        f"{sum(m['rss'] for m in figures['memory'].values()) / 2**20:.0f}",
-        f"{sum(m['pss'] for m in figures['memory'].values()) / 2**20:.0f}",
-    )
+    sums = (sum(held[kind] for held in memory.values()) for kind in ("rss", "pss"))
+    total = ("all", f"{sum(used.values()):.0f}", *(f"{size / 2**20:.0f}" for size in sums))
     columns = ("node (recorded mission)", "processor us a step", "RSS MiB", "PSS MiB")
-    return [*found, Sheet("Processor and memory, by node", columns, (*by_node, total))]
+    return Sheet("Processor and memory, by node", columns, (*by_node, total))
 
 
 def _latency(figures: dict[str, Any]) -> list[Sheet]:
@@ -163,18 +160,16 @@ def _recording(figures: dict[str, Any]) -> list[Sheet]:
 
 
 def show(found: list[Sheet], console: Console) -> None:
-    """The tables in the terminal."""
+    """Print the tables."""
     for sheet in found:
-        table = Table(title=sheet.title, title_justify="left")
-        for k, head in enumerate(sheet.heads):
-            table.add_column(head, justify="right" if k else "left")
+        table = headed_table(sheet.title, sheet.heads[:1], sheet.heads[1:])
         for row in sheet.rows:
             table.add_row(*row)
         console.print(table)
 
 
 def markdown(found: list[Sheet]) -> str:
-    """The tables for the page."""
+    """Return the tables for the page."""
     texts = []
     for sheet in found:
         texts.append(f"**{sheet.title}**\n\n{markdown_table(sheet.heads, sheet.rows)}")

@@ -1,4 +1,4 @@
-"""Judges one row of the fault matrix: noticed and stopped in time, and whether the mission goes on after it."""
+"""Judges one row of the fault matrix: noticed and stopped in time, and what becomes of the mission."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The path for a chart: GeoJSON and KML, in degrees."""
+"""Writes the path for a chart: GeoJSON and KML, in degrees."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from auv_path_following.curves.outline import polygon
 from auv_path_following.missions.geodesy import to_geodetic
 from auv_path_following.missions.mission_file import Mission
 
-#: How far the drawn line may be from the path, m.
+#: Largest distance of the drawn line from the path, m.
 _ERROR = 0.05
 #: 1e-8 degrees are a millimetre.
 _DIGITS = 8
@@ -51,7 +51,7 @@ def export(mission: Mission, target: Path) -> None:
 
 
 def _places(mission: Mission, north: Any, east: Any) -> list[Place]:
-    """[longitude, latitude] as both formats have it."""
+    """Return [longitude, latitude] (deg) of points (m), as both formats have it."""
     if mission.origin is None or not len(north):
         return []
     latitude, longitude = to_geodetic(mission.origin, north, east)
@@ -60,7 +60,7 @@ def _places(mission: Mission, north: Any, east: Any) -> list[Place]:
 
 
 def _line(mission: Mission) -> list[list[Place]]:
-    """The path in parts that end at the antimeridian, as RFC 7946, section 3.1.9, has it."""
+    """Return the path in parts that end at the antimeridian (RFC 7946, section 3.1.9)."""
     pieces = [polygon(segment, _ERROR) for segment in mission.path.segments[: mission.once]]
     kept = [(x[:-1], y[:-1]) for x, y in pieces[:-1]] + [pieces[-1]]
     north, east = (np.concatenate(axis) for axis in zip(*kept, strict=True))
@@ -80,7 +80,7 @@ def _line(mission: Mission) -> list[list[Place]]:
 
 
 def _crossing(mission: Mission, north: Any, east: Any) -> float:
-    """Latitude (deg) at which a straight piece of the path meets the antimeridian."""
+    """Return the latitude (deg) at which a straight piece of the path meets the antimeridian."""
     begins_east = _places(mission, north[:1], east[:1])[0][0] > 0.0
     low, high = 0.0, 1.0
     for _ in range(40):
@@ -92,7 +92,7 @@ def _crossing(mission: Mission, north: Any, east: Any) -> float:
 
 
 def _points(mission: Mission) -> list[tuple[str, Place]]:
-    """Names and places of waypoints and joints."""
+    """Return names and places of waypoints and joints."""
     joints = mission.path.joints[: max(mission.once - 1, 0)]
     named = [(f"waypoint {k}", *point) for k, point in enumerate(mission.waypoints, start=1)]
     named += [(f"joint {joint.index} {joint.geometric}", joint.x, joint.y) for joint in joints]

@@ -1,4 +1,4 @@
-"""Whether circles of acceptance fit on their path, be their radius given or computed for each corner."""
+"""Judges whether circles of acceptance fit on their path, with a given or a computed radius."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.mission_check.finding import Finding, Level, at
 
-#: Circles of more than so many look-aheads leave too much of the path out. One is the paper's bound; a little
-#: more is of use in a current.
+#: Circles of more look-aheads than this leave out too much of the path. One is the paper's bound; a little
+#: more is useful in a current.
 _FAR_TOO_WIDE = 2.0
 
 
@@ -48,9 +48,9 @@ def circles(
 def _computed_circles(
     mission: Mission, vehicle: Vehicle, lookahead: float, speed: float, current: Current
 ) -> Iterator[Finding]:
-    """Legs that are too short for the circles at their ends, whose radii follow from hull and corner.
+    """Find legs that are too short for the circles at their ends, whose radii follow from hull and corner.
 
-    They may be wider than the look-ahead: a turn that needs more way begins sooner.
+    A circle may be wider than the look-ahead: a turn that needs more room begins earlier.
     """
     cornering = cornering_of(vehicle)
     short: list[tuple[float, float, Joint]] = []

@@ -1,4 +1,4 @@
-"""Where a path crosses itself."""
+"""Finds where a path crosses itself."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from auv_path_following.curves.segment import Segment
 
 Array = npt.NDArray[np.float64]
 
-#: How closely curves are looked at, m.
+#: Largest distance of the outline from the curve, m.
 _ERROR = 0.02
-#: Crossings this near to the end of a piece are its neighbour's, as a share of the piece.
+#: Share of a piece: crossings nearer to its end belong to its neighbour.
 _END = 1e-9
 #: Pieces that meet at a smaller angle run along each other, rad: the rest is rounding.
 _PARALLEL = 1e-9
@@ -35,13 +35,13 @@ class Crossing(NamedTuple):
 
 
 def crossings(segments: Sequence[Segment], most: int = 1000) -> list[Crossing]:
-    """The points in which subpaths cross each other or themselves; running along each other is no crossing.
+    """Return the points in which subpaths cross; running along each other is no crossing.
 
     The search is bounded: on a path with very many subpaths in one place it ends before the last pair.
 
     Args:
         segments: the subpaths in order, each once.
-        most: stop after so many.
+        most: number of crossings after which the search ends.
     """
     outlines = [np.column_stack(polygon(segment, _ERROR)) for segment in segments]
     found: list[Crossing] = []
@@ -58,7 +58,7 @@ def crossings(segments: Sequence[Segment], most: int = 1000) -> list[Crossing]:
 
 
 def _neighbours(outlines: list[Array]) -> Iterator[tuple[int, int]]:
-    """Pairs (i <= j) whose bounding boxes overlap.
+    """Yield pairs (i <= j) whose bounding boxes overlap.
 
     The boxes lie along the direction in which most of the path runs: the legs of a survey have thin boxes
     then, whatever its heading, and few of them overlap.
@@ -81,7 +81,7 @@ def _neighbours(outlines: list[Array]) -> Iterator[tuple[int, int]]:
 
 
 def _between(one: Array, other: Array, same: bool) -> Iterator[tuple[float, float]]:
-    """Proper crossings of two chains of pieces."""
+    """Yield the proper crossings of two chains of pieces, shape (n, 2), m."""
     if same and len(one) < 4:
         return
     q, s = other[:-1], np.diff(other, axis=0)

@@ -25,13 +25,13 @@ _ERROR = 0.05
 
 
 def draw(
-    mission: Mission, verdicts: Findings, vehicle_name: str, png: Path, current: Current = NO_CURRENT
+    mission: Mission, findings: Findings, vehicle_name: str, png: Path, current: Current = NO_CURRENT
 ) -> None:
     """Draw the plan, 1200 x 1300 pixels.
 
     Args:
         mission: what is planned.
-        verdicts: of its check.
+        findings: of its check.
         vehicle_name: whose tightest turn is drawn.
         png: the file to write.
         current: that it was checked in, drawn as an arrow.
@@ -40,30 +40,30 @@ def draw(
     FigureCanvasAgg(figure)
     margins = {"left": 0.08, "right": 0.97, "top": 0.885, "bottom": 0.06}
     grid = figure.add_gridspec(2, 1, height_ratios=(2.7, 1.0), hspace=0.16, **margins)
-    _headline(figure, mission, verdicts, vehicle_name)
+    _headline(figure, mission, findings, vehicle_name)
     _map(figure.add_subplot(grid[0]), mission, current)
-    _curvature(figure.add_subplot(grid[1]), mission, verdicts, vehicle_name)
+    _curvature(figure.add_subplot(grid[1]), mission, findings, vehicle_name)
     save(figure, png)
 
 
-def _headline(figure: Figure, mission: Mission, verdicts: Findings, vehicle_name: str) -> None:
+def _headline(figure: Figure, mission: Mission, findings: Findings, vehicle_name: str) -> None:
     path = mission.path
-    state, color = ("flyable", GREEN) if not verdicts.refusals else ("refused", RED)
-    if not verdicts.refusals and verdicts.warnings:
-        count = len(verdicts.warnings)
+    state, color = ("flyable", GREEN) if not findings.refusals else ("refused", RED)
+    if not findings.refusals and findings.warnings:
+        count = len(findings.warnings)
         state, color = f"flyable, {count} warning{'s' if count > 1 else ''}", ORANGE
     figure.text(
         0.08, 0.965, mission.name, fontsize=18, fontweight="bold", color=INK, va="center", parse_math=False
     )
     figure.text(0.97, 0.965, state, fontsize=14, fontweight="bold", color=color, va="center", ha="right")
     times = mission.path.n // max(mission.once, 1)
-    facts = [f"{path.n} subpaths", f"{path.length:.1f} m", f"{verdicts.speed:.2f} m/s through the water"]
+    facts = [f"{path.n} subpaths", f"{path.length:.1f} m", f"{findings.speed:.2f} m/s through the water"]
     if times > 1:
         facts.insert(0, f"{times} times round")
-    if np.isfinite(verdicts.duration):
-        facts.append(f"{verdicts.duration:.0f} s")
-    told = "   ·   ".join([*facts, vehicle_name])
-    figure.text(0.08, 0.935, told, fontsize=12, color=MUTED, va="center", parse_math=False)
+    if np.isfinite(findings.duration):
+        facts.append(f"{findings.duration:.0f} s")
+    line = "   ·   ".join([*facts, vehicle_name])
+    figure.text(0.08, 0.935, line, fontsize=12, color=MUTED, va="center", parse_math=False)
 
 
 def _map(axes: Axes, mission: Mission, current: Current) -> None:
@@ -74,25 +74,35 @@ def _map(axes: Axes, mission: Mission, current: Current) -> None:
     x, y = (np.concatenate(axis) for axis in zip(*outlines, strict=True))
     few = len(once) <= _FEW
     _areas(axes, mission)
-    if mission.waypoints:
-        north, east = zip(*mission.waypoints, strict=True)
-        axes.plot(
-            east,
-            north,
-            "--x" if few else "--",
-            color=MUTED,
-            linewidth=0.9,
-            markersize=7,
-            label="waypoints",
-            zorder=2,
-        )
-        if len(mission.waypoints) <= _FEW // 2:
-            for number, (n, e) in enumerate(mission.waypoints, start=1):
-                axes.annotate(
-                    str(number), (e, n), xytext=(7, 7), textcoords="offset points", color=MUTED, fontsize=10,
-                    path_effects=HALO, zorder=7,
-                )  # fmt: skip
+    _waypoints(axes, mission, few)
     axes.plot(y, x, color=BLUE, linewidth=2.4 if few else 1.0, label="path", zorder=3)
+    _joints(axes, mission, few)
+    _ends(axes, mission)
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.margins(0.06)
+    arrow(axes, "current", current.Vx, current.Vy, mission.path)
+    axes.legend(
+        loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=7, fontsize=9, frameon=False, borderpad=0.1
+    )
+
+
+def _waypoints(axes: Axes, mission: Mission, few: bool) -> None:
+    if not mission.waypoints:
+        return
+    north, east = zip(*mission.waypoints, strict=True)
+    axes.plot(
+        east, north, "--x" if few else "--", color=MUTED, linewidth=0.9, markersize=7, label="waypoints",
+        zorder=2,
+    )  # fmt: skip
+    if len(mission.waypoints) <= _FEW // 2:
+        for number, (n, e) in enumerate(mission.waypoints, start=1):
+            axes.annotate(
+                str(number), (e, n), xytext=(7, 7), textcoords="offset points", color=MUTED, fontsize=10,
+                path_effects=HALO, zorder=7,
+            )  # fmt: skip
+
+
+def _joints(axes: Axes, mission: Mission, few: bool) -> None:
     joints = mission.path.joints[: max(mission.once - 1, 0)]
     for name, color in CONTINUITY.items():
         these = [joint for joint in joints if joint.geometric == name]
@@ -102,13 +112,6 @@ def _map(axes: Axes, mission: Mission, current: Current) -> None:
                 markeredgecolor="white", markeredgewidth=0.8 if few else 0.0, linestyle="none", zorder=4,
                 label=f"joint {name}: {_MEANING[name]}",
             )  # fmt: skip
-    _ends(axes, mission)
-    axes.set_aspect("equal", adjustable="datalim")
-    axes.margins(0.06)
-    arrow(axes, "current", current.Vx, current.Vy, mission.path)
-    axes.legend(
-        loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=7, fontsize=9, frameon=False, borderpad=0.1
-    )
 
 
 def _areas(axes: Axes, mission: Mission) -> None:
@@ -137,7 +140,7 @@ def _ends(axes: Axes, mission: Mission) -> None:
     axes.plot(end.y, end.x, "s", color=INK, markersize=7, markeredgecolor="white", zorder=5, label="end")
 
 
-def _curvature(axes: Axes, mission: Mission, verdicts: Findings, vehicle_name: str) -> None:
+def _curvature(axes: Axes, mission: Mission, findings: Findings, vehicle_name: str) -> None:
     style(axes, "curvature (1/m)")
     axes.set_xlabel("distance along the path (m)", color=INK)
     distance, kappa, done = [], [], 0.0
@@ -150,10 +153,10 @@ def _curvature(axes: Axes, mission: Mission, verdicts: Findings, vehicle_name: s
         kappa.append(np.asarray(point.kappa))
         done += segment.length
     axes.plot(np.concatenate(distance), np.concatenate(kappa), color=BLUE, linewidth=1.4)
-    limit = 1.0 / verdicts.turn.radius
+    limit = 1.0 / findings.turn.radius
     for sign in (1.0, -1.0):
         axes.axhline(sign * limit, color=RED, linewidth=1.4, linestyle="--")
-    turn = f"radius {verdicts.turn.radius:.2f} m, {verdicts.turn.source}"
+    turn = f"radius {findings.turn.radius:.2f} m, {findings.turn.source}"
     look_of: dict[str, Any] = {"transform": axes.get_yaxis_transform(), "parse_math": False}
     text = f"tightest turn of {vehicle_name}: {turn}"
     axes.text(0.995, limit, text, color=RED, fontsize=10, ha="right", va="bottom", **look_of)

@@ -1,4 +1,4 @@
-"""One thing to know of a mission before the vehicle is in the water, and where on the path it is."""
+"""A finding of the mission check: what stands where on the path, and what would be better."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ Level = Literal["refused", "warning"]
 
 @dataclass(frozen=True)
 class Finding:
-    """One thing to know before the vehicle is in the water.
+    """A reason to refuse a mission, or a warning.
 
     Attributes:
         level: "refused" or "warning".
@@ -29,5 +29,5 @@ class Finding:
 
 
 def at(x: float, y: float) -> str:
-    """Rounded, and without a minus in front of a zero."""
+    """Return a place for people, m, without a minus in front of a zero."""
     return f"at north {round(x, 1) + 0.0:.1f}, east {round(y, 1) + 0.0:.1f}"

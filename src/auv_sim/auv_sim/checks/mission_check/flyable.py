@@ -1,4 +1,4 @@
-"""Whether a vehicle can fly a mission: what is refused, what is warned of, and how long it takes."""
+"""Judges whether a vehicle can fly a mission: refusals, warnings, and the duration."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from auv_sim.checks.mission_check.finding import Finding, at
 
 Array = npt.NDArray[np.float64]
 
-#: A turn that takes more of the vehicle's ability than this leaves little to steer with.
+#: Share of the vehicle's turning ability above which a turn leaves little to steer with.
 _AMPLE = 0.8
 #: Less way over ground than this share of the speed through the water is warned of.
 _LITTLE_WAY = 0.2
@@ -37,8 +37,8 @@ class Findings:
     """All that `check` found.
 
     Attributes:
-        refusals, warnings: the verdicts of each level, most important first.
-        notices: what of the mission's files is not taken, one line each.
+        refusals, warnings: the findings of each level, the most important first.
+        notices: what is ignored of the mission's files, one line each.
         turn: the vehicle's tightest turn.
         speed: through the water, straight ahead, m/s.
         duration: of the whole mission at that speed, in the current, s; infinite where it makes no way.
@@ -63,7 +63,7 @@ def check(
 
     Args:
         mission: what to fly.
-        vehicle: who is to fly it.
+        vehicle: the vehicle that flies it.
         current: constant current, NED, m/s.
         switching: circles of acceptance as they will be; the parameters' defaults if None.
         lookahead: Delta of guidance, m; the parameters' default if None.
@@ -85,20 +85,20 @@ def check(
         *_crossings(mission),
     ]
     refusals, warnings = (
-        tuple(verdict for verdict in found if verdict.level == level) for level in ("refused", "warning")
+        tuple(finding for finding in found if finding.level == level) for level in ("refused", "warning")
     )
     return Findings(refusals, warnings, turn, speed, survey.duration, mission.notices)
 
 
-def refusal(mission: Mission, verdicts: Findings, advice: str) -> ConfigurationError:
-    """The first refusal as an error of the mission's file, in one line.
+def refusal(mission: Mission, findings: Findings, advice: str) -> ConfigurationError:
+    """Return the first refusal as an error of the mission's file, in one line.
 
     Args:
         mission: the mission.
-        verdicts: with at least one refusal.
+        findings: with at least one refusal.
         advice: what else can be done.
     """
-    first, *others = verdicts.refusals
+    first, *others = findings.refusals
     more = f" (and {len(others)} more)" if others else ""
     return ConfigurationError(
         f"{mission.source}: {first.where}", first.found, f"{first.expected}{more}; {advice}"
@@ -128,7 +128,7 @@ def _geofence(mission: Mission) -> Iterator[Finding]:
 
 
 class _Survey:
-    """The path once, looked at closely enough to see every bend."""
+    """One lap of the path, sampled finely enough to see every bend."""
 
     def __init__(self, mission: Mission, current: Current, speed: float) -> None:
         self._mission, self._speed = mission, speed
@@ -142,7 +142,7 @@ class _Survey:
         )
         along = np.cos(chi) * current.Vx + np.sin(chi) * current.Vy
         self._chi, self._across = chi, -np.sin(chi) * current.Vx + np.cos(chi) * current.Vy
-        # What is left of the speed when the bow has turned so far up that the current across is cancelled.
+        # Speed along the path when the crab angle cancels the current across it.
         self._forward = np.sqrt(np.maximum(speed * speed - self._across**2, 0.0))
         self._ground = along + self._forward
         self.duration = self._time(metres) * mission.path.n / mission.once
@@ -160,7 +160,7 @@ class _Survey:
         return f"subpath {i + 1} ({kind}) {at(p.x, p.y)}"
 
     def way(self, current: Current) -> Iterator[Finding]:
-        """A current across that no heading can cancel, or ahead that the vehicle cannot beat."""
+        """Judge the current: none may be too strong across the path, or ahead of the vehicle."""
         strength = math.hypot(*current)
         if strength == 0.0:
             return
@@ -183,7 +183,7 @@ class _Survey:
             yield Finding("warning", place, found, "more, or it will take long")
 
     def turns(self, turn: SteadyTurn, name: str) -> Iterator[Finding]:
-        """Curvature beyond the vehicle's.
+        """Judge the curvature against the vehicle's tightest turn.
 
         Over ground the path bends by kappa; through the water the track that keeps to it bends by
         kappa Ug^2 / (U sqrt(U^2 - Vn^2)): more in a current from astern, less in one from ahead.
@@ -238,5 +238,5 @@ def _crossings(mission: Mission) -> Iterator[Finding]:
             "warning",
             place,
             f"a path that crosses itself {times}",
-            "this to be meant: subpaths are followed in their order",
+            "an intentional crossing: subpaths are followed in their order",
         )

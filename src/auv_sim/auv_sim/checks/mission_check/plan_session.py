@@ -59,13 +59,13 @@ def plan(options: argparse.Namespace, not_default: Mapping[str, Any]) -> int:
     guidance = _guidance(options, mission)
     switching = with_overrides(guidance.switching, options.switching, None)
     current = Current(*options.current)
-    verdicts = check(mission, hull, current, switching, guidance.lookahead)
+    findings = check(mission, hull, current, switching, guidance.lookahead)
     console = terminal(options.quiet, soft_wrap=True, width=None if sys.stdout.isatty() else 110)
-    _tell(console, mission, hull, verdicts)
+    _show(console, mission, hull, findings)
     png = options.out or (None if options.quiet else Path(f"plan-{mission.source.stem}.png"))
     if png is not None:
         try:
-            drawing.draw(mission, verdicts, hull.name, png, current)
+            drawing.draw(mission, findings, hull.name, png, current)
         except (NotWritten, ValueError) as error:  # ValueError: a suffix that is no picture
             reason = error.strerror if isinstance(error, NotWritten) else error
             raise ConfigurationError("--out", f"{png} ({reason})", "a picture that can be written") from None
@@ -73,15 +73,15 @@ def plan(options: argparse.Namespace, not_default: Mapping[str, Any]) -> int:
     if options.export is not None:
         chart.export(mission, options.export)
         wrote(console, options.export, "the path for a chart")
-    if verdicts.refusals:
-        raise refusal(mission, verdicts, "scripts/mission.py --force would fly it all the same")
+    if findings.refusals:
+        raise refusal(mission, findings, "scripts/mission.py --force would fly it all the same")
     same = {name: not_default[name] for name in _FLOWN_WITH if name in not_default}
     go_on(console, "Fly it", to_type("mission.py", **same))
     return EXIT_DONE
 
 
 def _guidance(options: argparse.Namespace, mission: Mission) -> PathFollowerConfig:
-    """As in flight: the parameters, then the mission."""
+    """Return the guidance's configuration as in flight: the parameters, then the mission."""
     source = config_files.find("params", options.params) if options.params else None
     if source is None:
         parameters = SUITE[topics.GUIDANCE]()
@@ -91,7 +91,7 @@ def _guidance(options: argparse.Namespace, mission: Mission) -> PathFollowerConf
     return guidance
 
 
-def _tell(console: Console, mission: Mission, hull: Vehicle, verdicts: Findings) -> None:
+def _show(console: Console, mission: Mission, hull: Vehicle, findings: Findings) -> None:
     path = mission.path
     times = path.n // max(mission.once, 1)
     console.print(
@@ -102,21 +102,21 @@ def _tell(console: Console, mission: Mission, hull: Vehicle, verdicts: Findings)
         f"  path      {path.n} subpaths, {path.length:.2f} m"
         + (f", {times} times round" if times > 1 else "")
     )
-    lasts = f"{verdicts.duration:.0f} s" if math.isfinite(verdicts.duration) else "no end"
+    lasts = f"{findings.duration:.0f} s" if math.isfinite(findings.duration) else "no end"
     console.print(
-        f"  duration  {lasts} at {verdicts.speed:.2f} m/s through the water"
+        f"  duration  {lasts} at {findings.speed:.2f} m/s through the water"
         f" ({mission.thrust:.2f} {hull.thrust_symbol})"
     )
-    turn = f"{verdicts.turn.radius:.2f} m, {verdicts.turn.source}"
+    turn = f"{findings.turn.radius:.2f} m, {findings.turn.source}"
     console.print(f"  vehicle   {escape(hull.name)}, tightest turn {turn}")
     console.print(_joints(mission))
-    for verdict in verdicts.refusals:
-        console.print(f"[bold red]refused[/bold red]  {escape(str(verdict))}")
-    for verdict in verdicts.warnings:
-        console.print(f"[yellow]warning[/yellow]  {escape(str(verdict))}")
-    for notice in verdicts.notices:
+    for finding in findings.refusals:
+        console.print(f"[bold red]refused[/bold red]  {escape(str(finding))}")
+    for finding in findings.warnings:
+        console.print(f"[yellow]warning[/yellow]  {escape(str(finding))}")
+    for notice in findings.notices:
         console.print(f"[cyan]notice[/cyan]   {escape(notice)}")
-    if not verdicts.refusals and not verdicts.warnings:
+    if not findings.refusals and not findings.warnings:
         console.print("[green]nothing to say against it[/green]")
     console.print()
 
@@ -153,5 +153,5 @@ def _joints(mission: Mission) -> Table | str:
 
 
 def _clean(value: float, digits: int) -> str:
-    """Rounded, and without a minus in front of a zero."""
+    """Return a rounded number without a minus in front of a zero."""
     return f"{round(value, digits) + 0.0:.{digits}f}"

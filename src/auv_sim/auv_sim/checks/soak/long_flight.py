@@ -26,12 +26,12 @@ from auv_sim.flight.metrics import summarise
 from auv_sim.launch import launcher, mission_plan
 from auv_sim.launch.mission_plan import Plan
 from auv_sim.launch.options import Options
-from auv_sim.launch.outcome import MissionFailed
+from auv_sim.launch.outcome import MissionFailed, Outcome
 from auv_sim.launch.processes.adopted import Loader
 from auv_sim.launch.processes.domains import free_domain
 from auv_sim.launch.progress_display import ProgressDisplay
 from auv_sim.terminal import console as terminal
-from auv_sim.terminal import wrote
+from auv_sim.terminal import headed_table, wrote
 
 #: A lawnmower with a way back, closed, 1.26 km: followed as often as the hour takes.
 SURVEY = """\
@@ -46,17 +46,17 @@ waypoints:
   closed: true
   smoothing: {{kind: circular, radius: 8}}
 """
-#: The share of the mission after which a process has everything it needs.
+#: Warm-up, as a share of the mission: after it a process has all the memory it needs.
 _WARM = 0.2
 #: Least share of the path that has to be flown. In the current the turns of 8 m take the vehicle farther from
 #: the path than a flown cell may be, which costs two per cent.
 _LEAST_SHARE = 0.95
-#: How often memory is looked at, s of wall time.
+#: Period of the memory readings, s of wall time.
 _PERIOD = 1.0
 
 
 class Watch(ProgressDisplay):
-    """A progress bar that also keeps each process's memory.
+    """A progress bar that also keeps the memory of each process.
 
     Args:
         resolved: what is flown.
@@ -88,7 +88,11 @@ class Growth:
 
 
 def growth(rows: Sequence[tuple[float, dict[str, int]]]) -> list[Growth]:
-    """Least squares over everything after the warm-up."""
+    """Fit each process's memory over the steps after the warm-up, by least squares.
+
+    Args:
+        rows: (steps, {name: kB}).
+    """
     steps = np.array([row[0] for row in rows])
     late = steps >= _WARM * steps[-1]
     found = []
@@ -101,16 +105,53 @@ def growth(rows: Sequence[tuple[float, dict[str, int]]]) -> list[Growth]:
 
 
 def soak(arguments: argparse.Namespace) -> int:
-    """Fly as the command line asks; returns the exit code."""
+    """Fly the soak survey, print and write memory and losses.
+
+    Args:
+        arguments: the command line's: minutes of mission time, flat (largest growth, kB per 1000 steps), out.
+
+    Returns:
+        The exit code: 0 if nothing grew or was lost, else 1.
+
+    Raises:
+        MissionFailed: the mission was not flown to its end.
+    """
     directory = (arguments.out or Path("runs") / f"soak-{time.strftime('%Y%m%d-%H%M%S')}").absolute()
     make_directory(directory, new=True)
+    resolved = _plan(directory, arguments.minutes)
+    console = terminal()
+    watch = Watch(resolved, console)
+    outcome = _flown(resolved, directory, watch)
+    steps, lost = _counted(directory / "bag", resolved.parameters[topics.PLANT].step)
+    grown = growth(watch.rows)
+    memory.draw(watch.rows, _WARM * watch.rows[-1][0], directory / "soak.png")
+    title = f"{outcome.mission_time / 60.0:.1f} minutes of mission, {steps} steps"
+    steps_per_minute = 60.0 / resolved.parameters[topics.PLANT].step
+    console.print(_table(title, grown, arguments.flat, steps_per_minute))
+    console.print(
+        f"{steps / outcome.wall_time:.0f} steps a second,"
+        f" {outcome.mission_time / outcome.wall_time:.0f} times real time;"
+        f" {'; '.join(lost) if lost else 'no message lost, no step missed'}",
+        highlight=False,
+    )
+    _write(directory / "soak.json", outcome, steps, lost, grown)
+    console.print()
+    wrote(console, directory / "soak.png", "memory of each process")
+    good = not lost and all(one.slope <= arguments.flat for one in grown)
+    return EXIT_DONE if good else EXIT_FAILED
+
+
+def _plan(directory: Path, minutes: float) -> Plan:
+    """Write the survey with as many laps as last `minutes`, and plan it in a current."""
     mission = directory / "soak.yaml"
     write_text(mission, SURVEY.format(repeat=1))
     once = mission_plan.make(Options(mission=str(mission)), directory).verdicts.duration
-    write_text(mission, SURVEY.format(repeat=math.ceil(60.0 * arguments.minutes / once)))
-    resolved = mission_plan.make(Options(mission=str(mission), current=(0.1, 0.2)), directory)
-    console = terminal()
-    watch = Watch(resolved, console)
+    write_text(mission, SURVEY.format(repeat=math.ceil(60.0 * minutes / once)))
+    return mission_plan.make(Options(mission=str(mission), current=(0.1, 0.2)), directory)
+
+
+def _flown(resolved: Plan, directory: Path, watch: Watch) -> Outcome:
+    """Fly; return the outcome of a complete mission."""
     with watch, Loader() as loader:
         outcome = launcher.fly(resolved, directory, free_domain(), watch, loader)
     if outcome.state == "interrupted":
@@ -119,35 +160,22 @@ def soak(arguments: argparse.Namespace) -> int:
         raise MissionFailed(f"{outcome.state}: {outcome.reason}")
     if reason := summarise(load(directory / "bag"), resolved.mission.path).shortfall(_LEAST_SHARE):
         raise MissionFailed(f"incomplete: {reason}")
-    steps, lost = _counted(directory / "bag", resolved.parameters[topics.PLANT].step)
-    grown = growth(watch.rows)
-    memory.draw(watch.rows, _WARM * watch.rows[-1][0], directory / "soak.png")
-    table = Table(
-        title=f"{outcome.mission_time / 60.0:.1f} minutes of mission, {steps} steps", title_justify="left"
-    )
-    table.add_column("process")
-    for heading in (
-        "after warm-up, MB",
-        "at the end, MB",
-        "slope, kB per 1000 steps",
-        "kB per minute flown",
-    ):
-        table.add_column(heading, justify="right")
-    per_minute = 60.0 / resolved.parameters[topics.PLANT].step / 1e3
+    return outcome
+
+
+def _table(title: str, grown: Sequence[Growth], flat: float, steps_per_minute: float) -> Table:
+    numbers = ("after warm-up, MB", "at the end, MB", "slope, kB per 1000 steps", "kB per minute flown")
+    table = headed_table(title, ("process",), numbers)
     for one in grown:
-        flat = one.slope <= arguments.flat
-        colour = "green" if flat else "red"
+        colour = "green" if one.slope <= flat else "red"
         table.add_row(
             one.name, f"{one.warm / 1e3:.1f}", f"{one.end / 1e3:.1f}",
-            f"[{colour}]{one.slope:+.2f}[/{colour}]", f"{one.slope * per_minute:+.2f}",
+            f"[{colour}]{one.slope:+.2f}[/{colour}]", f"{one.slope * steps_per_minute / 1e3:+.2f}",
         )  # fmt: skip
-    console.print(table)
-    console.print(
-        f"{steps / outcome.wall_time:.0f} steps a second,"
-        f" {outcome.mission_time / outcome.wall_time:.0f} times real time;"
-        f" {'; '.join(lost) if lost else 'no message lost, no step missed'}",
-        highlight=False,
-    )
+    return table
+
+
+def _write(file: Path, outcome: Outcome, steps: int, lost: list[str], grown: Sequence[Growth]) -> None:
     record = {
         "minutes": outcome.mission_time / 60.0,
         "steps": steps,
@@ -155,15 +183,11 @@ def soak(arguments: argparse.Namespace) -> int:
         "lost": lost,
         "processes": [vars(one) for one in grown],
     }
-    write_text(directory / "soak.json", json.dumps(record, indent=2) + "\n")
-    console.print()
-    wrote(console, directory / "soak.png", "memory of each process")
-    good = not lost and all(one.slope <= arguments.flat for one in grown)
-    return EXIT_DONE if good else EXIT_FAILED
+    write_text(file, json.dumps(record, indent=2) + "\n")
 
 
 def _counted(bag: Path, step: float) -> tuple[int, list[str]]:
-    """How many steps were recorded, and what is missing of them."""
+    """Return how many steps were recorded, and a line for each topic that lacks some."""
     stamps = np.array(
         [nanoseconds(message.header.stamp) for _, message in load_messages(bag, topics.ODOM.name)]
     )

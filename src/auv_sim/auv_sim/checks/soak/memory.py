@@ -7,7 +7,7 @@ from pathlib import Path
 
 
 def resident(pid: int) -> int:
-    """Resident memory of a process, kB; 0 if it has ended."""
+    """Return the resident memory of a process, kB; 0 if it has ended."""
     try:
         status = Path(f"/proc/{pid}/status").read_text()
     except OSError:
@@ -16,7 +16,7 @@ def resident(pid: int) -> int:
 
 
 def of_children(pid: int) -> dict[str, int]:
-    """Resident memory (kB) of each direct child that runs a module: last part of the module's name -> kB."""
+    """Return the resident memory of each direct child that runs a module: last part of its name -> kB."""
     found: dict[str, int] = {}
     for task in Path(f"/proc/{pid}/task").glob("*/children"):
         try:
@@ -36,7 +36,7 @@ def of_children(pid: int) -> dict[str, int]:
 
 
 def draw(rows: Sequence[tuple[float, dict[str, int]]], warm: float, file: Path) -> None:
-    """How each process has grown since step `warm`."""
+    """Draw how each process has grown since step `warm`."""
     import matplotlib
 
     matplotlib.use("Agg")

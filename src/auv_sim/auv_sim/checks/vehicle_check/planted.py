@@ -1,6 +1,6 @@
-"""Drivers with one mistake each, which the check must find: the simulated vehicle, misreported on the wire.
+"""Drivers with one mistake each, which the check must find: a simulated vehicle, misreported on the wire.
 
-The samples of an honest driver (ENU/FLU) are changed on their way; what is commanded too.
+The samples of an honest driver (ENU/FLU) are changed on their way, and so are its commands.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from auv_sim.vehicle.simulated import SimulatedVehicle
 #: Between two odometries of an honest driver, s; and the time after which a command is forgotten, s.
 PERIOD, COMMAND_TIMEOUT = 0.05, 1.0
 CURRENT = Current(0.12, -0.08)
-#: Begins turned away from every axis.
+#: The start, turned away from every axis.
 START = PlantState(10.0, 30.0, math.radians(25.0), 0.0, 0.0, 0.0)
 _STALE_CLOCK = 1.7e9
 
@@ -39,8 +39,8 @@ class Planted:
     Attributes:
         name: for people and for `--self-test`.
         mistake: what has to be found, None for an honest driver.
-        odom, water: what becomes of an honest sample; the number is a count of samples.
-        command: what becomes of a command before it reaches the vehicle.
+        odom, water: change an honest sample; the number counts the samples.
+        command: changes a command before it reaches the vehicle.
         period: until the next odometry, s; from the count and seeded dice.
         dead_time: of the commands, s.
         rudder_rate: share of the file's.
@@ -62,7 +62,7 @@ class Planted:
     bare: bool = False
 
     def file(self, vehicle: Vehicle) -> Vehicle:
-        """The vehicle file that the driver is judged by; `vehicle` is what really moves."""
+        """Return the vehicle file that the driver is judged by; `vehicle` is what really moves."""
         if not self.bare:
             return vehicle
         cruise = Cruise(thrust=vehicle.thrust_max, speed=vehicle.top_speed)
@@ -168,22 +168,22 @@ class PlantedVehicle:
         self.moving = False
 
     def order(self, command: Command) -> None:
-        """A command arrives now."""
+        """Take a command that arrives now."""
         if not self.planted.latched_commands:
             self._under_way.append((self._now + self.planted.dead_time, self.planted.command(command)))
 
     def live(self, until: float) -> list[tuple[OdometrySample, WaterSample, float]]:
-        """Let time pass.
+        """Let time pass until `until`, s.
 
         Returns:
-            What is published: odometry, velocity through the water and rudder angle; `received` is the time.
+            The published samples: odometry, velocity through the water, rudder angle (rad).
         """
-        said = []
+        samples = []
         while self._next <= until + 1e-9:
             self._advance(self._next - self._now)
-            said.append(self._measure())
+            samples.append(self._measure())
             self._next += self.planted.period(self._count, self._dice)
-        return said
+        return samples
 
     def _advance(self, dt: float) -> None:
         end = self._now + dt

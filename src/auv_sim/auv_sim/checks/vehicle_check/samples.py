@@ -1,4 +1,4 @@
-"""What was heard of a vehicle, as it was on the wire: nothing is converted, so that mistakes stay visible."""
+"""Samples of a vehicle's topics as they were on the wire: unconverted, so that mistakes stay visible."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ class Recording:
         odom, water, rudder_state: from the vehicle.
         rudder_cmd, thrust_cmd: to the vehicle, from any sender.
         endpoints: publishers and subscriptions of the contract's topics, without the listener itself.
-        duration: how long was listened, s of ROS time.
+        duration: of the listening, s of ROS time.
         sim_time: whether ROS time came from /clock.
         wiggled: whether the small test was made: then everything can be judged, and has to be.
         listened_in: ROS domain and discovery range of the listener, for people.
@@ -110,9 +110,9 @@ class Motion(NamedTuple):
 
 
 def motion_of(odom: list[OdometrySample]) -> Motion:
-    """Sort out what can be used of the odometries; what cannot has its own checks.
+    """Return the usable odometries; unusable ones have checks of their own.
 
-    A jump of the stamps ends what belongs together: the longest stretch is taken.
+    A jump of the stamps divides the recording: the longest stretch is taken.
     """
     newest = -np.inf
     rows: list[tuple[float, ...]] = []
@@ -150,7 +150,7 @@ def slope(t: Array, values: Array, span: float) -> tuple[Array, Array]:
 
 
 def mean_over(t: Array, values: Array, middles: Array, span: float) -> Array:
-    """The mean of a signal over `span` seconds around each time (trapezoids); shape of `middles`."""
+    """Return the mean of a signal over `span` seconds around each time (trapezoids); shape of `middles`."""
     integral = np.concatenate(([0.0], np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(t))))
     low, high = middles - 0.5 * span, middles + 0.5 * span
     length = np.maximum(np.minimum(high, t[-1]) - np.maximum(low, t[0]), 1e-9)

@@ -1,4 +1,4 @@
-"""What a check says: pass, fail, or that it could not tell, with what was measured."""
+"""The verdict on one item: pass, warning, fail or not judged, with what was measured."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 
 class Level(enum.Enum):
-    """How an item stands."""
+    """The levels of a verdict."""
 
     PASS = "pass"  # noqa: S105 - no password
     WARN = "warning"
@@ -16,7 +16,7 @@ class Level(enum.Enum):
 
 
 class Mistake(enum.Enum):
-    """The mistakes that have a name, and what the report says of them."""
+    """The mistakes that have a name, with their text in the report."""
 
     MISSING_TOPIC = "a topic is missing"
     TWO_PUBLISHERS = "two publishers on one topic"
@@ -81,20 +81,20 @@ class Verdict(NamedTuple):
 
 
 def passed(item: str, measured: str, expected: str = "") -> Verdict:
-    """It is as it should be."""
+    """Return a verdict on an item as it should be."""
     return Verdict(item, Level.PASS, measured, expected)
 
 
 def failed(item: str, mistake: Mistake, measured: str, expected: str) -> Verdict:
-    """It is not."""
+    """Return a verdict on an item that fails, with its cause."""
     return Verdict(item, Level.FAIL, measured, expected, mistake)
 
 
 def warned(item: str, measured: str, expected: str, mistake: Mistake | None = None) -> Verdict:
-    """It will do, but."""
+    """Return a verdict on an item that is usable with a reservation."""
     return Verdict(item, Level.WARN, measured, expected, mistake)
 
 
 def unknown(item: str, why: str, needed: str) -> Verdict:
-    """There was not enough to tell."""
+    """Return a verdict on an item that could not be judged."""
     return Verdict(item, Level.UNKNOWN, why, needed)

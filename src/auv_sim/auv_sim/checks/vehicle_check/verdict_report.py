@@ -14,7 +14,7 @@ _STYLE = {Level.PASS: "green", Level.WARN: "yellow", Level.FAIL: "bold red", Lev
 
 
 def table(verdicts: list[Verdict], title: str) -> Table:
-    """One row for each item."""
+    """Return a table with a row for each item."""
     made = Table(title=title, title_justify="left")
     for heading in ("item", "verdict", "measured", "expected"):
         made.add_column(heading, overflow="fold")
@@ -26,7 +26,7 @@ def table(verdicts: list[Verdict], title: str) -> Table:
 
 
 def as_dict(verdicts: list[Verdict], recording: Recording) -> dict[str, Any]:
-    """The same for programs; `mistake` is a name that stays."""
+    """Return the verdicts for programs; the names of mistakes do not change."""
     items = [
         {
             "item": v.item,
@@ -47,7 +47,7 @@ def as_dict(verdicts: list[Verdict], recording: Recording) -> dict[str, Any]:
 
 
 def conclusion(verdicts: list[Verdict]) -> str:
-    """One line: how it stands, and what to do next."""
+    """Return one line: the counts, and what to do next."""
     count = {level: sum(v.level is level for v in verdicts) for level in Level}
     text = f"{count[Level.PASS]} passed, {count[Level.WARN]} warnings, {count[Level.FAIL]} failed"
     if count[Level.UNKNOWN]:

@@ -1,4 +1,4 @@
-"""The small test of rudder and thrust: what is commanded, and when. ROS-free."""
+"""The commands of the small test of rudder and thrust over time. ROS-free."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import NamedTuple
 from auv_msgs_py.values.types import STOP, Command
 from auv_path_following.vehicle import Vehicle
 
-#: Share of the largest thrust; speed comes before the rudder.
+#: Thrust, as a share of the largest.
 THRUST_SHARE = 0.6
 #: (until, rudder in degrees): a rest and the run-up, both sides, twice as much, neutral.
 _RUDDER = ((7.0, 0.0), (10.0, 10.0), (15.0, -10.0), (18.0, 20.0), (20.0, 0.0))
@@ -25,11 +25,11 @@ class Wiggle(NamedTuple):
 
     @classmethod
     def of(cls, vehicle: Vehicle) -> Wiggle:
-        """Within the vehicle's limits."""
+        """Return the sequence within the vehicle's limits."""
         return cls(THRUST_SHARE * vehicle.thrust_max, vehicle.rudder.max_angle)
 
     def at(self, seconds: float) -> Command:
-        """The command at a time after the beginning, s."""
+        """Return the command at a time after the beginning, s."""
         if not 0.0 <= seconds < END:
             return STOP
         degrees = next((angle for until, angle in _RUDDER if seconds < until), 0.0)

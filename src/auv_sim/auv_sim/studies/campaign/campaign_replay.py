@@ -1,4 +1,4 @@
-"""One run of a campaign again, alone: in the batch engine, or over ROS 2 with its files written out."""
+"""Repeats one run of a campaign: in the batch engine, or over ROS 2 with its files written out."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ def replay(store: Store, number: int, graph: bool, console: Console) -> int:
     Args:
         store: the campaign.
         number: of the run, from 0.
-        graph: over ROS 2, recorded; else in the batch engine.
-        console: where to tell.
+        graph: fly it over ROS 2 as well, recorded.
+        console: for the output.
 
     Returns:
         the exit code: 0 if the path was flown to its end, else 1.
@@ -49,20 +49,25 @@ def replay(store: Store, number: int, graph: bool, console: Console) -> int:
         raise ConfigurationError("--replay-run", str(number), f"a run from 0 to {plan.runs - 1}")
     console.print(f"[bold]{escape(plan.study.name)}[/bold], run {number}")
     for name, value in plan.values(number).items():
-        told = f"{value:.6g}" if isinstance(value, float) else escape(str(value))
-        console.print(f"  {name:<32} {told}")
+        text = f"{value:.6g}" if isinstance(value, float) else escape(str(value))
+        console.print(f"  {name:<32} {text}")
     scenario = plan.scenario(number)
     directory = store.directory / "runs" / f"{number:07d}"
     shutil.rmtree(directory, ignore_errors=True)
     write_files(plan, number, directory / "config")
     flown = engine.track(scenario)
-    code = _tell(store, number, flown, scenario, console)
+    code = _show(store, number, flown, scenario, console)
     _picture(plan, number, flown, scenario, directory / "overview.png")
     wrote(console, directory / "overview.png", "the run in one picture")
     if not graph:
         again = to_type("campaign.py", store.directory, replay_run=number, graph=True)
         go_on(console, "Fly it over ROS 2", again)
         return code
+    return _over_ros(plan, directory, flown, console)
+
+
+def _over_ros(plan: StudyPlan, directory: Path, flown: Run, console: Console) -> int:
+    """Fly the run over ROS 2, print its distance from the batch engine's, return the exit code."""
     least = ["--flown", f"{plan.study.flown:g}"]
     code = mission_command.main(
         [*command_line(directory / "config"), *least, "--out", str(directory / "graph")]
@@ -75,10 +80,10 @@ def replay(store: Store, number: int, graph: bool, console: Console) -> int:
 
 
 def write_files(plan: StudyPlan, number: int, directory: Path) -> None:
-    """Mission, hulls, sea and parameters of one run, such that `scripts/mission.py` flies it."""
+    """Write mission, hulls, sea and parameters of one run, such that `scripts/mission.py` flies it."""
     values, scenario = plan.values(number), plan.scenario(number)
-    mission = plan.mission_of(values)
-    told = plan.parameters(str(values.get("params", plan.study.params)))
+    mission = plan.files.mission_of(values)
+    given = plan.files.parameters(str(values.get("params", plan.study.params)))
     directory.mkdir(parents=True)
     mission.copy_to(directory)
     yaml_file.dump(_written(scenario.vehicle), directory / "vehicle.yaml")
@@ -90,35 +95,35 @@ def write_files(plan: StudyPlan, number: int, directory: Path) -> None:
     x, y, psi, surge, *_ = scenario.initial or start_of(scenario.path)
     plant["initial"] = InitialPose(x=x, y=y, psi=psi, surge=surge)
     plant["current"] = ConstantCurrent(Vx=scenario.current.Vx, Vy=scenario.current.Vy)
-    limits = dataclasses.replace(told[topics.GUIDANCE].limits, duration=plan.study.time_limit)
-    parameters = told | {
-        topics.PLANT: dataclasses.replace(told[topics.PLANT], **plant),
-        topics.OBSERVER: dataclasses.replace(told[topics.OBSERVER], observer=scenario.observer),
-        topics.AUTOPILOT: dataclasses.replace(told[topics.AUTOPILOT], autopilot=scenario.autopilot),
+    limits = dataclasses.replace(given[topics.GUIDANCE].limits, duration=plan.study.time_limit)
+    parameters = given | {
+        topics.PLANT: dataclasses.replace(given[topics.PLANT], **plant),
+        topics.OBSERVER: dataclasses.replace(given[topics.OBSERVER], observer=scenario.observer),
+        topics.AUTOPILOT: dataclasses.replace(given[topics.AUTOPILOT], autopilot=scenario.autopilot),
         topics.GUIDANCE: dataclasses.replace(
-            told[topics.GUIDANCE], guidance=scenario.guidance, limits=limits, mission_switching=False
+            given[topics.GUIDANCE], guidance=scenario.guidance, limits=limits, mission_switching=False
         ),
     }
     yaml_file.dump(params_file.as_ros(parameters), directory / "params.yaml")
 
 
 def command_line(config: Path) -> list[str]:
-    """Arguments for `scripts/mission.py`. A campaign flies what the check of a plan would refuse, too."""
+    """Return arguments for `scripts/mission.py`; a campaign flies what the mission check refuses, too."""
     names = ("mission", "vehicle", "controller_model", "params")
     files = [part for name in names for part in (f"--{name.replace('_', '-')}", str(config / f"{name}.yaml"))]
     return [*files, "--force"]
 
 
 def _written(settings: Any) -> Any:
-    """A settings object as it stands in a file: what is not given is left out."""
+    """Return a settings object as it stands in a file: what is not given is left out."""
     if not dataclasses.is_dataclass(settings):
         return list(settings) if isinstance(settings, tuple) else settings
     named = {field.name: getattr(settings, field.name) for field in dataclasses.fields(settings)}
     return {name: _written(value) for name, value in named.items() if value is not None}
 
 
-def _tell(store: Store, number: int, flown: Run, scenario: Scenario, console: Console) -> int:
-    """Print the figures; returns the exit code."""
+def _show(store: Store, number: int, flown: Run, scenario: Scenario, console: Console) -> int:
+    """Print the figures; return the exit code."""
     summary = summarise(flown, scenario.path)
     outcome = summary.outcome(store.plan.study.flown)
     console.print(

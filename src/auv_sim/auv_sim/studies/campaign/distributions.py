@@ -1,4 +1,4 @@
-"""What a study says of one parameter: a distribution to draw from, or a grid to go through."""
+"""The values of one parameter of a study: a distribution to draw from, or a grid."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Value = float | bool | str
 _KINDS = ("uniform", "log_uniform", "normal", "disc", "choice", "grid")
 #: A normal distribution is cut here unless `within` says otherwise, standard deviations.
 _CUT = 4.0
-#: A cut normal distribution keeps at least so much: it is drawn from until a value falls inside.
+#: Least share that a cut normal distribution keeps: it is drawn from until a value falls inside.
 _LEAST_SHARE = 1e-3
 
 
@@ -69,7 +69,7 @@ class Distribution:
 
     @property
     def extremes(self) -> tuple[Value, ...]:
-        """Values between which all others lie, or all there are."""
+        """The values between which all others lie, or all values of a list."""
         if self.listed is not None:
             return self.listed
         if self.disc is not None:
@@ -80,7 +80,7 @@ class Distribution:
         return self.uniform or self.log_uniform or ()
 
     def draw(self, generator: np.random.Generator) -> Any:
-        """One value; a grid has none to draw."""
+        """Draw one value; not for a grid."""
         if self.choice is not None:
             return self.choice[int(generator.integers(len(self.choice)))]
         if self.disc is not None:
@@ -99,6 +99,6 @@ class Distribution:
 
 
 def _share(mean: float, deviation: float, low: Any, high: Any) -> float:
-    """How much of a normal distribution lies between `low` and `high`."""
+    """Return the share of a normal distribution between `low` and `high`."""
     scale = math.sqrt(2.0) * deviation
     return 0.5 * (math.erf((high - mean) / scale) - math.erf((low - mean) / scale))

@@ -1,4 +1,4 @@
-"""Runs as rows of a table: their number, what was varied, and the figures of their flights."""
+"""Makes rows of a table from runs: number, varied values, and the figures of the flight."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from auv_sim.studies.campaign.study_file import Study
 
 
 def schema_of(plan: StudyPlan) -> pa.Schema:
-    """The columns of a study's table."""
+    """Return the columns of a study's table."""
     fields = [pa.field("run", pa.int64())]
     for name, distribution in plan.study.vary.items():
         switches = all(isinstance(value, bool) for value in distribution.extremes)
@@ -31,7 +31,7 @@ def schema_of(plan: StudyPlan) -> pa.Schema:
 
 
 def table_of(plan: StudyPlan, runs: range, flights: Flights, subpaths: list[int]) -> pa.Table:
-    """One row for each run.
+    """Return a row for each run.
 
     Args:
         plan: the study.
@@ -56,12 +56,12 @@ def table_of(plan: StudyPlan, runs: range, flights: Flights, subpaths: list[int]
 
 
 def flown_enough(study: Study, shares: Any) -> Any:
-    """Which flown shares (0 to 1) reach the study's least one."""
+    """Return which flown shares (0 to 1) reach the study's least one."""
     return shares >= study.flown
 
 
 def successes(study: Study, flights: Flights) -> Any:
-    """Which flights flew the path to its end within the study's limits; a figure that is NaN exceeds any."""
+    """Return which flights flew the path to its end within the study's limits; NaN exceeds any limit."""
     good = flights.completed & flown_enough(study, flights.flown_share)
     for figure, most in study.success.items():
         good &= getattr(flights, figure) <= most

@@ -1,4 +1,4 @@
-"""Flies a campaign's chunks: on all cores of this machine, or through Dask on as many as there are."""
+"""Flies a campaign's chunks: on the cores of this machine, or through Dask on others."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def fly_chunk(source: str, first: int, end: int) -> Result:
 
 
 def fly_bundled(files: Mapping[str, bytes], study: str, first: int, end: int) -> Result:
-    """The same on a machine that has none of the files."""
+    """Fly runs `first` to `end - 1` on a machine that has none of the files."""
     return fly_chunk(_unpacked(fingerprint(files), study, files), first, end)
 
 
@@ -47,7 +47,7 @@ _directories: dict[str, tempfile.TemporaryDirectory[str]] = {}
 
 
 def _unpacked(name: str, study: str, files: Mapping[str, bytes]) -> str:
-    """Once in each process; gone when it ends."""
+    """Write the files once in each process; they are removed when it ends. Return the study's path."""
     if name not in _directories:
         _directories[name] = tempfile.TemporaryDirectory(prefix="auv_campaign_")
         write_bundle(files, Path(_directories[name].name))
@@ -55,11 +55,11 @@ def _unpacked(name: str, study: str, files: Mapping[str, bytes]) -> str:
 
 
 def on_this_machine(store: Store, chunks: list[range], workers: int) -> Iterator[tuple[range, pa.Table]]:
-    """Every chunk with its table, as they are finished.
+    """Yield every chunk with its table, as they are finished.
 
     Raises:
         ConfigurationError: a run whose values do not go together.
-        WorkerDied: a process of the pool is gone.
+        WorkerDied: a process of the pool has ended.
     """
     for index, result in each(functools.partial(_fly, str(store.plan.source)), chunks, workers):
         yield chunks[index], _table(result)
@@ -72,7 +72,7 @@ def _fly(source: str, runs: range) -> Result:
 def through_dask(
     store: Store, chunks: list[range], workers: int, scheduler: str
 ) -> Iterator[tuple[range, pa.Table]]:
-    """Every chunk with its table, as they are finished.
+    """Yield every chunk with its table, as they are finished.
 
     Args:
         store: the campaign.
@@ -81,20 +81,13 @@ def through_dask(
         scheduler: its address; empty for a cluster on this machine.
 
     Raises:
-        ConfigurationError: Dask is missing, nobody answers, or a run whose values do not go together.
+        ConfigurationError: no Dask, no answer of the scheduler, or a run whose values do not go together.
         WorkerDied: a chunk ended several workers, one after the other.
     """
-    try:
-        import distributed as dask
-    except ImportError:
-        raise ConfigurationError("--dask", "no Dask", "pip install -r requirements/cluster.txt") from None
-    distributed: Any = dask  # its functions have no types
-    if scheduler:
-        cluster: Any = scheduler
-    else:
-        cluster = distributed.LocalCluster(
-            n_workers=workers, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
-        )
+    distributed = _dask()
+    cluster: Any = scheduler or distributed.LocalCluster(
+        n_workers=workers, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
+    )
     try:
         client = distributed.Client(cluster, timeout=20)
     except (OSError, ValueError) as error:
@@ -113,6 +106,15 @@ def through_dask(
             raise WorkerDied("workers died again and again: killed, or out of memory") from None
     if not scheduler:
         cluster.close()
+
+
+def _dask() -> Any:
+    """Return Dask's module, whose functions have no types."""
+    try:
+        import distributed
+    except ImportError:
+        raise ConfigurationError("--dask", "no Dask", "pip install -r requirements/cluster.txt") from None
+    return distributed
 
 
 def _table(result: Result) -> pa.Table:

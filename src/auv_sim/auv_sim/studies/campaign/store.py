@@ -27,15 +27,16 @@ from auv_msgs_py.settings.result_files import replacing
 from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.command_line import make_directory
-from auv_sim.studies.campaign.campaign_plan import BUNDLED, StudyPlan
+from auv_sim.studies.campaign.campaign_plan import StudyPlan
 from auv_sim.studies.campaign.run_table import schema_of
+from auv_sim.studies.campaign.study_files import BUNDLED
 from auv_sim.studies.campaign.version import code_digest
 
 RESULTS = "results.parquet"
 _CONFIG, _IDENTITY = "config", "campaign.json"
-#: What a start that did not come far may leave behind.
+#: What an interrupted start may leave behind.
 _LOCK, _SCRATCH = ".lock", ".config.part"
-#: Of results.parquet: fixed, so that the file is the same whatever the chunks were.
+#: Rows of a group in results.parquet: fixed, so that the file does not depend on the chunks.
 _ROW_GROUP = 65536
 
 
@@ -52,8 +53,8 @@ class Store:
     """One campaign's directory, new or begun before.
 
     Args:
-        directory: where.
-        plan: the study; None to take up the one that is there.
+        directory: of the campaign.
+        plan: the study; None to continue the one that is there.
 
     Raises:
         ConfigurationError: the directory holds another campaign, or none where one is needed; or it cannot be
@@ -83,7 +84,7 @@ class Store:
         make_directory(self.directory)
         begun = self.directory / _CONFIG / _IDENTITY
         there = {path.name for path in self.directory.iterdir()} - {_LOCK, _SCRATCH}
-        if there and not begun.exists():  # if it does now, another start was there in between
+        if there and not begun.exists():  # if it exists now, another start was faster
             raise ConfigurationError(str(self.directory), "a directory with other things in it", "a new one")
         with self.alone():
             if begun.exists():
@@ -97,10 +98,10 @@ class Store:
 
     @contextlib.contextmanager
     def alone(self) -> Iterator[None]:
-        """While no other process works on this campaign.
+        """Hold the lock of this campaign: no other process works on it inside.
 
         Raises:
-            ConfigurationError: one does, or the directory cannot be used.
+            ConfigurationError: another process holds it, or the directory cannot be used.
         """
         with contextlib.ExitStack() as opened:
             try:
@@ -124,7 +125,7 @@ class Store:
         return (self.directory / RESULTS).is_file()
 
     def missing(self, size: int) -> list[range]:
-        """The runs that have not been flown, in chunks of at most `size`."""
+        """Return the runs that have not been flown, in chunks of at most `size`."""
         if self.finished:
             return []
         done = [False] * self.plan.runs
@@ -159,7 +160,7 @@ class Store:
         _write_table(table, self._chunk_file(runs), len(runs))
 
     def finish(self) -> pa.Table:
-        """All runs in order, as results.parquet; the chunks are not needed any more.
+        """Write all runs in order as results.parquet, remove the chunks, return the table.
 
         Raises:
             ConfigurationError: a table that is damaged.
@@ -175,10 +176,10 @@ class Store:
 
 
 def bundle_of(plan: StudyPlan) -> dict[str, bytes]:
-    """The study and every file that it names, so that they can be put down anywhere: name -> contents."""
+    """Return the study and every file that it names, to be written anywhere: name -> contents."""
     names: dict[str, dict[str, str]] = {}
     files = {f"{plan.source.stem}.yaml": plan.source.read_bytes()}
-    for number, (kind, name, (main, *others)) in enumerate(plan.files()):
+    for number, (kind, name, (main, *others)) in enumerate(plan.files.named()):
         for path in (main, *others):
             files[f"{kind}/{number}/{path.relative_to(main.parent)}"] = path.read_bytes()
         names.setdefault(kind, {})[name] = f"{kind}/{number}/{main.name}"
@@ -187,7 +188,7 @@ def bundle_of(plan: StudyPlan) -> dict[str, bytes]:
 
 
 def write_bundle(files: Mapping[str, bytes], directory: Path) -> None:
-    """Put a bundle down."""
+    """Write a bundle."""
     for name, contents in files.items():
         path = directory / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -198,7 +199,7 @@ def write_bundle(files: Mapping[str, bytes], directory: Path) -> None:
 
 
 def fingerprint(files: Mapping[str, bytes]) -> str:
-    """Names a bundle's contents."""
+    """Return a name for a bundle's contents."""
     digest = hashlib.sha256()
     for name in sorted(files):
         digest.update(f"{name}\0{len(files[name])}\0".encode() + files[name])

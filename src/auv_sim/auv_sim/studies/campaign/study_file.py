@@ -1,4 +1,4 @@
-"""The study file: which flights, what is varied, and what counts as a success."""
+"""The study file: its flights, what is varied, and what counts as a success."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a study can vary: the start, the water, the hull, every gain, every flaw of the sea, by dotted names.
+"""What a study can vary, by dotted names: start, water, hull, every gain, every flaw of the sea.
 
 initial.along                           place on the path, 0 (start) to 1 (end); the others are relative to it
 initial.distance, initial.bearing_deg   how far from that place, and where; clockwise from the path's course
@@ -34,7 +34,7 @@ WORDS = ("mission", "vehicle", "params")
 
 
 def group_of(name: str, where: str) -> tuple[str, str]:
-    """`autopilot.nism.k1` -> ``("autopilot", "nism.k1")``.
+    """Split a name: `autopilot.nism.k1` -> ``("autopilot", "nism.k1")``.
 
     Raises:
         ConfigurationError: nothing of this name can be varied.
@@ -49,11 +49,10 @@ def group_of(name: str, where: str) -> tuple[str, str]:
 
 
 def start(path: CompositePath, given: Mapping[str, float]) -> PlantState:
-    """The plant's first state.
+    """Return the plant's first state.
 
     Args:
-        path: at one of whose points, the first if nothing else is given, everything is relative to it and its
-            course.
+        path: everything is relative to one of its points, by default the first, and to the course there.
         given: values by the names of `START`.
     """
     place = _point_along(path, given.get("along", 0.0))
@@ -84,7 +83,7 @@ def _point_along(path: CompositePath, share: float) -> PathPoint:
 
 
 def current(given: Mapping[str, float]) -> Current:
-    """The constant current from values by the names of `CURRENT`."""
+    """Return the constant current from values by the names of `CURRENT`."""
     speed, course = given.get("speed", 0.0), math.radians(given.get("course_deg", 0.0))
     return Current(
         given.get("north", 0.0) + speed * math.cos(course), given.get("east", 0.0) + speed * math.sin(course)

@@ -1,4 +1,4 @@
-"""Names the version of the code that a campaign is flown with: runs of two versions are not put together."""
+"""Identifies the code that a campaign is flown with: runs of two versions are not combined."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import auv_path_following
 import auv_sim
 from auv_sim.flight.batch.compiled import digest_of, files_of
 
-#: All that a run passes through, from the study's file to its row: more than what is compiled.
+#: All code that a run passes through, from the study's file to its row: more than what is compiled.
 _FLOWN_BY = (
     *((auv_msgs_py, f"{room}/*.py") for room in ("values", "settings", "contract")),
     (auv_path_following, "*.py"),
@@ -22,17 +22,17 @@ _FLOWN_BY = (
     (auv_sim, "studies/settings_changes.py"),
     *(
         (auv_sim, f"studies/campaign/{name}.py")
-        for name in ("distributions", "campaign_plan", "study_file", "run_table", "targets")
+        for name in ("distributions", "campaign_plan", "study_file", "study_files", "run_table", "targets")
     ),
 )
 
 
 def files() -> list[Path]:
-    """The files of that code, in order."""
+    """Return the files of that code, in order."""
     return files_of(_FLOWN_BY)
 
 
 @functools.cache
 def code_digest() -> str:
-    """Another one for every other version of these files."""
+    """Return a digest of these files."""
     return digest_of(files())

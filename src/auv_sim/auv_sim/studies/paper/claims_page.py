@@ -1,4 +1,4 @@
-"""One HTML page that needs nothing beside it: claims, numbers, verdicts, figures."""
+"""Writes one self-contained HTML page: claims, numbers, verdicts, figures."""
 
 from __future__ import annotations
 
@@ -42,11 +42,11 @@ def write(
     """Write the page.
 
     Args:
-        file: where.
+        file: the page.
         claims: in the order in which they are shown.
         stems: figure number -> its files without suffix.
-        corner: the best that the rudder can do at the corner, by kind.
-        facts: one line on how it was made.
+        corner: smallest deviation found at the corner, by kind of search.
+        facts: one line on the flights.
     """
     parts = [
         "<!doctype html><html lang='en'><meta charset='utf-8'>",
@@ -118,5 +118,5 @@ def _corner(corner: Mapping[str, Bound]) -> str:
     return (
         "<p>The smallest deviation at this corner that a search over rudder programmes found, for "
         "this hull and "
-        f"a rudder of 35° and 15°/s that knows the corner beforehand:</p><table>{rows}</table>"
+        f"a rudder of 35° and 15°/s, with the corner given beforehand:</p><table>{rows}</table>"
     )

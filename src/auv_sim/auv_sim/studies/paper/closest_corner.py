@@ -1,4 +1,4 @@
-"""How near to a corner can this hull with this rudder stay at all? A search over rudder programmes."""
+"""Searches rudder programmes for the smallest deviation at a corner that hull and rudder allow."""
 
 from __future__ import annotations
 
@@ -21,17 +21,21 @@ _POPULATION, _ELITE = 40, 8
 
 @dataclass(frozen=True)
 class Bound:
-    """The best programme found: largest distance to the two legs (m), and where the rudder first "
-    "moved (m before the corner)."""
+    """The best programme found.
+
+    Attributes:
+        deviation: largest distance to the two legs, m.
+        lead: where the rudder first moved, m before the corner.
+    """
 
     deviation: float
     lead: float
 
 
 def best(vehicle: Vehicle, angle: float, thrust: float, *, early: bool, effort: int = 1600) -> Bound:
-    """Smallest largest distance found at a corner, with the rudder's rate and angle as its only limits.
+    """Search for the smallest deviation at a corner, with the rudder's rate and angle as its only limits.
 
-    The programme knows the hull and the corner beforehand, which no feedback law does; afterwards the vehicle
+    The programme is made for this hull and corner, which no feedback law is; afterwards the vehicle
     is on the second leg, with its course, turning no more. It is the best of a direct search, so the true
     bound may be a little lower still.
 
@@ -60,7 +64,7 @@ def best(vehicle: Vehicle, angle: float, thrust: float, *, early: bool, effort: 
 
 
 def _cost(vehicle: Vehicle, angle: float, thrust: float, speed: float, program: NDArray[np.float64]) -> float:
-    """Largest distance to the legs, plus a metre for each 0.2 rad off the course at the end, beyond 0.1 rad.
+    """Return the largest distance to the legs, plus 1 m for each 0.2 rad off the final course beyond 0.1 rad.
 
     Args:
         vehicle, angle, thrust: as for `best`.

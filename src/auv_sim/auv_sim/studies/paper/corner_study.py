@@ -36,9 +36,9 @@ PAIRS = (
 )
 ANGLES = (30, 45, 60, 90, 120)
 SIDES = (1, -1)
-#: Strength of the currents, m/s, and from how many sides they come.
+#: Strength of the currents, m/s, and number of their directions.
 STRENGTH, DIRECTIONS = 0.4, 8
-#: Length of the leg in, m: the corner comes after the current was found, or within the first minute.
+#: Lengths of the leg in, m: the corner comes after the observer has settled, or within the first minute.
 SETTLED, EARLY = 150.0, 40.0
 _LEG_OUT = 60.0
 _TIME_LIMIT = 200.0
@@ -62,8 +62,8 @@ class CornerFlight:
     leg_in: float
 
     def scenario(self, params: str = "robust") -> Scenario:
-        """Everything that decides its course; the vehicle starts on the leg in, at cruising speed."""
-        told, hull = _parameters(params), _vehicle(self.hull)
+        """Return the scenario; the vehicle starts on the leg in, at cruising speed."""
+        parameters, hull = _parameters(params), _vehicle(self.hull)
         current = NO_CURRENT
         if self.direction is not None:
             flow = math.radians(self.direction)
@@ -73,9 +73,9 @@ class CornerFlight:
             vehicle=hull,
             thrust=hull.thrust_max,
             current=current,
-            guidance=told[topics.GUIDANCE].guidance,
-            observer=told[topics.OBSERVER].observer,
-            autopilot=told[topics.AUTOPILOT].autopilot,
+            guidance=parameters[topics.GUIDANCE].guidance,
+            observer=parameters[topics.OBSERVER].observer,
+            autopilot=parameters[topics.AUTOPILOT].autopilot,
             controller_vehicle=_vehicle(self.model),
             time_limit=_TIME_LIMIT,
         )
@@ -124,7 +124,7 @@ def corners(pairs: Sequence[tuple[str, str]] = PAIRS, angles: Sequence[int] = AN
 def fly(
     flown: Sequence[CornerFlight], workers: int, done: Callable[[], None] = lambda: None
 ) -> list[CornerResult]:
-    """Fly them with the batch engine; results in their order.
+    """Fly with the batch engine; return the results in the same order.
 
     Args:
         flown: what to fly.

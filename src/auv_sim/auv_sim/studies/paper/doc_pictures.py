@@ -1,7 +1,8 @@
-"""The pictures of docs/reproduction.md and docs/tuning.md, from the same flights that a reader can fly."""
+"""Draws the pictures of docs/reproduction.md and docs/tuning.md from flights that a reader can repeat."""
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -20,13 +21,13 @@ from auv_sim.studies.paper.paper_flights import PaperFlight, fly
 from auv_sim.studies.paper.variants import PLANT_NAMES, PLANTS
 from auv_sim.views.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, RED, save, style
 
-#: Runs `work` on each item and shows how far it is: (what, work, items) -> results.
+#: Runs `work` on each item and shows the progress: (what, work, items) -> results.
 Runner = Callable[[str, Callable[[Any], Any], Sequence[Any]], list[Any]]
 
 #: The map of starts: offsets to starboard (m) and heading errors (deg).
 OFFSETS = (-20.0, -10.0, -5.0, 0.0, 5.0, 10.0, 20.0)
 HEADINGS = (-180.0, -135.0, -90.0, -45.0, 0.0, 45.0, 90.0, 135.0)
-#: After this time the map looks at the heading error, s.
+#: Duration of the map's flights, s; the last 15 s count.
 _LOOK = 90.0
 _DPI = 80
 
@@ -69,7 +70,7 @@ def draw_all(folder: Path, run: Runner) -> None:
     """Draw everything into `folder`.
 
     Args:
-        folder: exists.
+        folder: of the pictures; it exists.
         run: flies a list of flights.
     """
     _map(folder / "limit_cycle_map.png", run)
@@ -78,44 +79,28 @@ def draw_all(folder: Path, run: Runner) -> None:
 
 
 def _settles(flight: PaperFlight) -> float:
-    """Largest heading error (deg) in the last 15 s."""
+    """Fly, and return the largest heading error (deg) in the last 15 s."""
     flown = fly(flight)
     late = flown.t - flown.t[0] > flight.time_limit - 15.0
     return float(np.degrees(np.abs(flown.psi_e[late])).max())
 
 
+#: Gains that the map compares: heading -> what differs from a plain flight.
+_MAPPED: dict[str, dict[str, Any]] = {"Table 4": {"params": "paper"}, "robust.yaml": {"params": "robust"}}
+
+
 def _map(file: Path, run: Runner) -> None:
-    """Which starts end in the limit cycle."""
-    laws: dict[str, dict[str, Any]] = {"Table 4": {"params": "paper"}, "robust.yaml": {"params": "robust"}}
-    _, _, course = beside(0.0)
-    flights, places = [], []
-    for row, law in enumerate(laws):
-        for column, plant in enumerate(PLANT_NAMES):
-            for i, heading in enumerate(HEADINGS):
-                for j, offset in enumerate(OFFSETS):
-                    x, y, _ = beside(offset)
-                    start = (x, y, course + math.radians(heading))
-                    flights.append(
-                        PaperFlight(name="map", plant=plant, start=start, time_limit=_LOOK, **laws[law])
-                    )
-                    places.append((row, column, i, j))
-    cycle = np.zeros((len(laws), len(PLANT_NAMES), len(HEADINGS), len(OFFSETS)))
-    for place, error in zip(places, run("mapping the starts", _settles, flights), strict=True):
-        cycle[place] = error > 5.0
+    """Draw which starts end in the limit cycle."""
+    cycle = _cycles(run)
     figure = _figure((11.0, 6.2))
-    panels = figure.subplots(len(laws), len(PLANT_NAMES), squeeze=False)
-    for row, law in enumerate(laws):
+    panels = figure.subplots(len(_MAPPED), len(PLANT_NAMES), squeeze=False)
+    for row, law in enumerate(_MAPPED):
         for column, plant in enumerate(PLANT_NAMES):
             axes = panels[row][column]
-            # The first half minute decides; the fields are as wide as the starts are apart.
             axes.imshow(
-                cycle[row, column],
-                cmap=ListedColormap(["#d9f2e5", RED]),
-                vmin=0,
-                vmax=1,
-                aspect="auto",
+                cycle[row, column], cmap=ListedColormap(["#d9f2e5", RED]), vmin=0, vmax=1, aspect="auto",
                 origin="lower",
-            )
+            )  # fmt: skip
             axes.set_xticks(range(len(OFFSETS)), [f"{o:g}" for o in OFFSETS])
             axes.set_yticks(range(len(HEADINGS)), [f"{h:g}" for h in HEADINGS])
             axes.set_title(f"{law}, {PLANTS[plant].label}", fontsize=10, color=INK)
@@ -127,8 +112,27 @@ def _map(file: Path, run: Runner) -> None:
     save(figure, file, dpi=_DPI)
 
 
+def _cycles(run: Runner) -> np.ndarray:
+    """Fly every start; return whether it cycles, shape (gains, plants, headings, offsets)."""
+    _, _, course = beside(0.0)
+    shape = (len(_MAPPED), len(PLANT_NAMES), len(HEADINGS), len(OFFSETS))
+    places = list(itertools.product(*map(range, shape)))
+    laws = list(_MAPPED.values())
+    flights = []
+    for law, plant, heading, offset in places:
+        x, y, _ = beside(OFFSETS[offset])
+        start = (x, y, course + math.radians(HEADINGS[heading]))
+        flights.append(
+            PaperFlight(name="map", plant=PLANT_NAMES[plant], start=start, time_limit=_LOOK, **laws[law])
+        )
+    cycle = np.zeros(shape)
+    for place, error in zip(places, run("mapping the starts", _settles, flights), strict=True):
+        cycle[place] = error > 5.0
+    return cycle
+
+
 def _phase(file: Path) -> None:
-    """Phase of the heading loop at its limit cycle, with and without the rate limit."""
+    """Draw the heading loop's gain and phase at its limit cycle, and the lag of the rate limit."""
     figure = _figure((9.0, 5.4))
     gain, phase = figure.subplots(2, 1, sharex=True)
     w = np.geomspace(0.2, 6.0, 300)
@@ -151,7 +155,7 @@ def _phase(file: Path) -> None:
 
 
 def _gains(folder: Path, run: Runner) -> None:
-    """Each gain too low, right and too high."""
+    """Draw each gain too low, right and too high."""
     start = beside(8.0)
     flights = []
     for gain in GAINS:

@@ -1,79 +1,25 @@
-"""Figures 5 to 12, each as a picture and as the numbers behind it."""
+"""Draws Figures 5 to 12, each as a picture and as the numbers behind it."""
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 
-from auv_msgs_py.settings.result_files import replacing
 from auv_path_following.curves.composite import CompositePath
 from auv_sim.flight.run_record import Column, Run
 from auv_sim.studies.paper.cases import LAW_LABELS
 from auv_sim.studies.paper.claims import measures as m
+from auv_sim.studies.paper.figure_sheet import FigureSheet
 from auv_sim.studies.paper.variants import PLANT_NAMES, PLANTS
-from auv_sim.views.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, PATH, RED, save, style
+from auv_sim.views.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, PATH, RED, style
 
 Runs = Mapping[str, Run]
-Columns = dict[str, Column]
 
 COLORS = {"nism": BLUE, "pid": ORANGE, "smc": RED, "robust": GREEN}
-#: A longer signal is thinned out in the table, not in the picture.
-_CSV_ROWS = 4000
 _THREE = ("nism", "pid", "smc")
-
-
-class FigureSheet:
-    """One figure with its numbers.
-
-    Args:
-        rows, columns: of panels.
-        size: inches.
-        share: whether panels share their horizontal axes.
-    """
-
-    def __init__(self, rows: int, columns: int, size: tuple[float, float], share: bool = True) -> None:
-        self.figure = Figure(figsize=size, dpi=110, facecolor="white", layout="constrained")
-        FigureCanvasAgg(self.figure)
-        self.panels: list[list[Axes]] = self.figure.subplots(
-            rows, columns, squeeze=False, sharex=share
-        ).tolist()
-        self.numbers: Columns = {}
-
-    def line(
-        self, axes: Axes, x: Column, y: Column, color: str, label: str, name: str, width: float = 1.3
-    ) -> None:
-        """Draw y over x and keep both under `name`."""
-        axes.plot(x, y, color=color, label=label, linewidth=width)
-        for axis, values in (("x", x), ("y", y)):
-            self.numbers[f"{name} {axis}"] = values
-
-    def save(self, stem: Path) -> None:
-        """Write `stem`.png, .svg and .csv; columns of different lengths end with empty cells."""
-        for row in self.panels:
-            for axes in row:
-                if axes.get_legend_handles_labels()[0] and not axes.get_legend():
-                    axes.legend(fontsize=8, framealpha=0.85, edgecolor="none", loc="upper right")
-        save(self.figure, stem.with_suffix(".png"))
-        # Without the date the file is the same each time.
-        save(self.figure, stem.with_suffix(".svg"), metadata={"Date": None})
-        with (
-            replacing(stem.with_suffix(".csv")) as draft,
-            draft.open("w", newline="", encoding="utf-8") as stream,
-        ):
-            writer = csv.writer(stream)
-            writer.writerow(self.numbers)
-            longest = max(len(column) for column in self.numbers.values())
-            for k in range(0, longest, 1 + longest // _CSV_ROWS):
-                cells = [
-                    f"{c[k]:.6g}" if k < len(c) and np.isfinite(c[k]) else "" for c in self.numbers.values()
-                ]
-                writer.writerow(cells)
 
 
 def _time(run: Run) -> Column:
@@ -93,7 +39,7 @@ def _track(
 
 
 def figure_5(runs: Runs, path: CompositePath) -> FigureSheet:
-    """Tracks of case 1."""
+    """Draw tracks of case 1."""
     sheet = FigureSheet(1, 3, (14.0, 4.2), share=False)
     for axes, plant in zip(sheet.panels[0], PLANT_NAMES, strict=True):
         tracks = {f"{LAW_LABELS[k]}": (runs[f"1-{k}-{plant}"], COLORS[k]) for k in _THREE}
@@ -106,7 +52,7 @@ def figure_5(runs: Runs, path: CompositePath) -> FigureSheet:
 
 
 def figure_6(runs: Runs, path: CompositePath) -> FigureSheet:
-    """Errors of case 1, three plants beside each other."""
+    """Draw errors of case 1, three plants beside each other."""
     sheet = FigureSheet(3, 3, (14.0, 7.5), share=False)
     for column, plant in enumerate(PLANT_NAMES):
         start, heading, cross = (sheet.panels[row][column] for row in range(3))
@@ -132,7 +78,7 @@ def figure_6(runs: Runs, path: CompositePath) -> FigureSheet:
 
 
 def figure_7(runs: Runs, path: CompositePath) -> FigureSheet:
-    """Heading error with Nuud changed in the plant."""
+    """Draw heading error with Nuud changed in the plant."""
     sheet = FigureSheet(2, 1, (10.0, 5.6))
     for axes, plant in zip((row[0] for row in sheet.panels), ("prestero", "mismatch"), strict=True):
         style(axes, "ψe (°)")
@@ -149,7 +95,7 @@ def figure_7(runs: Runs, path: CompositePath) -> FigureSheet:
 
 
 def figure_8(runs: Runs, path: CompositePath) -> FigureSheet:
-    """Rudder and its rate, case 1."""
+    """Draw rudder and its rate, case 1."""
     sheet = FigureSheet(2, 3, (14.0, 5.8))
     for column, law in enumerate(_THREE):
         angle, speed = sheet.panels[0][column], sheet.panels[1][column]
@@ -168,7 +114,7 @@ def figure_8(runs: Runs, path: CompositePath) -> FigureSheet:
 
 
 def figure_9(runs: Runs, path: CompositePath) -> FigureSheet:
-    """Tracks of case 2 at the corner."""
+    """Draw tracks of case 2 at the corner."""
     sheet = FigureSheet(1, 3, (14.0, 4.1), share=False)
     corner = path.joints[0]
     for axes, plant in zip(sheet.panels[0], PLANT_NAMES, strict=True):
@@ -191,7 +137,7 @@ def figure_9(runs: Runs, path: CompositePath) -> FigureSheet:
 
 
 def figure_10(runs: Runs, path: CompositePath) -> FigureSheet:
-    """Distance to the path around the corner, case 2."""
+    """Draw distance to the path around the corner, case 2."""
     sheet = FigureSheet(1, 3, (14.0, 4.0), share=False)
     for axes, plant in zip(sheet.panels[0], PLANT_NAMES, strict=True):
         style(axes, "distance to the path (m)")
@@ -211,7 +157,7 @@ def figure_10(runs: Runs, path: CompositePath) -> FigureSheet:
 
 
 def figure_11(runs: Runs, path: CompositePath) -> FigureSheet:
-    """Errors of case 3 with and without the observer."""
+    """Draw errors of case 3 with and without the observer."""
     sheet = FigureSheet(2, 1, (10.0, 5.8))
     for name, label, color in (
         ("3-without", "without the observer", RED),
@@ -231,7 +177,7 @@ def figure_11(runs: Runs, path: CompositePath) -> FigureSheet:
 
 
 def figure_12(runs: Runs, path: CompositePath) -> FigureSheet:
-    """The estimated current."""
+    """Draw the estimated current."""
     sheet = FigureSheet(1, 2, (12.0, 4.0), share=False)
     run = runs["3-with"]
     for axes, span, title in (
@@ -267,7 +213,7 @@ FIGURES: dict[int, tuple[str, Callable[[Runs, CompositePath], FigureSheet]]] = {
 
 
 def draw(number: int, runs: Runs, path: CompositePath, folder: Path) -> Path:
-    """Draw one figure; returns the stem of its three files."""
+    """Draw one figure; return the stem of its three files."""
     stem = folder / f"figure-{number:02d}"
     FIGURES[number][1](runs, path).save(stem)
     return stem

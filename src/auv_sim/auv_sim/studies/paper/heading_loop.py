@@ -1,4 +1,4 @@
-"""Why the heading loop can cycle: the linear hull behind the describing function of a rate limit."""
+"""The heading loop's limit cycle: the linear hull behind the describing function of a rate limit."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Array = npt.NDArray[np.float64]
 
 
 def linear_hull(vehicle: Vehicle) -> tuple[Array, Array]:
-    """A (2, 2) and b (2,) of (vr, r)' = A (vr, r) + b delta, straight ahead at cruising speed.
+    """Return A (2, 2) and b (2,) of (vr, r)' = A (vr, r) + b delta, straight ahead at cruising speed.
 
     Central differences over 0.02 m/s and 0.02 rad/s, so the quadratic drags count with a small value.
     """
@@ -34,16 +34,16 @@ def linear_hull(vehicle: Vehicle) -> tuple[Array, Array]:
 
 
 def open_loop(vehicle: Vehicle, w: Array) -> npt.NDArray[Any]:
-    """Response from -delta to r at the angular frequencies w (rad/s), shape as w."""
+    """Return the response from -delta to r at the angular frequencies w (rad/s), shape as w."""
     A, b = linear_hull(vehicle)
     return np.array([-np.linalg.solve(1j * x * np.eye(2) - A, b)[1] for x in w])
 
 
 def phase_lag(w: Array, amplitude: float, rate: float) -> Array:
-    """Lag (rad) of a rudder that is asked for amplitude sin(w t) but moves at `rate` at most.
+    """Return the lag (rad) of a rudder commanded to amplitude sin(w t) that moves at `rate` at most.
 
-    Deep in the limit the rudder moves in a triangle of height pi rate / (2 w), and turns where it meets what
-    is asked for: it lags by acos(pi rate / (2 w amplitude)). Below the limit it does not lag.
+    Deep in the limit the rudder moves in a triangle of height pi rate / (2 w), and turns where it meets the
+    command: it lags by acos(pi rate / (2 w amplitude)). Below the limit it does not lag.
     """
     share = np.minimum(math.pi * rate / (2.0 * w * amplitude), 1.0)
     return np.asarray(np.arccos(share))

@@ -1,4 +1,4 @@
-"""What is flown for the paper: each flight by name, and a pool that flies them."""
+"""One flight of the paper's path: what differs from the files, and its scenario."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class PaperFlight:
     """One flight of the paper's path.
 
     Attributes:
-        name: what files and claims call it.
+        name: in files and claims.
         plant: of `PLANTS`.
         params: parameter file.
         controller: heading controller, None for the parameter file's.
@@ -40,7 +40,8 @@ class PaperFlight:
         compensated: whether guidance uses the observer's estimate.
         start: x, y (m), heading (rad); the path's start if None.
         changes: further parameters, node -> dotted name -> value.
-        time_limit: s.
+        time_limit: the flight ends here at the latest, s.
+        step: time between two odometries, s.
     """
 
     name: str
@@ -57,7 +58,7 @@ class PaperFlight:
     step: float = 0.05
 
     def scenario(self) -> Scenario:
-        """All that `closed_loop.fly` needs.
+        """Return the scenario for `closed_loop.fly`.
 
         Raises:
             ConfigurationError: a file or a value that cannot be used.
@@ -109,5 +110,5 @@ def _vehicle(name: str) -> Vehicle:
 
 
 def fly(flight: PaperFlight) -> Run:
-    """Fly it here and now."""
+    """Fly in this process."""
     return closed_loop.fly(flight.scenario())

@@ -1,4 +1,4 @@
-"""Does it converge from anywhere? Random starts in random currents, the same ones for every law and plant."""
+"""Convergence from random starts in random currents, the same for every law and plant."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from auv_sim.studies.paper.variants import PLANTS, START_LAWS
 #: Starts lie within this distance of the path's start, m; currents are up to this strong, m/s.
 LARGEST_OFFSET = 30.0
 STRONGEST_CURRENT = 0.4
-#: Subpaths from this one on (counted from 0) count for the rms: what follows the corner.
+#: First subpath (counted from 0) that counts for the rms: the first after the corner's legs.
 FIRST_SUBPATH = 2
 
 
 @dataclass(frozen=True)
 class StartResult:
-    """One start. Distances in m, the rate in rad/s; NaN where the flight never came so far.
+    """One start. Distances in m, the rate in rad/s; NaN where the flight never got there.
 
     `distance_after_settling` counts from where the path is joined, see `auv_sim.flight.batch.tally.ARRIVED`.
     """
@@ -65,9 +65,9 @@ class StartJob:
 
 
 def starts(runs: int, seed: int) -> list[tuple[tuple[float, float, float], tuple[float, float]]]:
-    """Starts (x, y in m, heading in rad) and currents (north, east in m/s), uniform over disc and circle.
+    """Return starts (x, y in m, heading in rad) and currents (north, east in m/s), uniform over discs.
 
-    A start depends on the seed and its own number only, so the first hundred of a thousand are a hundred.
+    A start depends only on the seed and its own number, so the first hundred of a thousand are a hundred.
     """
     x0, y0, _ = mission_file.load(MISSION).path.start_pose
     found = []
@@ -81,7 +81,7 @@ def starts(runs: int, seed: int) -> list[tuple[tuple[float, float, float], tuple
 
 
 def jobs(runs: int, seed: int, laws: Sequence[str], plants: Sequence[str]) -> list[StartJob]:
-    """Every flight of the study, run by run, so that a part of it is a smaller study."""
+    """Return every flight of the study, run by run, so that a part of it is a smaller study."""
     return [
         StartJob(
             law,
@@ -99,7 +99,7 @@ def jobs(runs: int, seed: int, laws: Sequence[str], plants: Sequence[str]) -> li
 def study(
     work: Sequence[StartJob], workers: int, done: Callable[[], None] = lambda: None
 ) -> list[StartResult]:
-    """Fly all jobs by the batch engine; results in their order.
+    """Fly all jobs with the batch engine; return the results in their order.
 
     Args:
         work: what to fly.
@@ -128,12 +128,12 @@ def study(
 
 
 def table(results: Sequence[StartResult]) -> list[StartRow]:
-    """One row for each law and plant, in order of appearance."""
+    """Return a row for each law and plant, in order of appearance."""
     rows = []
     for law, plant in dict.fromkeys((r.law, r.plant) for r in results):
         mine = [r for r in results if (r.law, r.plant) == (law, plant)]
         distance = np.array([r.distance_after_settling for r in mine])
-        # A flight that never came past the corner has no rms: it counts as the worst there is.
+        # A flight that never passed the corner has no rms: it counts as infinite.
         rms = np.array([r.rms_after_corner if r.finished else math.inf for r in mine])
         rows.append(
             StartRow(
@@ -152,7 +152,7 @@ def table(results: Sequence[StartResult]) -> list[StartRow]:
 
 
 def write(results: Sequence[StartResult], file: Path) -> None:
-    """Every start as a line of CSV."""
+    """Write every start as a line of CSV."""
     with replacing(file) as draft, draft.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream)
         writer.writerow(field.name for field in fields(StartResult))

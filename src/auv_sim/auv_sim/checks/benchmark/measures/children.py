@@ -29,16 +29,16 @@ class MeasuredProcesses(Children):
 
     def __init__(self, directory: Path, stop: StopRequest) -> None:
         environment = {"ROS_DOMAIN_ID": str(free_domain()), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
-        os.environ.update(environment)  # for who looks at them from this process
+        os.environ.update(environment)  # for nodes of this process that observe them
         super().__init__(directory / "log", environment)
         self._stop = stop
 
     def usage(self) -> dict[str, Usage]:
-        """What each has used so far."""
+        """Return what each has used so far."""
         return {name: usage(pid) for name, pid in self.ids.items()}
 
     def until(self, condition: Callable[[], bool], look: Callable[[], None], patience: float) -> None:
-        """Look again and again until the condition holds.
+        """Look repeatedly until the condition holds.
 
         Raises:
             BenchmarkFailed: a process has ended, or patience (s) has.
@@ -50,7 +50,7 @@ class MeasuredProcesses(Children):
             if dead is not None:
                 raise BenchmarkFailed(f"{dead.name} ended early: {' '.join(dead.last_lines(3))}")
             if time.monotonic() > deadline:
-                raise BenchmarkFailed(f"nothing came of it within {patience:g} s")
+                raise BenchmarkFailed(f"no result within {patience:g} s")
             look()
             if self._stop.requested:
                 raise KeyboardInterrupt
@@ -58,7 +58,7 @@ class MeasuredProcesses(Children):
 
 @contextmanager
 def interruptible() -> Iterator[StopRequest]:
-    """Inside, a signal only sets a flag, so that no process is started without being known."""
+    """Let signals only set a flag inside, so that no process is started and lost."""
     stop = StopRequest()
     try:
         yield stop
@@ -70,7 +70,7 @@ def interruptible() -> Iterator[StopRequest]:
 
 @contextmanager
 def processes(directory: Path) -> Iterator[MeasuredProcesses]:
-    """Processes that are stopped at the end, whatever happens."""
+    """Yield processes that are stopped at the end, whatever happens."""
     with interruptible() as stop:
         children = MeasuredProcesses(directory, stop)
         try:

@@ -1,8 +1,8 @@
 """The floor under a lockstep step: the suite's processes, topics, QoS and messages, with empty callbacks.
 
-What is left is what ROS 2 itself needs to carry one step's messages around the loop. It is built from the
-table of topics alone and from nothing of the suite's nodes: messages filled beforehand are sent again and
-again, and each node counts: when all that belongs to a step has come, it publishes its own share.
+It measures what ROS 2 itself needs to carry one step's messages around the loop. It is built from the table
+of topics alone, without the suite's nodes: each node sends messages filled beforehand as soon as it has
+counted all inputs of a step.
 
 There are two. The floor carries bytes, as the suite does. The plain floor is what rclpy nodes usually are:
 typed messages, `use_sim_time` with its reader of /clock in every node, a return to Python for every message.
@@ -38,12 +38,12 @@ from auv_sim.checks.benchmark.measures.stopwatch import Stopwatch
 NAMESPACE = "/auv"
 #: Sent once a step, in the order of the table.
 STEP = (topics.CLOCK, *topics.PER_STEP)
-#: How often a recorder fetches what has come without being asked, s.
+#: Period at which a recorder fetches messages without a request, s.
 _POLL = 0.02
 
 
 def filled(topic: Topic) -> Any:
-    """A message of the size that the suite sends: with the names of its frames."""
+    """Return a message of the size that the suite sends: with the names of its frames."""
     message = qos.message_class(topic.type)()
     if hasattr(message, "header"):
         message.header.frame_id = "map"
@@ -153,7 +153,7 @@ class FloorRecorder(Node):  # type: ignore[misc]
         self._counts: dict[str, int] = {}
         self._takes = [self._subscribe(topic) for topic in topics.CONTRACT]
         self._per_step = [topic.name for topic in topics.PER_STEP]
-        self._told = 0
+        self._reported = 0
         self._progress = self.create_publisher(
             UInt64, topics.RECORDED_STEPS.name, qos.offered(topics.RECORDED_STEPS)
         )
@@ -174,8 +174,8 @@ class FloorRecorder(Node):  # type: ignore[misc]
             while take(kind, True) is not None:
                 self._counts[name] += 1
         steps = min(self._counts[name] for name in self._per_step)
-        if steps - self._told >= topics.RECORDING_REPORT:
-            self._told = steps
+        if steps - self._reported >= topics.RECORDING_REPORT:
+            self._reported = steps
             self._progress.publish(UInt64(data=steps))
 
 
@@ -186,7 +186,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("--steps", type=int, required=True)
     parser.add_argument("--recorded", action="store_true")
     parser.add_argument("--plain", action="store_true")
-    wanted = parser.parse_args(argv)
+    options = parser.parse_args(argv)
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     stop = threading.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
@@ -195,13 +195,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     nodes = [
         FloorRecorder()
         if name == topics.RECORDER
-        else FloorNode(name, wanted.steps, wanted.recorded, wanted.plain)
-        for name in wanted.nodes
+        else FloorNode(name, options.steps, options.recorded, options.plain)
+        for name in options.nodes
     ]
     for node in nodes:
         executor.add_node(node)
     while not stop.is_set():
-        if wanted.plain:
+        if options.plain:
             executor.spin_once(timeout_sec=0.1)
         else:
             executor.spin_until_future_complete(Future(), timeout_sec=0.1)

@@ -65,20 +65,20 @@ def latency_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
     for rate in (20, 50, 100):
         tick(f"latency at {rate} Hz")
         seen = free_running(rate, scale.seconds)
-        latencies = np.array(seen.told["latencies"]) * 1e3
+        latencies = np.array(seen.report["latencies"]) * 1e3
         if not len(latencies):
             raise BenchmarkFailed(f"no command came at {rate} Hz")
-        periods = np.diff(seen.told["sent"]) * 1e3
+        periods = np.diff(seen.report["sent"]) * 1e3
         p50, p99, p999 = np.percentile(latencies, (50.0, 99.0, 99.9))
         figures[str(rate)] = {
-            "cycles": len(seen.told["sent"]),
+            "cycles": len(seen.report["sent"]),
             "p50_ms": float(p50),
             "p99_ms": float(p99),
             "p99.9_ms": float(p999),
             "largest_ms": float(latencies.max()),
             "jitter_ms": float(latencies.std()),
             "period_jitter_ms": float(periods.std()),
-            "missed": seen.told["missed"],
+            "missed": seen.report["missed"],
             "cpu_percent": {name: 100.0 * used.cpu / seen.seconds for name, used in seen.usage.items()},
         }
     return figures

@@ -1,4 +1,4 @@
-"""What the recorder costs, by number of topics."""
+"""Measures what the recorder costs, by number of topics."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _BEGUN = 4096
 
 
 def topic_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
-    """Processor time of the recorder, percent of one core, by number of topics at `talker.RATE`."""
+    """Measure the recorder's processor time, percent of one core, by number of topics at `talker.RATE`."""
     found = {}
     for number in scale.topics:
         tick(f"recorder, {number} topics")
@@ -34,8 +34,8 @@ def _cost(number: int, seconds: float) -> float:
     with tempfile.TemporaryDirectory(prefix="auv-benchmark-") as name, processes(Path(name)) as children:
         bag = Path(name) / "bag"
         children.start(talker.NAME, talker.__name__, [str(number)])
-        wanted = {"directory": str(bag), "contract": "false", "regex": "/talk_.*"}
-        words = [word for key, value in wanted.items() for word in ("-p", f"{key}:={value}")]
+        values = {"directory": str(bag), "contract": "false", "regex": "/talk_.*"}
+        words = [word for key, value in values.items() for word in ("-p", f"{key}:={value}")]
         children.start(topics.RECORDER, NODES[topics.RECORDER].split(":")[0], ["--ros-args", *words])
 
         def wait(condition: Callable[[], bool]) -> None:

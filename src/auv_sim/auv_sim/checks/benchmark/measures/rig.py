@@ -1,4 +1,4 @@
-"""Runs the graph, or its floor, as processes of its own, and looks at them from outside."""
+"""Runs the graph, or its floor, as separate processes and observes them from outside."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Setup:
         plain: the floor as rclpy nodes usually are.
         recorded: with a recorder.
         composed: all nodes in one process.
-        placed: processes where the launcher puts them (`mission.placement`).
+        placed: processes where the launcher puts them (`launch.processes.placement`).
         steps: how many to time.
     """
 
@@ -55,16 +55,16 @@ class Setup:
 
 @dataclass(frozen=True)
 class Observed:
-    """What was seen of some processes between the mission's start and the watch's report.
+    """What was observed of some processes between the mission's start and the watch's report.
 
     Attributes:
-        told: what the watch told.
+        report: the watch's figures.
         seconds: of wall time.
         usage: process name -> what it used.
         memory: process name -> what it occupied at the end.
     """
 
-    told: dict[str, Any]
+    report: dict[str, Any]
     seconds: float
     usage: dict[str, Usage]
     memory: dict[str, MemoryUse]
@@ -90,7 +90,7 @@ class LockstepTiming:
 
 
 def lockstep(setup: Setup) -> LockstepTiming:
-    """Run the graph or its floor for so many steps.
+    """Run the graph or its floor for `setup.steps` steps.
 
     Raises:
         BenchmarkFailed: it did not run.
@@ -110,14 +110,18 @@ def lockstep(setup: Setup) -> LockstepTiming:
         return set(names)
 
     seen = observe(start, 1.0, setup.placed and not setup.composed)
-    steps = seen.told["steps"]
+    steps = seen.report["steps"]
     share = {name: Usage(used.cpu / steps, used.switches / steps) for name, used in seen.usage.items()}
-    blocks = tuple((b - a) / BLOCK for a, b in itertools.pairwise(seen.told["readings"]))
+    blocks = tuple((b - a) / BLOCK for a, b in itertools.pairwise(seen.report["readings"]))
     return LockstepTiming(blocks, share, seen.memory)
 
 
 def free_running(rate: float, seconds: float) -> Observed:
-    """Fly against the wall clock with so many odometries a second.
+    """Fly against the wall clock.
+
+    Args:
+        rate: odometries a second.
+        seconds: how long.
 
     Raises:
         BenchmarkFailed: it did not run.
@@ -134,7 +138,7 @@ def free_running(rate: float, seconds: float) -> Observed:
 
 
 def without_recorder(resolved: Plan) -> Plan:
-    """The same mission, not recorded."""
+    """Return the same mission without a recorder."""
     parameters = {
         name: dataclasses.replace(settings, recorded=False)
         for name, settings in resolved.parameters.items()

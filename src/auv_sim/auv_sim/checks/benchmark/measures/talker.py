@@ -1,4 +1,4 @@
-"""So many topics, each with a Float64 fifty times a second, for a recorder to record."""
+"""Publishes a Float64 fifty times a second on each of many topics, for a recorder to record."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class TalkerNode(SuiteNode):
 
 
 def main(argv: Sequence[str]) -> int:
-    """The one argument is the number of topics."""
+    """Run; the first argument is the number of topics, the rest goes to ROS."""
     TalkerNode.number = int(argv[0])
     return run_nodes([TalkerNode], list(argv[1:]))
 

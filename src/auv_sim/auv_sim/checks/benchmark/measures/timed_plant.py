@@ -1,4 +1,4 @@
-"""The simulator under measurement: remus_plant itself, with a watch in its hand."""
+"""The simulator under measurement: remus_plant itself with a stopwatch."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class TimedPlantNode(RemusPlantNode):
 
 
 class LatencyPlantNode(RemusPlantNode):
-    """Free running: tells how long commands take."""
+    """Free running: measures how long commands take."""
 
     watch = LatencyWatch(0)
 
@@ -39,7 +39,7 @@ class LatencyPlantNode(RemusPlantNode):
 
 
 def main(argv: Sequence[str]) -> int:
-    """`lockstep` or `latency`, how many steps, then the arguments of remus_plant or `mission.composed`."""
+    """Run; the arguments: `lockstep` or `latency`, steps, then those of remus_plant or `launch.composed`."""
     kind, steps, *rest = argv
     if kind == "latency":
         LatencyPlantNode.watch = LatencyWatch(int(steps))

@@ -1,4 +1,4 @@
-"""What processes use, from /proc: processor time, switches, memory."""
+"""Reads what processes use from /proc: processor time, context switches, memory."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from typing import NamedTuple
 
 
 class Usage(NamedTuple):
-    """All threads of a process: seconds of processor time, and how often one gave the processor away."""
+    """All threads of a process: processor time, s, and voluntary context switches."""
 
     cpu: float
     switches: int
 
 
 def usage(pid: int) -> Usage:
-    """What a process has used so far; the kernel counts in nanoseconds."""
+    """Return what a process has used so far; the kernel counts in nanoseconds."""
     cpu, switches = 0, 0
     for task in Path(f"/proc/{pid}/task").iterdir():
         with contextlib.suppress(FileNotFoundError, ProcessLookupError):  # the thread has ended meanwhile
@@ -34,7 +34,7 @@ class MemoryUse(NamedTuple):
 
 
 def memory(pid: int) -> MemoryUse:
-    """What a process occupies now."""
+    """Return the memory that a process occupies now."""
     found = {}
     for line in Path(f"/proc/{pid}/smaps_rollup").read_text().splitlines():
         key, *rest = line.split()

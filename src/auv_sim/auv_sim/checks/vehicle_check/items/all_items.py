@@ -1,4 +1,4 @@
-"""All checks, in the order in which a person reads them."""
+"""All checks, in the order of the report."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ def check(recording: Recording, vehicle: Vehicle) -> list[Verdict]:
     """Judge a recording.
 
     Args:
-        recording: what was heard.
-        vehicle: what the vehicle is said to be, for rudder and thrust.
+        recording: the samples.
+        vehicle: the vehicle's file, for rudder and thrust.
     """
     motion = motion_of(recording.odom)
     graph, kinematics = check_graph(recording), check_kinematics(recording, motion)
@@ -43,6 +43,6 @@ def check(recording: Recording, vehicle: Vehicle) -> list[Verdict]:
 
 
 def mistakes(verdicts: list[Verdict]) -> set[Mistake]:
-    """The causes of what does not pass; empty: fit for a mission."""
+    """Return the causes of what does not pass; none: fit for a mission."""
     levels = (Level.FAIL, Level.UNKNOWN)
     return {v.mistake for v in verdicts if v.level in levels and v.mistake is not None}

@@ -1,4 +1,4 @@
-"""Topics there, types, QoS: what discovery shows before a message has come."""
+"""Checks what discovery shows before a message has come: topics, types, QoS."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _TO_VEHICLE = (topics.RUDDER_CMD, topics.THRUST_CMD)
 
 
 def check_graph(recording: Recording) -> list[Verdict]:
-    """One verdict for each topic of the vehicle's side of the contract."""
+    """Return a verdict for each topic of the vehicle's side of the contract."""
     verdicts = [_published(topic, recording) for topic in _FROM_VEHICLE]
     verdicts.append(_published(topics.RUDDER_STATE, recording, optional=True))
     return verdicts + [_heard(topic, recording) for topic in _TO_VEHICLE]
@@ -36,7 +36,7 @@ def _published(topic: Topic, recording: Recording, optional: bool = False) -> Ve
 
 
 def _heard(topic: Topic, recording: Recording) -> Verdict:
-    """The autopilot offers reliable and volatile: a subscription that demands more gets no message."""
+    """Judge a subscription: the autopilot offers reliable and volatile; one that requests more is deaf."""
     item = f"{topic.name}: listener"
     there = [e for e in recording.endpoints if e.topic == topic.name and not e.publishes]
     wrong = [e for e in there if e.type != topic.type]

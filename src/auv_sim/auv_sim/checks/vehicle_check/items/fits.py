@@ -1,4 +1,4 @@
-"""How a measured signal follows a model of the rudder: its factor, rate limit and dead time."""
+"""Fits a measured signal to a model of the rudder: factor, rate limit and dead time."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ class Fit(NamedTuple):
         gain: its factor.
         rate: share of the file's rudder rate.
         delay: dead time, s.
-        unexplained: the part of the signal that stays so, 0 to 1.
-        scale: of the command on its way to the rudder: 1, or what taking degrees for radians makes of it.
+        unexplained: share of the signal's power that the fit leaves, 0 to 1.
+        scale: factor of the command before the rudder: 1, or that of degrees taken for radians.
     """
 
     gain: float
@@ -38,7 +38,7 @@ class Fit(NamedTuple):
 
 
 class Way(NamedTuple):
-    """What may become of a command: its scale, and the share of the file's rudder rate."""
+    """A hypothesis on a command: its scale, and the share of the file's rudder rate."""
 
     scale: float
     rate: float
@@ -48,7 +48,7 @@ WAYS = (*(Way(1.0, rate) for rate in _RATES), Way(1.0 / DEGREES, 1.0), Way(DEGRE
 
 
 def servo(rudder: Array, vehicle: Vehicle, rate: float) -> Array:
-    """The angle of a rudder that follows commands with a share of the file's rate, rad; shape of `rudder`."""
+    """Return the angle of a rudder that moves with a share of the file's rate, rad; shape of `rudder`."""
     config = Servo(vehicle.rudder.max_angle, rate * vehicle.rudder.max_rate)
     state = ServoState()
     angles = np.empty_like(rudder)
@@ -59,7 +59,7 @@ def servo(rudder: Array, vehicle: Vehicle, rate: float) -> Array:
 
 
 def best(t: Array, models: dict[Way, Array], times: Array, values: Array) -> Fit:
-    """The rate, the dead time and the factor that explain a signal best."""
+    """Return the rate, dead time and factor that explain a signal best."""
     power = float(values @ values) or 1e-12
     best = Fit(0.0, 1.0, 0.0, 1.0)
     for way, model in models.items():

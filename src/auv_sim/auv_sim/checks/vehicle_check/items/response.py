@@ -23,9 +23,9 @@ from auv_sim.vehicle.actuator import with_rate
 from auv_sim.vehicle.remus import PlantState
 from auv_sim.vehicle.simulated import SimulatedVehicle
 
-#: The rudder must have been asked to move by so much, rad rms.
+#: Least commanded rudder, rad rms.
 _LEAST_RUDDER = math.radians(2.0)
-#: Dead time from where on the rudder begins to swing (docs/driver.md), and where the test fails, s.
+#: Dead time above which the rudder begins to swing (docs/driver.md), and above which the test fails, s.
 GOOD_DELAY, WORST_DELAY = 0.15, 0.4
 
 #: What is judged here.
@@ -34,7 +34,7 @@ _NEEDED = "rudder commands of some degrees while the vehicle moves: --wiggle, or
 
 
 def check_response(recording: Recording, motion: Motion, vehicle: Vehicle) -> list[Verdict]:
-    """Rudder and thrust against what was commanded."""
+    """Judge the responses of rudder and thrust to the commands."""
     items = ITEMS
     t, rudder, thrust = _commands(recording)
     if not motion.enough or t.size == 0 or float(np.sqrt(np.mean(rudder**2))) < _LEAST_RUDDER:
@@ -48,7 +48,7 @@ def check_response(recording: Recording, motion: Motion, vehicle: Vehicle) -> li
 
 
 def _commands(recording: Recording) -> tuple[Array, Array, Array]:
-    """Both commands on one grid of times."""
+    """Return the times of a grid, s, and both commands on it; each of shape (n,)."""
     if not recording.rudder_cmd or not recording.thrust_cmd:
         return np.empty(0), np.empty(0), np.empty(0)
     begin = min(recording.rudder_cmd[0].received, recording.thrust_cmd[0].received)
@@ -79,7 +79,7 @@ def _fit_state(recording: Recording, t: Array, rudder: Array, vehicle: Vehicle) 
 def _fit_yaw(
     recording: Recording, motion: Motion, t: Array, rudder: Array, thrust: Array, vehicle: Vehicle
 ) -> Fit | None:
-    """The yaw rate against what the file says of the hull; positive gain for the contract's sign."""
+    """Fit the yaw rate to the file's hull; a positive gain has the contract's sign."""
     inside = (motion.t >= t[0]) & (motion.t <= t[-1] + 1.0)
     if inside.sum() < 20:
         return None
@@ -104,38 +104,38 @@ def _fit_yaw(
 
 
 def _speed(recording: Recording, at: float) -> float:
-    """Speed through the water when the commands begin, m/s."""
+    """Return the speed through the water when the commands begin, m/s."""
     before = [s.u for s in recording.water if s.received <= at + 0.5 and math.isfinite(s.u)]
     return min(max(float(np.median(before[-5:])) if before else 0.0, 0.0), 5.0)
 
 
 def _sign(item: str, state: Fit | None, yaw: Fit | None) -> Verdict:
     expected = "1: positive turns to port, radians"
-    told = "; ".join(
+    measured = "; ".join(
         f"{name} {fit.scale * fit.gain:.2g}"
         for name, fit in (("rudder_state", state), ("yaw rate", yaw))
         if fit is not None
     )
-    told = f"per command and file: {told}"
+    measured = f"per command and file: {measured}"
     if yaw is None and state is None:
         return unknown(item, "neither rudder_state nor enough yaw rate and speed through the water", _NEEDED)
     judge = yaw if yaw is not None and yaw.unexplained < 0.5 else state if yaw is None else yaw
     assert judge is not None
     for fit in (state, yaw):
         if fit is not None and fit.scale != 1.0 and fit.unexplained < 0.5 and 0.3 < abs(fit.gain) < 3.0:
-            return failed(item, Mistake.RUDDER_DEGREES, told, expected)
+            return failed(item, Mistake.RUDDER_DEGREES, measured, expected)
     if judge.unexplained > 0.8 or abs(judge.gain) < 0.05:
-        return failed(item, Mistake.RUDDER_DEAD, told, expected)
+        return failed(item, Mistake.RUDDER_DEAD, measured, expected)
     if judge.gain < 0.0:
-        return failed(item, Mistake.RUDDER_SIGN, told, expected)
+        return failed(item, Mistake.RUDDER_SIGN, measured, expected)
     if state is not None and state.gain < 0.0:
-        return failed(item, Mistake.RUDDER_STATE_SIGN, told, expected)
+        return failed(item, Mistake.RUDDER_STATE_SIGN, measured, expected)
     scale = state.gain if state is not None and state.gain else judge.gain
     if not 0.5 < judge.gain < 2.0 or not 0.7 < scale < 1.4:
         if state is not None and 0.7 < scale < 1.4:
-            return warned(item, told, "a hull as the vehicle's file has it", Mistake.RUDDER_SCALE)
-        return failed(item, Mistake.RUDDER_SCALE, told, expected)
-    return passed(item, told, expected)
+            return warned(item, measured, "a hull as the vehicle's file has it", Mistake.RUDDER_SCALE)
+        return failed(item, Mistake.RUDDER_SCALE, measured, expected)
+    return passed(item, measured, expected)
 
 
 def _rate_and_delay(
@@ -145,19 +145,22 @@ def _rate_and_delay(
     if fit is None or fit.unexplained > 0.5 or fit.scale != 1.0:
         return [unknown(item, "the rudder does not follow closely enough", _NEEDED) for item in items]
     file = vehicle.rudder.max_rate_deg_s
-    told, expected = f"about {fit.rate * file:.0f} deg/s", f"{file:g} deg/s, from the vehicle's file"
-    slow = fit.rate < 0.55
-    rate = failed(items[0], Mistake.RUDDER_SLOW, told, expected) if slow else passed(items[0], told, expected)
-    told, expected = f"{fit.delay * 1e3:.0f} ms", f"{GOOD_DELAY * 1e3:.0f} ms or less, or the rudder swings"
+    measured, expected = f"about {fit.rate * file:.0f} deg/s", f"{file:g} deg/s, from the vehicle's file"
+    if fit.rate < 0.55:
+        rate = failed(items[0], Mistake.RUDDER_SLOW, measured, expected)
+    else:
+        rate = passed(items[0], measured, expected)
+    measured = f"{fit.delay * 1e3:.0f} ms"
+    expected = f"{GOOD_DELAY * 1e3:.0f} ms or less, or the rudder swings"
     if fit.delay > WORST_DELAY:
-        return [rate, failed(items[1], Mistake.DEAD_TIME, told, expected)]
+        return [rate, failed(items[1], Mistake.DEAD_TIME, measured, expected)]
     if fit.delay > GOOD_DELAY:
-        return [rate, warned(items[1], told, expected, Mistake.DEAD_TIME)]
-    return [rate, passed(items[1], told, expected)]
+        return [rate, warned(items[1], measured, expected, Mistake.DEAD_TIME)]
+    return [rate, passed(items[1], measured, expected)]
 
 
 def _push(item: str, recording: Recording, t: Array, thrust: Array, vehicle: Vehicle) -> Verdict:
-    """Speed through the water against what the file says of this thrust."""
+    """Judge the speed through the water against the file's speed at this thrust."""
     pushed = t[thrust > 0.5 * float(thrust.max(initial=0.0))] if thrust.size else t
     if pushed.size == 0 or float(thrust.max()) <= 0.0:
         return unknown(item, "no thrust was commanded", _NEEDED)
@@ -168,12 +171,12 @@ def _push(item: str, recording: Recording, t: Array, thrust: Array, vehicle: Veh
         return unknown(item, "thrust for too short a time", "8 s at least")
     expected_speed = vehicle.speed_at(float(np.median(thrust[thrust > 0.0])))
     speed = float(np.median(late))
-    told, expected = (
+    measured, expected = (
         f"{speed:.2f} m/s through the water",
         f"about {expected_speed:.2f} m/s, from the vehicle's file",
     )
     if speed < 0.25 * expected_speed:
-        return failed(item, Mistake.THRUST_DEAD, told, expected)
+        return failed(item, Mistake.THRUST_DEAD, measured, expected)
     if not 0.5 < speed / expected_speed < 1.6:
-        return failed(item, Mistake.THRUST_SCALE, told, expected)
-    return passed(item, told, expected)
+        return failed(item, Mistake.THRUST_SCALE, measured, expected)
+    return passed(item, measured, expected)

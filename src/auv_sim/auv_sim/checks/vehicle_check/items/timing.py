@@ -11,27 +11,26 @@ from auv_msgs_py.contract.topics import Topic
 from auv_sim.checks.vehicle_check.samples import OdometrySample, Recording, WaterSample
 from auv_sim.checks.vehicle_check.verdict import Mistake, Verdict, failed, passed, unknown, warned
 
-#: Odometries a second: what is good, and below what the laws become coarse and the watchdogs nervous.
+#: Odometries a second: enough, and the least with which laws and watchdogs work.
 GOOD_RATE, LEAST_RATE = 8.0, 4.0
-#: As long as the suite bears with silence by default, s: the autopilot's odometry_timeout, and
-#: water_velocity_timeout.
+#: Longest silence that the suite tolerates by default, s: odometry_timeout and water_velocity_timeout.
 LONGEST_GAP = {topics.ODOM.name: 0.5, topics.WATER_VELOCITY.name: 1.0}
 #: (95th less 5th percentile) of the intervals, over their median.
 WORST_JITTER = 1.5
-#: Age on arrival, s: from where on the rudder begins to swing, and what is no navigation any more.
+#: Age on arrival, s: above the first the rudder begins to swing, above the second the test fails.
 GOOD_AGE, WORST_AGE = 0.15, 0.4
 #: Stamps may be ahead by the resolution of a clock in steps, s.
 AHEAD = 0.1
-#: A step of the stamps that differs by more from that of the arrivals is a jump, s.
+#: Largest difference of a step of the stamps from that of the arrivals, s; more is a jump.
 JUMP = 0.5
-#: Further apart are no two readings of one clock, s.
+#: Difference above which two readings are of different clocks, s.
 OTHER_CLOCK = 3600.0
 
 Stamped = Sequence[OdometrySample] | Sequence[WaterSample]
 
 
 def check_timing(recording: Recording) -> list[Verdict]:
-    """Rate, gaps and stamps of the two stamped topics."""
+    """Judge rate, gaps and stamps of the two stamped topics."""
     verdicts: list[Verdict] = []
     stamped: tuple[tuple[Topic, Stamped], ...] = (
         (topics.ODOM, recording.odom), (topics.WATER_VELOCITY, recording.water)
@@ -89,14 +88,14 @@ def _age(name: str, stamps: np.ndarray, received: np.ndarray) -> Verdict:
     expected = f"from 0 to {GOOD_AGE * 1e3:.0f} ms"
     if abs(age) > OTHER_CLOCK:
         return failed(item, Mistake.OTHER_CLOCK, f"{age:.3g} s", expected)
-    told = f"median {age * 1e3:.0f} ms"
+    measured = f"median {age * 1e3:.0f} ms"
     if age < -AHEAD:
-        return failed(item, Mistake.FUTURE, told, expected)
+        return failed(item, Mistake.FUTURE, measured, expected)
     if age > WORST_AGE:
-        return failed(item, Mistake.LATE, told, expected)
+        return failed(item, Mistake.LATE, measured, expected)
     if age > GOOD_AGE:
-        return warned(item, told, expected, Mistake.LATE)
-    return passed(item, told, expected)
+        return warned(item, measured, expected, Mistake.LATE)
+    return passed(item, measured, expected)
 
 
 def _rate(name: str, stamps: np.ndarray) -> list[Verdict]:
@@ -108,26 +107,26 @@ def _rate(name: str, stamps: np.ndarray) -> list[Verdict]:
     median = float(np.median(rising))
     rate, longest, limit = 1.0 / median, float(rising.max()), LONGEST_GAP[name]
     least, good = (LEAST_RATE, GOOD_RATE) if name == topics.ODOM.name else (1.0 / limit, 2.0)
-    told, expected = f"{rate:.1f} Hz", f"{good:g} Hz or more"
+    measured, expected = f"{rate:.1f} Hz", f"{good:g} Hz or more"
     verdicts = []
     if rate < least:
-        return [failed(f"{name}: rate", Mistake.TOO_SLOW, told, expected)]
-    verdicts.append(
-        passed(f"{name}: rate", told, expected) if rate >= good else warned(f"{name}: rate", told, expected)
-    )
-    spread = float(np.percentile(rising, 95) - np.percentile(rising, 5)) / median
-    told = f"intervals of {np.percentile(rising, 5) * 1e3:.0f} to {np.percentile(rising, 95) * 1e3:.0f} ms"
+        return [failed(f"{name}: rate", Mistake.TOO_SLOW, measured, expected)]
+    judged = passed if rate >= good else warned
+    verdicts.append(judged(f"{name}: rate", measured, expected))
+    low, high = np.percentile(rising, 5), np.percentile(rising, 95)
+    spread = float(high - low) / median
+    measured = f"intervals of {low * 1e3:.0f} to {high * 1e3:.0f} ms"
     expected = f"within {WORST_JITTER:g} times the median"
     if spread > WORST_JITTER:
-        verdicts.append(failed(f"{name}: jitter", Mistake.JITTERY, told, expected))
+        verdicts.append(failed(f"{name}: jitter", Mistake.JITTERY, measured, expected))
     else:
-        verdicts.append(passed(f"{name}: jitter", told, expected))
-    # A jump of the stamps is a gap only to the eye.
+        verdicts.append(passed(f"{name}: jitter", measured, expected))
+    # A jump of the stamps is not a gap.
     gaps = rising[rising < 10.0 * JUMP]
     longest = float(gaps.max()) if gaps.size else longest
-    told, expected = f"{longest * 1e3:.0f} ms at most", f"{limit * 1e3:.0f} ms"
+    measured, expected = f"{longest * 1e3:.0f} ms at most", f"{limit * 1e3:.0f} ms"
     if longest > limit:
-        verdicts.append(failed(f"{name}: gaps", Mistake.GAPS, told, expected))
+        verdicts.append(failed(f"{name}: gaps", Mistake.GAPS, measured, expected))
     else:
-        verdicts.append(passed(f"{name}: gaps", told, expected))
+        verdicts.append(passed(f"{name}: gaps", measured, expected))
     return verdicts

@@ -1,4 +1,4 @@
-"""The yaw rate of a vehicle that is known by its measured turn and cruise alone, without a hull.
+"""Fits the yaw rate of a vehicle whose file has a measured turn and cruise, but no hull.
 
 In lengths L travelled, with rho = r L / ur, the yaw of any hull of this kind goes roughly by
 
@@ -25,17 +25,17 @@ from auv_sim.checks.vehicle_check.samples import Array
 _EFFECT = np.array([0.7, 1.0, 1.4, 2.0, 2.8, 4.0])
 _STABILITY = np.array([-2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0])
 _DELAYS = np.arange(0.0, 1.501, 0.05)
-#: The file is right until another explanation leaves less than this share of what it leaves unexplained; so
-#: much is beyond the model in any case.
+#: The file counts as right unless another explanation leaves less than this share of what it leaves
+#: unexplained; and the share that the model leaves in any case.
 _CLEARLY, _BEYOND = 0.5, 0.01
 #: Gains and shares of the file's rate with which nothing is wrong.
 _GAINS, _LEAST_RATE = (0.7, 1.4), 0.55
-#: The shortest dead time counts that leaves no more than so many times the least, and so much more.
+#: The shortest dead time counts that leaves at most this multiple of the least, plus this share.
 _AS_GOOD, _NEARLY = 1.5, 0.003
 
 
 def fit_turning(t: Array, rudder: Array, speed: Array, times: Array, rates: Array, vehicle: Vehicle) -> Fit:
-    """How the yaw rate follows the rudder's commands.
+    """Fit the yaw rate to the rudder's commands.
 
     Args:
         t: times of the commands, s, in steps of `STEP`; shape (n,).

@@ -1,4 +1,4 @@
-"""Frames that are known, numbers that are numbers, covariances that can be."""
+"""Checks single messages: frame ids, finite numbers, unit quaternions, covariances, positions."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from auv_msgs_py.values.errors import MessageRefused
 from auv_sim.checks.vehicle_check.samples import Motion, Recording
 from auv_sim.checks.vehicle_check.verdict import Mistake, Verdict, failed, passed, unknown, warned
 
-#: No vehicle of this kind is faster, m/s; and a fix may be off by so much, m.
+#: Largest speed of a vehicle of this kind, m/s, and largest error of a fix, m.
 _FASTEST, _FIX = 6.0, 2.0
 
 
 def check_values(recording: Recording, motion: Motion) -> list[Verdict]:
-    """What single messages say."""
+    """Judge what single messages hold."""
     verdicts = [*_frames(recording)]
     if recording.odom:
         verdicts += [_numbers(recording), _quaternions(recording)]
@@ -35,7 +35,7 @@ def check_values(recording: Recording, motion: Motion) -> list[Verdict]:
 
 
 def convention_of(recording: Recording) -> Convention | None:
-    """What the odometry's frame ids say; None where no convention has them."""
+    """Return the convention of the odometry's frame ids; None if no convention has them."""
     table = FrameTable(FrameIds())
     try:
         return table.of_pose(topics.ODOM.name, recording.odom[0].frame, recording.odom[0].child)
@@ -115,7 +115,7 @@ def _quaternions(recording: Recording) -> Verdict:
 
 
 def _tilt(q: tuple[float, float, float, float]) -> float:
-    """Angle between the vehicle's z axis and the world's, rad."""
+    """Return the angle between the vehicle's z axis and the world's, rad."""
     return math.acos(min(max(1.0 - 2.0 * (q[0] * q[0] + q[1] * q[1]), -1.0), 1.0))
 
 

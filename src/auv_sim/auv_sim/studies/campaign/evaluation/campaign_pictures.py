@@ -1,4 +1,4 @@
-"""A campaign in pictures: where it succeeds, how the figures are spread, and what they depend on."""
+"""Draws a campaign: where it succeeds, the spread of its figures, and what they depend on."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _BINS = 12
 
 
 def draw(plan: StudyPlan, table: pa.Table, summary: Summary, directory: Path) -> list[Path]:
-    """Write the pictures that this study can fill.
+    """Draw the pictures for which the study has data.
 
     Returns:
         their files.
@@ -47,7 +47,7 @@ def draw(plan: StudyPlan, table: pa.Table, summary: Summary, directory: Path) ->
 
 
 def label(name: str) -> str:
-    """A parameter's name with its unit, where it has one of its own."""
+    """Return a parameter's name with its unit, if it has one of its own."""
     unit = UNITS.get(name.rpartition(".")[2], "") if name.startswith(("initial.", "current.")) else ""
     return f"{name} [{unit}]" if unit else name
 
@@ -100,7 +100,7 @@ def _distribution(plan: StudyPlan, table: pa.Table, summary: Summary) -> Figure:
 
 
 def _plain_ticks(axis: Any) -> None:
-    """0.02, 0.05, 0.1 on a logarithmic axis, instead of powers."""
+    """Label a logarithmic axis with 0.02, 0.05, 0.1 instead of powers."""
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_formatter(NullFormatter())
@@ -153,7 +153,7 @@ def _map_of_shares(place: Any, x_edges: Any, y_edges: Any, share: Any) -> None:
 
 
 def _binned(values: Any) -> tuple[Any, Any]:
-    """Edges and the bin of each value: one bin for each value of a grid, else equally wide ones."""
+    """Return edges and the bin of each value: a bin for each value of a grid, else equally wide ones."""
     levels = np.unique(values)
     if len(levels) <= 2 * _BINS:
         middle = 0.5 * (levels[1:] + levels[:-1])
@@ -190,7 +190,7 @@ def _sensitivity(plan: StudyPlan, table: pa.Table, summary: Summary, names: list
     bars.barh(range(len(names)), shares, color=BLUE)
     for place, name in enumerate(names):
         if math.isnan(summary.explained[name]):
-            bars.text(0.0, place, " too few flights to tell", va="center", color=MUTED, fontsize=8)
+            bars.text(0.0, place, " too few flights to judge", va="center", color=MUTED, fontsize=8)
     bars.set_yticks(range(len(names)), [name.split(".", 1)[-1] for name in names], fontsize=8)
     bars.invert_yaxis()
     bars.set_xlim(0.0, max(1.0, *shares) if max(shares) > 0.5 else max(0.1, 1.15 * max(shares)))

@@ -1,7 +1,7 @@
-"""How sure one can be of what a campaign shows: intervals of 95 %, and what each parameter explains.
+"""Statistics of a campaign: 95 % intervals, and the variance that each parameter explains.
 
 With grids, all points of a round share what is drawn: their flights succeed and fail together, and say no
-more about the draws than one flight does. So what is told about all points counts rounds, not flights.
+more about the draws than one flight does. So figures of all points count rounds, not flights.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ Rounds = npt.NDArray[np.int64]
 
 _Z = 1.959963984540054  # of 95 %
 _RESAMPLES = 400
-#: Resampled at most so many runs at a time: beyond, the normal law of order statistics serves as well.
+#: Most values that are resampled: beyond, the normal law of order statistics serves as well.
 _MOST_RESAMPLED = 5000
-#: What a parameter explains is told from bins of at least so many rounds, and at least so many bins of a
-#: parameter that has more values than that: with fewer, chance and the width of the bins decide.
+#: Least rounds in a bin, and least bins of a parameter with more values than that, for the share that it
+#: explains: with fewer, chance and the width of the bins decide.
 _ROUNDS_OF_BIN, _FEWEST_BINS = 10, 4
 
 
@@ -37,7 +37,7 @@ NOTHING = Estimate(math.nan, math.nan, math.nan)
 
 
 def share(successes: float, runs: int) -> Estimate:
-    """A share of successes among independent runs with Wilson's interval, which is right at 0 and 1, too."""
+    """Return a share of successes among independent runs with Wilson's interval, valid at 0 and 1, too."""
     if not runs:
         return NOTHING
     p = successes / runs
@@ -48,7 +48,7 @@ def share(successes: float, runs: int) -> Estimate:
 
 
 def share_of_rounds(successes: npt.NDArray[np.bool_], rounds: Rounds) -> Estimate:
-    """The share of successes where the flights of a round share their draws.
+    """Return the share of successes where the flights of a round share their draws.
 
     The interval is that of as many flights as there are rounds: right if the flights of a round end alike,
     and wider than needed if they do not.
@@ -64,7 +64,7 @@ def share_of_rounds(successes: npt.NDArray[np.bool_], rounds: Rounds) -> Estimat
 
 
 def mean(values: Column, rounds: Rounds | None = None) -> Estimate:
-    """The mean of the known values with Student's interval.
+    """Return the mean of the finite values with Student's interval.
 
     Args:
         values: shape (n,).
@@ -79,7 +79,7 @@ def mean(values: Column, rounds: Rounds | None = None) -> Estimate:
 
 
 def _half_width(deviations: Column, rounds: Rounds | None) -> float:
-    """Half of the interval of a mean, from deviations of what is averaged; NaN for fewer than two rounds."""
+    """Return half of the interval of a mean, from deviations; NaN for fewer than two rounds."""
     sums = (
         deviations if rounds is None else np.bincount(np.unique(rounds, return_inverse=True)[1], deviations)
     )
@@ -90,7 +90,7 @@ def _half_width(deviations: Column, rounds: Rounds | None) -> float:
 
 
 def quantile(values: Column, at: float, seed: int, rounds: Rounds | None = None) -> Estimate:
-    """A quantile of the known values with the interval of a seeded bootstrap.
+    """Return a quantile of the finite values with the interval of a seeded bootstrap.
 
     With many values the interval is that between order statistics, which is where the bootstrap tends to;
     with rounds as well (Woodruff, 1952): the share of values below the quantile has the interval of a mean.
@@ -122,7 +122,7 @@ def quantile(values: Column, at: float, seed: int, rounds: Rounds | None = None)
 
 
 def explained(parameter: Column, figure: Column) -> float:
-    """Share of a figure's variance that a drawn parameter explains by itself: its first-order Sobol index.
+    """Return the share of a figure's variance that a drawn parameter explains alone (first-order Sobol).
 
     Variance of the means in bins of equally many rounds, less what chance alone puts there; taken over the
     ranks of the figure, so that a few far outliers do not decide. With grids a round counts by the mean over
@@ -133,7 +133,7 @@ def explained(parameter: Column, figure: Column) -> float:
         figure: shape (rounds,), or (rounds, points) with grids; what is not finite is left out.
 
     Returns:
-        The share; NaN where there are too few rounds to tell.
+        The share; NaN with too few rounds.
     """
     y = _ranked(figure.reshape(len(parameter), -1))
     total = float(np.nanvar(y)) if np.isfinite(y).any() else 0.0
@@ -156,7 +156,7 @@ def explained(parameter: Column, figure: Column) -> float:
 
 
 def explained_by_grid(parameter: Column, figure: Column) -> float:
-    """The same for a parameter on a grid, whose values all meet the same draws.
+    """Return that share for a parameter on a grid, whose values all meet the same draws.
 
     Variance of the means at its values, less what chance puts there: how differently the rounds take the step
     from one value to the next. A single round has no chance in it.
@@ -184,7 +184,7 @@ def explained_by_grid(parameter: Column, figure: Column) -> float:
 
 
 def _means(values: Column, axis: int) -> Column:
-    """Means of what is known; NaN where nothing is."""
+    """Return means of the finite values; NaN where there is none."""
     known = np.isfinite(values)
     counts = known.sum(axis=axis)
     sums = np.where(known, values, 0.0).sum(axis=axis)
@@ -193,7 +193,7 @@ def _means(values: Column, axis: int) -> Column:
 
 
 def _ranked(figure: Column) -> Column:
-    """The known values by their ranks; the others are NaN."""
+    """Replace the finite values by their ranks, the others by NaN."""
     ranks = np.full(figure.shape, math.nan)
     known = np.isfinite(figure)
     ranks[known] = _ranks(figure[known])
@@ -201,7 +201,7 @@ def _ranked(figure: Column) -> Column:
 
 
 def _ranks(values: Column) -> Column:
-    """0 for the smallest; equal values get the mean of their ranks."""
+    """Return ranks, 0 for the smallest; equal values get the mean of their ranks."""
     _, owner, counts = np.unique(values, return_inverse=True, return_counts=True)
     last = np.cumsum(counts) - 1.0
     ranks: Column = (last - 0.5 * (counts - 1.0))[owner]

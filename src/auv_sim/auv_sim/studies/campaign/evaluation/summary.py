@@ -1,4 +1,4 @@
-"""What a campaign shows in a few numbers, with how sure they are."""
+"""Sums a campaign up in a few figures with their confidence intervals."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from auv_sim.studies.campaign.evaluation import statistics
 from auv_sim.studies.campaign.evaluation.statistics import Estimate
 from auv_sim.studies.campaign.run_table import flown_enough
 
-#: The figures that the summary tells about.
+#: The figures in every summary.
 SUMMED_UP = (
     "flown_share",
     "rms_distance",
@@ -66,10 +66,10 @@ class Summary:
             that did so with enough of it flown; with grids over all points.
         figures: by name, over the completed flights; with grids of all points.
         judge: the figure that `points` and `explained` are about.
-        explained: share of its variance that each varied parameter explains by itself, the largest first; NaN
-            where there are too few rounds to tell.
+        explained: share of its variance that each varied parameter explains alone, the largest first; NaN
+            with too few rounds.
         points: of the grids; empty without any.
-        worst: numbers of the runs to look at: failed ones, then those with the largest judged figure.
+        worst: numbers of the worst runs: failed ones, then those with the largest judged figure.
     """
 
     name: str
@@ -123,18 +123,18 @@ def summarise(plan: StudyPlan, table: pa.Table) -> Summary:
 
 
 def column(table: pa.Table, name: str) -> Any:
-    """A column as an array; what is missing is NaN."""
+    """Return a column as an array; what is missing is NaN."""
     return table.column(name).to_numpy()
 
 
 def figure_label(name: str) -> str:
-    """A figure's name for people, with its unit."""
+    """Return a figure's name for people, with its unit."""
     words = name.replace("_", " ")
     return f"{words} [{UNITS[name]}]" if name in UNITS else words
 
 
 def rounds_of(plan: StudyPlan, table: pa.Table) -> Any:
-    """Which round each run belongs to: the runs of a round share what is drawn."""
+    """Return the round of each run: the runs of a round share what is drawn."""
     return column(table, "run") // len(plan.points)
 
 

@@ -29,7 +29,7 @@ RATE_TOLERANCE = 0.15
 
 
 def observer(runs: Runs) -> PaperClaim:
-    """The estimate converges to the true current."""
+    """Judge whether the estimate converges to the true current."""
     run = runs["3-with"]
     error = np.hypot(run.Vx_est - run.Vx_true, run.Vy_est - run.Vy_true)
     worst = float(error[run.t - run.t[0] >= OBSERVER_SETTLING_TIME].max())
@@ -49,7 +49,7 @@ def observer(runs: Runs) -> PaperClaim:
 
 
 def without_observer(runs: Runs, path: CompositePath) -> PaperClaim:
-    """Without it an error remains, above all on curves."""
+    """Judge whether an error remains without the observer, above all on curves."""
     numbers, errors = [], {}
     for name, label in (
         ("with", "with the observer"),
@@ -93,26 +93,17 @@ def decays(
     vehicle: Vehicle,
     thrust: float,
 ) -> list[PaperClaim]:
-    """Theorems 1, 2, 3, 6, 7."""
-    still = theorems.theorem_1(guidance, NO_CURRENT)
-    flowing = theorems.theorem_1(guidance, Current(*CURRENT))
-    Delta, k = guidance.ailos.lookahead, guidance.virtual_point.k
+    """Judge Theorems 1, 2, 3, 6, 7.
+
+    Args:
+        runs: name of the flight -> its run.
+        guidance, autopilot, eq35: configurations of the flights; eq35 is the observer's.
+        vehicle: hull and rudder.
+        thrust: N.
+    """
     heading = min(autopilot.nism.k1 * autopilot.nism.k2, autopilot.nism.k3 * autopilot.nism.k4)
-    slow = theorems.guidance_rate(Delta, _speed(runs, "1-nism-prestero"), 0.0)
-    across = -np.sin(np.pi / 4) * CURRENT[0] + np.cos(np.pi / 4) * CURRENT[1]
-    slow_in_current = theorems.guidance_rate(Delta, _speed(runs, "3-aside"), float(across))
     return [
-        _theorem(
-            1,
-            "Section 4.1",
-            "With a perfect heading and a known current the path errors decay exponentially.",
-            {
-                "xe, no current": still["xe"],
-                "ye, no current": still["ye"],
-                "xe, current": flowing["xe"],
-                "ye, current": flowing["ye"],
-            },
-        ),
+        _guidance_alone(guidance),
         _theorem(
             2,
             "Section 4.1",
@@ -128,6 +119,37 @@ def decays(
             "finite rate kp k5, so "
             "the surfaces are approached, not reached, and the heading comes back more slowly.",
         ),
+        *_cascades(runs, guidance, heading, 0.5 * eq35.k_ob2),
+    ]
+
+
+def _guidance_alone(guidance: PathFollowerConfig) -> PaperClaim:
+    """Theorem 1."""
+    still = theorems.theorem_1(guidance, NO_CURRENT)
+    flowing = theorems.theorem_1(guidance, Current(*CURRENT))
+    return _theorem(
+        1,
+        "Section 4.1",
+        "With a perfect heading and a known current the path errors decay exponentially.",
+        {
+            "xe, no current": still["xe"],
+            "ye, no current": still["ye"],
+            "xe, current": flowing["xe"],
+            "ye, current": flowing["ye"],
+        },
+    )
+
+
+def _cascades(
+    runs: Runs, guidance: PathFollowerConfig, heading: float, observer_rate: float
+) -> list[PaperClaim]:
+    """Theorems 6 and 7; `heading` and `observer_rate` are the slowest eigenvalues of these parts, 1/s."""
+    Delta, k = guidance.ailos.lookahead, guidance.virtual_point.k
+    slow = theorems.guidance_rate(Delta, _speed(runs, "1-nism-prestero"), 0.0)
+    across = -np.sin(np.pi / 4) * CURRENT[0] + np.cos(np.pi / 4) * CURRENT[1]
+    slow_in_current = theorems.guidance_rate(Delta, _speed(runs, "3-aside"), float(across))
+    in_current = min(k, slow_in_current, heading, observer_rate)
+    return [
         _theorem(
             6,
             "Section 4.4",
@@ -139,11 +161,7 @@ def decays(
             7,
             "Section 4.4",
             "So does the whole with the observer, in an unknown constant current.",
-            {
-                "|(xe, ye)|, case 3": Checked(
-                    _errors(runs, "3-aside"), min(k, slow_in_current, heading, 0.5 * eq35.k_ob2)
-                )
-            },
+            {"|(xe, ye)|, case 3": Checked(_errors(runs, "3-aside"), in_current)},
             bound=True,
         ),
     ]

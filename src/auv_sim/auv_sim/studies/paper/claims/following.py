@@ -17,14 +17,14 @@ FOLLOWED = 0.2
 #: Width of the band into which ye has to settle, m.
 BAND = 0.2
 #: Table 4's kp, and the rate that Section 5 names, rad/s.
-KP, TOLD_RATE = 0.1745, float(np.radians(15.0))
+KP, NAMED_RATE = 0.1745, float(np.radians(15.0))
 _HEADING_RUNS = ("nism", "pid", "smc")
 
 Runs = dict[str, Run]
 
 
 def following(runs: Runs, path: CompositePath) -> PaperClaim:
-    """All subpaths are followed."""
+    """Judge whether all subpaths are followed."""
     numbers, held = [], {}
     for start, prefix in (("on the path", "1-on-path"), (f"{OFFSET:g} m beside it", "1-nism")):
         for plant in PLANT_NAMES:
@@ -47,21 +47,18 @@ def following(runs: Runs, path: CompositePath) -> PaperClaim:
 
 
 def convergence(runs: Runs, path: CompositePath) -> list[PaperClaim]:
-    """NISM settles faster, and is nearer to the path afterwards, than PID and SMC."""
+    """Judge whether NISM settles faster, and then stays nearer to the path, than PID and SMC."""
     time, error, numbers_t, numbers_e = {}, {}, [], []
     for law in (*_HEADING_RUNS, "robust"):
         run = runs[f"1-{law}-prestero"]
         time[law] = m.settling_time(run, path, BAND)
         error[law] = float(np.mean([m.steady_distance(run, path, i) for i in range(path.n)]))
-        numbers_t.append(
-            Number(f"{LAW_LABELS[law]}: time until |ye| stays below {BAND:g} m", time[law], "s", 1)
-        )
-        numbers_e.append(
-            Number(f"{LAW_LABELS[law]}: mean of the subpaths' steady rms distances", error[law], "m", 4)
-        )
+        name = LAW_LABELS[law]
+        numbers_t.append(Number(f"{name}: time until |ye| stays below {BAND:g} m", time[law], "s", 1))
+        numbers_e.append(Number(f"{name}: mean of the subpaths' steady rms distances", error[law], "m", 4))
     faster = {LAW_LABELS[o]: time["nism"] < time[o] for o in ("pid", "smc")}
     nearer = {LAW_LABELS[o]: error["nism"] < error[o] for o in ("pid", "smc")}
-    remark = "The paper does not give the gains of PID and SMC; docs/tuning.md tells how these were found."
+    remark = "The paper does not give the gains of PID and SMC; docs/tuning.md shows how these were found."
     return [
         PaperClaim(
             "faster",
@@ -88,7 +85,7 @@ def convergence(runs: Runs, path: CompositePath) -> list[PaperClaim]:
 
 
 def robustness(runs: Runs, path: CompositePath) -> PaperClaim:
-    """A weaker rudder in the plant only."""
+    """Judge the robustness against a weaker rudder in the plant only."""
     numbers, held = [], {}
     for prefix, how in (("1", "without (44)"), ("2", "with (44)")):
         error = {}
@@ -120,7 +117,7 @@ def robustness(runs: Runs, path: CompositePath) -> PaperClaim:
 
 
 def rudder_rate(runs: Runs, vehicle: Vehicle) -> PaperClaim:
-    """kp bounds the rate of the rudder."""
+    """Judge whether kp bounds the rate of the rudder."""
     limit = vehicle.rudder.max_rate
     names = [f"1-{law}-prestero" for law in _HEADING_RUNS] + [
         "1-nism-table2",
@@ -152,12 +149,12 @@ def rudder_rate(runs: Runs, vehicle: Vehicle) -> PaperClaim:
         ),
         verdict(held, "with"),
         8,
-        f"The text names 15°/s ({TOLD_RATE:.4f} rad/s); Table 4's kp of {KP} rad/s is 10°/s.",
+        f"The text names 15°/s ({NAMED_RATE:.4f} rad/s); Table 4's kp of {KP} rad/s is 10°/s.",
     )
 
 
 def joints(runs: Runs, path: CompositePath) -> PaperClaim:
-    """G1 and G2 joints disturb less than the G0 joint."""
+    """Judge whether G1 and G2 joints disturb less than the G0 joint."""
     numbers, held = [], {}
     for plant in PLANT_NAMES:
         run = runs[f"1-on-path-{plant}"]
@@ -183,7 +180,7 @@ def joints(runs: Runs, path: CompositePath) -> PaperClaim:
 
 
 def early_switching(runs: Runs, path: CompositePath) -> PaperClaim:
-    """Eq. (44) reduces the deviation at the corner."""
+    """Judge whether Eq. (44) reduces the deviation at the corner."""
     numbers, held = [], {}
     cases = {f"Table 4, {PLANTS[p].label}": (f"1-on-path-{p}", f"2-nism-{p}") for p in PLANT_NAMES}
     cases |= {

@@ -1,4 +1,4 @@
-"""Numbers out of runs: settling, steady errors, deviations at joints, rates of decay."""
+"""Measures runs: settling, steady errors, deviations at joints, rates of decay."""
 
 from __future__ import annotations
 
@@ -17,13 +17,12 @@ RUN_IN = 30.0
 
 
 def distance(run: Run, path: CompositePath) -> Column:
-    """Distance to the path, m, shape (n,)."""
+    """Return the distance to the path, m, shape (n,)."""
     return path.distance(run.x, run.y, run.subpath(path.n))
 
 
 def steady(run: Run, path: CompositePath, subpath: int) -> NDArray[np.bool_]:
-    """Rows on a subpath (from 0), more than `RUN_IN` behind its beginning and before a G0 joint at "
-    "its end."""
+    """Return the rows on a subpath (from 0), `RUN_IN` off its beginning and off a G0 joint at its end."""
     length = path.segments[subpath].length
     along = (run.s - subpath) * length
     rows = (run.subpath(path.n) == subpath) & (along > min(RUN_IN, 0.5 * length))
@@ -33,7 +32,7 @@ def steady(run: Run, path: CompositePath, subpath: int) -> NDArray[np.bool_]:
 
 
 def rms(values: Column) -> float:
-    """Root mean square; NaN for nothing."""
+    """Return the root mean square; NaN of nothing."""
     return float(np.sqrt(np.mean(values**2))) if values.size else math.nan
 
 
@@ -43,13 +42,13 @@ def completed(run: Run, path: CompositePath) -> bool:
 
 
 def steady_distance(run: Run, path: CompositePath, subpath: int) -> float:
-    """rms distance (m) on the steady part of a subpath (from 0); infinite if it was never reached."""
+    """Return the rms distance (m) on the steady part of a subpath (from 0); infinite if never reached."""
     rows = steady(run, path, subpath)
     return rms(distance(run, path)[rows]) if rows.any() else math.inf
 
 
 def settling_time(run: Run, path: CompositePath, band: float) -> float:
-    """Time after which |ye| stays below `band` (m) on the first subpath, s; infinite if it never does."""
+    """Return the time after which |ye| stays below `band` (m) on the first subpath, s; infinite if never."""
     first = run.subpath(path.n) == 0
     if path.joints and path.joints[0].geometric == "G0":
         first &= run.s * path.segments[0].length < path.segments[0].length - RUN_IN
@@ -61,8 +60,7 @@ def settling_time(run: Run, path: CompositePath, band: float) -> float:
 
 
 def at_joint(run: Run, path: CompositePath, joint: int) -> float:
-    """Largest distance to the path (m) within `CORNER_RADIUS` of a joint (from 0); infinite if "
-    "never there."""
+    """Return the largest distance to the path (m) near a joint (from 0); infinite if never there."""
     j, subpath = path.joints[joint], run.subpath(path.n)
     near = np.hypot(run.x - j.x, run.y - j.y) < CORNER_RADIUS
     near &= (subpath == joint) | (subpath == joint + 1)
@@ -70,7 +68,7 @@ def at_joint(run: Run, path: CompositePath, joint: int) -> float:
 
 
 def rudder_rate(run: Run) -> Column:
-    """Rate of the commanded rudder between rows, rad/s, shape (n - 2,): the last command is the stop."""
+    """Return the rate of the commanded rudder, rad/s, shape (n - 2,): the last command is the stop."""
     return np.asarray(np.diff(run.rudder_cmd[:-1]) / np.diff(run.t[:-1]))
 
 
@@ -82,7 +80,7 @@ class Decay(NamedTuple):
 
 
 def envelope(size: Column) -> Column:
-    """The largest value from each row on: what an oscillation is bounded by."""
+    """Return the largest value from each row on, which bounds an oscillation."""
     return np.asarray(np.maximum.accumulate(size[::-1])[::-1])
 
 

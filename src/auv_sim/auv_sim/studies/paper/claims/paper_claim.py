@@ -1,4 +1,4 @@
-"""What a checked claim is: who says what, the rule it is judged by, the numbers, and what came out."""
+"""A claim of the paper: its source, the rule that judges it, the numbers, and the verdict."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ FAILS = "does not hold"
 
 @dataclass(frozen=True)
 class Number:
-    """One measured value beside what the rule wants of it."""
+    """One measured value that the rule looks at."""
 
     what: str
     value: float
@@ -21,7 +21,7 @@ class Number:
 
     @property
     def text(self) -> str:
-        """For people."""
+        """The value with its unit, for people."""
         if not math.isfinite(self.value):
             return "never"
         return f"{self.value:.{self.digits}f} {self.unit}".strip()
@@ -34,12 +34,12 @@ class PaperClaim:
     Attributes:
         key: short name, for programs.
         place: where the paper says it.
-        claim: what it says, in our words.
+        claim: its content, in our words.
         rule: what decides.
         numbers: what was measured.
         verdict: "holds", "does not hold", or "holds only ...".
         figure: number of the figure that shows it, 0 for none.
-        remark: what a reader should know beside the verdict.
+        remark: further facts for the reader.
     """
 
     key: str
@@ -52,7 +52,7 @@ class PaperClaim:
     remark: str = field(default="")
 
     def as_json(self) -> dict[str, Any]:
-        """Plain values; a number that is not finite becomes null."""
+        """Return plain values; a number that is not finite becomes null."""
         return {
             "key": self.key,
             "place": self.place,
@@ -69,7 +69,7 @@ class PaperClaim:
 
 
 def verdict(outcomes: dict[str, bool], kind: str = "with") -> str:
-    """Of a claim checked under several conditions: all, some or none of them."""
+    """Return the verdict of a claim from its outcome under each condition."""
     good = [name for name, held in outcomes.items() if held]
     if len(good) == len(outcomes):
         return HOLDS

@@ -1,4 +1,4 @@
-"""Theorems 1, 2, 3: each system by itself, started off its equilibrium, and how fast it really comes back."""
+"""Theorems 1, 2, 3: each system alone, started off its equilibrium, and the rate at which it returns."""
 
 from __future__ import annotations
 
@@ -31,15 +31,22 @@ class Checked(NamedTuple):
 
 
 def guidance_rate(Delta: float, Ur: float, across: float) -> float:
-    """Rate at which ye decays near the path, from Eqs. (30), (32): Ur / sqrt(Delta^2 + alpha^2) at "
-    "ye = 0, 1/s."""
+    """Return the rate at which ye decays near the path, 1/s.
+
+    From Eqs. (30), (32): Ur / sqrt(Delta^2 + alpha^2) at ye = 0.
+
+    Args:
+        Delta: look-ahead, m.
+        Ur: speed through the water, m/s.
+        across: current across the path, m/s.
+    """
     theta_n = across / Ur
     alpha = theta_n * Delta / math.sqrt(1.0 - theta_n * theta_n)
     return Ur / math.hypot(Delta, alpha)
 
 
 def theorem_1(config: PathFollowerConfig, current: Current) -> dict[str, Checked]:
-    """Guidance with a perfect heading and a known current, along a straight line to the north."""
+    """Check guidance with a perfect heading and a known current, along a straight line to the north."""
     path = CompositePath([Line(0.0, 0.0, 400.0, 0.0)])
     follower = PathFollower(path, config)
     water = WaterVelocity(_SPEED, 0.0)
@@ -62,7 +69,7 @@ def theorem_1(config: PathFollowerConfig, current: Current) -> dict[str, Checked
 
 
 def theorem_2(config: CurrentObserverConfig, current: Current) -> Checked:
-    """The observer on a vehicle that turns, from an estimate of zero.
+    """Check the observer on a vehicle that turns, from an estimate of zero.
 
     With complex poles the error swings; along the left eigenvector of Eq. (36) it is a pure exponential.
     """
@@ -85,7 +92,7 @@ def theorem_2(config: CurrentObserverConfig, current: Current) -> Checked:
 
 
 def theorem_3(config: AutopilotConfig, vehicle: Vehicle, thrust: float) -> Checked:
-    """NISM turns the simulated hull by 0.1 rad, small enough that the rudder's rate is no bound."""
+    """Check NISM on the simulated hull with 0.1 rad, small enough that the rudder's rate is no bound."""
     plant = SimulatedVehicle(vehicle, PlantState(0.0, 0.0, 0.1, _SPEED, 0.0, 0.0))
     autopilot = HeadingAutopilot(vehicle, config)
     rows = []
