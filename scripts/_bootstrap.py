@@ -1,7 +1,7 @@
 """Makes the environment the suite runs in, then starts the calling script again inside it.
 
-Standard library only, and written so that an older Python can still parse it: it gets a sentence, not a
-SyntaxError. That goes for every script that calls `ensure_environment`, too.
+It uses the standard library only, and an older Python can parse it, to get a sentence and not a SyntaxError.
+The same holds for every script that calls `ensure_environment`.
 
 The environment lives in `.venv/` of the repository, one per Python version. It is made of the pinned ROS 2
 wheels or, when a ROS 2 Jazzy is sourced, of that ROS plus the libraries it lacks (`...-sourced`). The two are
@@ -28,23 +28,23 @@ _STAMP = "complete.stamp"
 
 
 class SetUpError(Exception):
-    """Why there is no environment, in one line and with what to do about it."""
+    """There is no environment: one line with the reason and the remedy."""
 
 
 def ensure_environment(extra=()):
-    """Return at once inside a complete environment; otherwise make it and start the script again inside it.
+    """Return inside a complete environment; otherwise make it and start the script again inside it.
 
     Args:
-        extra: further requirement files wanted, by name: ("dev",) for requirements/dev.txt.
+        extra: further requirement files, by name: ("dev",) for requirements/dev.txt.
     """
     try:
         check_python(sys.version_info[:2])
         sourced = is_jazzy_sourced(os.environ)
         environment = environment_path(sourced)
-        wanted = fingerprint(sourced, extra)
-        if not is_complete(environment, wanted):
+        needed = fingerprint(sourced, extra)
+        if not is_complete(environment, needed):
             check_machine(sourced)
-            _make_once(environment, sourced, extra, wanted)
+            _make_once(environment, sourced, extra, needed)
         entered = os.environ.pop(_MARKER, None)
         if os.path.realpath(sys.prefix) == os.path.realpath(environment):
             sys.excepthook = _unless_interrupted
@@ -67,7 +67,7 @@ def ensure_environment(extra=()):
 
 
 def _unless_interrupted(kind, error, trace):
-    """Ctrl-C while the script still loads: a line; later the command itself has words for it."""
+    """Print one line for Ctrl-C while the script still loads; later the command handles it."""
     _say("interrupted") if kind is KeyboardInterrupt else sys.__excepthook__(kind, error, trace)
 
 
@@ -75,7 +75,7 @@ def _unless_interrupted(kind, error, trace):
 
 
 def check_python(version):
-    """Raises SetUpError when the suite does not run on this Python (a pair of numbers)."""
+    """Raise SetUpError when the suite does not run on this Python (a pair of numbers)."""
     if OLDEST <= version <= NEWEST:
         return
     import shutil
@@ -88,7 +88,7 @@ def check_python(version):
 
 
 def is_jazzy_sourced(variables):
-    """Whether the shell has a ROS 2 Jazzy whose rclpy is to be used.
+    """Whether the shell has sourced a ROS 2 Jazzy whose rclpy is to be used.
 
     Raises:
         SetUpError: it has one, but for another Python.
@@ -99,9 +99,8 @@ def is_jazzy_sourced(variables):
         rclpy = os.path.join(folder, "rclpy")
         if folder and os.path.isdir(rclpy):
             native = [name for name in os.listdir(rclpy) if name.startswith("_rclpy_pybind11.")]
-            if {"_rclpy_pybind11" + suffix for suffix in importlib.machinery.EXTENSION_SUFFIXES} & set(
-                native
-            ):
+            loadable = {"_rclpy_pybind11" + suffix for suffix in importlib.machinery.EXTENSION_SUFFIXES}
+            if loadable & set(native):
                 return True
             built = native[0].split(".")[1] if native else "another Python"
             raise SetUpError(
@@ -112,7 +111,7 @@ def is_jazzy_sourced(variables):
 
 
 def check_machine(sourced):
-    """Raises SetUpError when the environment cannot be made on this machine."""
+    """Raise SetUpError when the environment cannot be made on this machine."""
     import importlib.util
     import platform
     import shutil
@@ -151,12 +150,12 @@ def environment_path(sourced):
 
 
 def requirement_files(sourced, extra=()):
-    """The names under requirements/, in the order in which they are installed."""
+    """Return the names under requirements/ in the order in which they are installed."""
     return (["sourced"] if sourced else ["ros", "tools"]) + list(extra)
 
 
 def fingerprint(sourced, extra):
-    """The lines a complete environment's stamp holds: where it stands and what it was made from."""
+    """Return the lines of a complete environment's stamp: its place and what it was made from."""
     import hashlib
 
     def digest(paths):
@@ -175,8 +174,8 @@ def fingerprint(sourced, extra):
     return lines + ["%s %s" % (name, digest([os.path.join("requirements", name + ".txt")])) for name in extra]
 
 
-def is_complete(environment, wanted):
-    return set(wanted) <= set(_stamped(environment)) and os.path.exists(_python_of(environment))
+def is_complete(environment, needed):
+    return set(needed) <= set(_stamped(environment)) and os.path.exists(_python_of(environment))
 
 
 def _python_of(environment):
@@ -192,20 +191,16 @@ def _stamped(environment):
 
 
 def clean(variables, sourced):
-    """The variables to enter the environment with: nothing of another environment or of another ROS."""
+    """Return the variables to enter the environment with: none of another environment or ROS."""
     kept = dict(variables)
     prefixes = [folder for folder in kept.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if folder]
-    # The first is the wheels' own note that their libraries are found: true only where it was made.
+    # The first is the wheels' own mark that their libraries are found: true only where it was made.
     for name in ("_ROS_WHEELS_BOOTSTRAP_COMPLETE", "VIRTUAL_ENV", "PYTHONHOME"):
         kept.pop(name, None)
     if not sourced:
         for name in (
-            "ROS_DISTRO",
-            "AMENT_PREFIX_PATH",
-            "COLCON_PREFIX_PATH",
-            "CMAKE_PREFIX_PATH",
-            "PYTHONPATH",
-        ):
+            "ROS_DISTRO", "AMENT_PREFIX_PATH", "COLCON_PREFIX_PATH", "CMAKE_PREFIX_PATH", "PYTHONPATH",
+        ):  # fmt: skip
             kept.pop(name, None)
         if kept.get("RMW_IMPLEMENTATION") != "rmw_fastrtps_cpp":
             kept.pop("RMW_IMPLEMENTATION", None)
@@ -217,7 +212,7 @@ def clean(variables, sourced):
 
 
 def _is_foreign(folder, prefixes):
-    """Whether a library folder belongs to another environment's wheels or to a ROS that is not to be used."""
+    """Whether a library folder belongs to another environment's wheels or to an unused ROS."""
     in_environment = os.path.exists(os.path.join(os.path.dirname(folder), "pyvenv.cfg"))
     if in_environment or "/site-packages/ros_" in folder:
         return True
@@ -227,8 +222,8 @@ def _is_foreign(folder, prefixes):
 # --- making it
 
 
-def _make_once(environment, sourced, extra, wanted):
-    """Make or mend the environment, with one start at a time."""
+def _make_once(environment, sourced, extra, needed):
+    """Make or complete the environment, one process at a time."""
     import fcntl
 
     os.makedirs(ENVIRONMENTS, exist_ok=True)
@@ -238,42 +233,19 @@ def _make_once(environment, sourced, extra, wanted):
         except BlockingIOError:
             _say("set-up: another start is making the environment; waiting for it")
             fcntl.flock(lock, fcntl.LOCK_EX)
-        if not is_complete(environment, wanted):
-            _make(environment, sourced, extra, wanted, lock)
+        if not is_complete(environment, needed):
+            _make(environment, sourced, extra, needed, lock)
 
 
-def _make(environment, sourced, extra, wanted, lock):
+def _make(environment, sourced, extra, needed, lock):
     from time import monotonic
 
     began = monotonic()
     stamp = os.path.join(environment, _STAMP)
     before = _stamped(environment)
-    usable = bool(before) and before[0] == wanted[0] and os.path.exists(_python_of(environment))
-    base_is_there = usable and wanted[1] in before
-    python = _python_of(environment)
-    pip = [python, "-m", "pip", "install", "--no-compile"]  # what is used compiles itself at its first import
-
-    steps = []
-    if not usable:
-        # Of the interpreter outside any environment, so that one does not stand on another.
-        command = [getattr(sys, "_base_executable", None) or sys.executable, "-m", "venv", "--clear"]
-        command += ["--system-site-packages", environment] if sourced else [environment]
-        steps.append(("an empty environment", command))
-    if not base_is_there:
-        files = [_requirement_file(name) for name in requirement_files(sourced)]
-        steps.append(("libraries" if sourced else "ROS 2 Jazzy and libraries", pip + _each("-r", files)))
-    for name in extra:
-        # Built, where there is no wheel, with the pinned setuptools: nothing unpinned is fetched for it.
-        command = [*pip, "--no-build-isolation", "-r", _requirement_file(name)]
-        steps.append(("tools for development" if name == "dev" else name, command))
-    if not base_is_there:
-        folders = [os.path.join(REPOSITORY, "src", package) for package in PACKAGES]
-        command = [*pip, "--no-deps", "--no-build-isolation", "--no-index", "--use-pep517"]
-        command += ["--config-settings", "editable_mode=compat"]
-        steps.append(("the suite", command + _each("-e", folders)))
-        trial = "import rclpy, nav_msgs.msg, numpy, " + ", ".join(PACKAGES)
-        steps.append(("a trial", [python, "-c", trial]))
-
+    usable = bool(before) and before[0] == needed[0] and os.path.exists(_python_of(environment))
+    base_is_there = usable and needed[1] in before
+    steps = _steps(environment, sourced, extra, usable, base_is_there)
     what = os.path.relpath(environment, REPOSITORY)
     _say("set-up: %s %s (once; it takes a minute or two)" % ("updating" if usable else "making", what))
     if os.path.exists(stamp):
@@ -289,8 +261,36 @@ def _make(environment, sourced, extra, wanted, lock):
                     _say("    " + line)
                 advice = "its last lines stand above; remove %s and start again" % what
             raise SetUpError("%s: %s" % (label, advice))
-    _write(stamp, wanted + ([line for line in before if line not in wanted] if base_is_there else []))
+    _write(stamp, needed + ([line for line in before if line not in needed] if base_is_there else []))
     _say("set-up: ready after %.0f s" % (monotonic() - began))
+
+
+def _steps(environment, sourced, extra, usable, base_is_there):
+    """The labels and commands that complete an environment, in order."""
+    python = _python_of(environment)
+    pip = [python, "-m", "pip", "install", "--no-compile"]  # what is used compiles itself at its first import
+
+    steps = []
+    if not usable:
+        # With the interpreter outside any environment, so that none depends on another.
+        command = [getattr(sys, "_base_executable", None) or sys.executable, "-m", "venv", "--clear"]
+        command += ["--system-site-packages", environment] if sourced else [environment]
+        steps.append(("an empty environment", command))
+    if not base_is_there:
+        files = [_requirement_file(name) for name in requirement_files(sourced)]
+        steps.append(("libraries" if sourced else "ROS 2 Jazzy and libraries", pip + _each("-r", files)))
+    for name in extra:
+        # Without a wheel, built with the pinned setuptools: nothing unpinned is fetched.
+        command = [*pip, "--no-build-isolation", "-r", _requirement_file(name)]
+        steps.append(("tools for development" if name == "dev" else name, command))
+    if not base_is_there:
+        folders = [os.path.join(REPOSITORY, "src", package) for package in PACKAGES]
+        command = [*pip, "--no-deps", "--no-build-isolation", "--no-index", "--use-pep517"]
+        command += ["--config-settings", "editable_mode=compat"]
+        steps.append(("the suite", command + _each("-e", folders)))
+        trial = "import rclpy, nav_msgs.msg, numpy, " + ", ".join(PACKAGES)
+        steps.append(("a trial", [python, "-c", trial]))
+    return steps
 
 
 def _requirement_file(name):
@@ -309,31 +309,29 @@ def _write(path, lines):
     os.replace(path + ".part", path)
 
 
-def _run(label, command, sourced, lock):
-    """Run one step with a live line of progress. Returns its exit code and its lines of output."""
-    import subprocess
-    import threading
-    from time import monotonic
-
+def _pip_variables(sourced):
     variables = clean(os.environ, sourced)
     # A person's own pip settings may name a user folder or a target: neither belongs here.
     for name in ("USER", "TARGET", "PREFIX", "QUIET", "CONSTRAINT", "REQUIREMENT"):
         variables.pop("PIP_" + name, None)
     variables.update(PIP_DISABLE_PIP_VERSION_CHECK="1", PIP_NO_INPUT="1", PIP_PROGRESS_BAR="off")
     variables["LC_ALL"] = "C.UTF-8"  # advice_on reads English
+    return variables
+
+
+def _run(label, command, sourced, lock):
+    """Run one step with a live line of progress; return its exit code and its lines of output."""
+    import subprocess
+    import threading
+    from time import monotonic
+
     began = monotonic()
     output = []
     process = subprocess.Popen(
-        command,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        universal_newlines=True,
-        errors="replace",
-        env=variables,
-        cwd=REPOSITORY,
+        command, cwd=REPOSITORY, env=_pip_variables(sourced), universal_newlines=True, errors="replace",
+        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
         pass_fds=(lock.fileno(),),  # should this process die, pip keeps the lock until it is done
-    )
+    )  # fmt: skip
     reader = threading.Thread(target=lambda: output.extend(line.rstrip() for line in process.stdout))
     reader.start()
     live = sys.stderr.isatty()
@@ -369,7 +367,7 @@ def _progress(output, elapsed):
 
 
 def advice_on(output):
-    """What pip's output means: a line of advice (empty: nothing usual), and whether nothing has changed."""
+    """Return advice on pip's output (empty if it is unusual), and whether nothing has changed."""
     text = "\n".join(output)
     if "No space left on device" in text or "Disk quota exceeded" in text:
         return "the disk is full: free about %.1f GB and start again" % (DISK_NEEDED / 1e9), False
@@ -380,7 +378,7 @@ def advice_on(output):
         "ReadTimeoutError", "ProxyError", "SSLError", "Could not fetch URL",
     )  # fmt: skip
     if any(sign in text for sign in signs):
-        return "the package index cannot be reached: see to the network (or proxy) and start again", True
+        return "the package index cannot be reached: check the network (or proxy) and start again", True
     return "", False
 
 
