@@ -1,4 +1,4 @@
-"""`scripts/soak.py`: an hour of mission time in one go; does any process grow, is any message lost?"""
+"""`scripts/soak.py`: fly an hour of mission time; does any process grow, is any message lost?"""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""How fast the suite is, measured as ratios in one run on one machine."""
+"""Speed of the suite, measured as ratios in one run on one machine."""

@@ -1,4 +1,4 @@
-"""How thoroughly to measure."""
+"""The extent of a benchmark."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Scale:
-    """How much of everything.
+    """Number and length of everything that is measured.
 
     Attributes:
         rounds: how often runs that are compared take turns.
@@ -29,7 +29,7 @@ class Scale:
 
 
 FULL = Scale()
-#: To see whether it works, not how fast it is.
+#: A short run that shows whether everything works, not its speed.
 QUICK = Scale(
     rounds=1, steps=200, seconds=1.0, vehicles=(1, 10), flight=2.0, topics=(1, 5), subpaths=(10, 100)
 )

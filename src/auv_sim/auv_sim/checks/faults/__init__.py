@@ -1,1 +1,1 @@
-"""Faults on purpose: the matrix of faults and what the suite does about each."""
+"""Deliberate faults: the matrix of faults and the reaction to each."""

@@ -1,1 +1,1 @@
-"""Before the water: whether a mission can be flown, how long it takes, and what it looks like."""
+"""Checks a mission before the vehicle is in the water: whether it can be flown, its duration, a picture."""

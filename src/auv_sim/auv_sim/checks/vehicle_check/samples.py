@@ -135,7 +135,7 @@ def motion_of(odom: list[OdometrySample]) -> Motion:
 
 
 def slope(t: Array, values: Array, span: float) -> tuple[Array, Array]:
-    """Rates of change over `span` seconds around the middle of each interval.
+    """Return the rates of change over `span` seconds around the middle of each interval.
 
     Returns:
         (rates, middles), each of shape (m,): units per second, and times in s.

@@ -126,7 +126,7 @@ class FloorNode(Node):  # type: ignore[misc]
             self._publish()
 
     def _proceed(self) -> None:
-        """The simulator: the next step, when the last is answered and the recorder is near."""
+        """As the simulator, take the next step when the last is answered and the recorder is near."""
         watch = self._stopwatch
         if watch is None or not (self._running and self._waiting) or watch.finished:
             return

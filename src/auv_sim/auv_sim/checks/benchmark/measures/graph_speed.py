@@ -1,4 +1,4 @@
-"""The graph's figures: lockstep against its floor, latency against the wall clock, start-up, memory."""
+"""Measures the graph: lockstep against its floor, latency against the wall clock, start-up, memory."""
 
 from __future__ import annotations
 
@@ -33,10 +33,9 @@ def _setups(steps: int) -> Iterator[tuple[str, Setup]]:
 
 
 def lockstep_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
-    """Time per step of the suite and of the floor, in turn, best of the rounds; and memory per process.
+    """Measure the time per step of suite and floor, in turns, best of the rounds; and memory per process.
 
-    What else the machine does only adds, so of several runs the fastest says most about the program, and
-    runs that are compared take turns.
+    Other load only adds time: of several runs the fastest describes the program best.
     """
     runs: dict[str, list[LockstepTiming]] = {}
     for _ in range(scale.rounds):
@@ -60,7 +59,7 @@ def lockstep_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
 
 
 def latency_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
-    """odom -> rudder_cmd against the wall clock: latency, jitter, cycles without a timely answer, load."""
+    """Measure odom -> rudder_cmd against the wall clock: latency, jitter, missed cycles, processor time."""
     figures: dict[str, Any] = {}
     for rate in (20, 50, 100):
         tick(f"latency at {rate} Hz")
@@ -85,7 +84,7 @@ def latency_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
 
 
 def start_up_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
-    """Seconds from calling the launcher to the first rudder command, best of the rounds."""
+    """Measure the time from calling the launcher to the first rudder command, s, best of the rounds."""
     times = []
     for _ in range(scale.rounds):
         tick("start-up")

@@ -1,4 +1,4 @@
-"""The figures of plain simulation: one vehicle, many vehicles, long paths."""
+"""Measures plain simulation: one vehicle, many vehicles, long paths."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from auv_sim.launch import mission_plan
 from auv_sim.launch.options import Options
 
 Tick = Callable[[str], None]
-#: More vehicles than this are not flown uncompiled: they would take half an hour and show nothing new.
+#: Most vehicles flown uncompiled: more take half an hour and show nothing new.
 _UNCOMPILED = 10
 #: Least number of flights that are timed together: few vehicles fly again and again.
 _FLIGHTS = 100
@@ -39,7 +39,7 @@ def _best(rounds: int, measure: Callable[[], float]) -> float:
 
 
 def closed_loop_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
-    """Vehicle-steps per second of `closed_loop.fly`."""
+    """Measure the vehicle-steps per second of `closed_loop.fly`."""
     tick("closed loop")
     scenario = _scenario(5.0 * scale.flight)
 
@@ -52,12 +52,12 @@ def closed_loop_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
 
 
 def vehicles(scale: Scale) -> tuple[int, ...]:
-    """The numbers of vehicles that the batch engine flies."""
+    """Return the numbers of vehicles that the batch engine flies."""
     return tuple(number for number in scale.vehicles if COMPILED or number <= _UNCOMPILED)
 
 
 def batch_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
-    """Vehicle-steps per second of the batch engine, all cores, by number of vehicles.
+    """Measure the vehicle-steps per second of the batch engine, all cores, by number of vehicles.
 
     All numbers of vehicles fly the same time. What is done once for each flight is separated by flights that
     are a tenth as long: `fixed_us` is what a flight without steps would take, `step_us` what each step adds.
@@ -85,7 +85,7 @@ def batch_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
 
 
 def _fly(scenarios: list[Scenario], threads: int, repeats: int) -> tuple[float, int]:
-    """Fly them `repeats` times; returns s and vehicle-steps."""
+    """Fly them `repeats` times; return s and vehicle-steps."""
     steps, begin = 0, time.perf_counter()
     for _ in range(repeats):
         steps += int(engine.fly(scenarios, threads).steps.sum())
@@ -93,14 +93,14 @@ def _fly(scenarios: list[Scenario], threads: int, repeats: int) -> tuple[float, 
 
 
 def _different(scenario: Scenario, number: int) -> list[Scenario]:
-    """Each vehicle in a current of its own, so that no two do the same."""
+    """Return the scenario `number` times, each in another current, so that no two fly alike."""
     angles = [2.0 * math.pi * k / number for k in range(number)]
     currents = [Current(0.2 * math.cos(angle), 0.2 * math.sin(angle)) for angle in angles]
     return [dataclasses.replace(scenario, current=current) for current in currents]
 
 
 def subpath_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
-    """Microseconds of one step of guidance on a spiral halfway along the path, by number of subpaths."""
+    """Measure one step of guidance, us, on a spiral halfway along the path, by number of subpaths."""
     paths = []
     for number in scale.subpaths:
         tick(f"guidance, {number} subpaths")

@@ -1,1 +1,1 @@
-"""What is checked, one group of checks a file."""
+"""The groups of checks on a vehicle, one a file."""

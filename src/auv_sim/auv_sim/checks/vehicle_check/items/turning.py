@@ -69,7 +69,7 @@ def fit_turning(t: Array, rudder: Array, speed: Array, times: Array, rates: Arra
 def _fits(
     t: Array, rudder: Array, speed: Array, times: Array, rates: Array, vehicle: Vehicle
 ) -> Iterator[Fit]:
-    """The best fit of each way and dead time, over all hulls."""
+    """Yield the best fit of each way and dead time, over all hulls."""
     servos = np.array([servo(way.scale * rudder, vehicle, way.rate) for way in WAYS])
     models = _yaw_rates(servos, np.maximum(speed, 0.0), vehicle)
     power = float(rates @ rates) or 1e-12
@@ -85,7 +85,7 @@ def _fits(
 
 
 def _yaw_rates(servos: Array, speed: Array, vehicle: Vehicle) -> Array:
-    """Yaw rate, rad/s, of every hull for every rudder; shape (n, rudders, hulls)."""
+    """Return the yaw rate, rad/s, of every hull for every rudder; shape (n, rudders, hulls)."""
     steepest = vehicle.length / tightest_turn(vehicle).radius
     effect, stability = (grid.ravel() for grid in np.meshgrid(_EFFECT, _STABILITY, indexing="ij"))
     turning = effect * vehicle.rudder.max_angle

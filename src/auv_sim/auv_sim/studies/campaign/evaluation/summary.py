@@ -84,7 +84,7 @@ class Summary:
     worst: tuple[int, ...]
 
     def to_json(self) -> str:
-        """Strict JSON, indented; NaN becomes null."""
+        """Return strict JSON, indented; NaN becomes null."""
         return json.dumps(_plain(dataclasses.asdict(self)), indent=2, allow_nan=False) + "\n"
 
 

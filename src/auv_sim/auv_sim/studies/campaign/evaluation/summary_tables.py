@@ -16,7 +16,7 @@ from auv_sim.terminal import headed_table
 
 #: Most rows of the table of points.
 _POINTS = 40
-#: A smaller share of the variance is not listed; and at most so many parameters are.
+#: Least share of the variance that is listed, and most parameters listed.
 _LEAST_EXPLAINED, _MOST_LISTED = 0.005, 6
 
 

@@ -124,7 +124,7 @@ def decays(
 
 
 def _guidance_alone(guidance: PathFollowerConfig) -> PaperClaim:
-    """Theorem 1."""
+    """Judge Theorem 1."""
     still = theorems.theorem_1(guidance, NO_CURRENT)
     flowing = theorems.theorem_1(guidance, Current(*CURRENT))
     return _theorem(
@@ -143,7 +143,7 @@ def _guidance_alone(guidance: PathFollowerConfig) -> PaperClaim:
 def _cascades(
     runs: Runs, guidance: PathFollowerConfig, heading: float, observer_rate: float
 ) -> list[PaperClaim]:
-    """Theorems 6 and 7; `heading` and `observer_rate` are the slowest eigenvalues of these parts, 1/s."""
+    """Judge Theorems 6 and 7; `heading` and `observer_rate` are those parts' slowest eigenvalues, 1/s."""
     Delta, k = guidance.ailos.lookahead, guidance.virtual_point.k
     slow = theorems.guidance_rate(Delta, _speed(runs, "1-nism-prestero"), 0.0)
     across = -np.sin(np.pi / 4) * CURRENT[0] + np.cos(np.pi / 4) * CURRENT[1]
