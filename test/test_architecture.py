@@ -21,7 +21,7 @@ ROOMS = (
         "auv_path_following",
         (
             "config_files", "registry", "vertical_hull", "vehicle", "curves", "navigation", "missions",
-            "control", "guidance", "parameters", "pilot", "nodes",
+            "control", "guidance", "parameters", "pilot", "spatial_pilot", "nodes",
         ),
     ),
 )  # fmt: skip

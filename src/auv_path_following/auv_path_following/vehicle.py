@@ -13,6 +13,10 @@ from auv_msgs_py.settings.validators import unfit
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.pure import numbers
 from auv_path_following import config_files
+from auv_path_following.vertical_hull import VerticalHull
+
+#: m/s^2.
+GRAVITY = 9.81
 
 
 @numbers
@@ -47,6 +51,7 @@ class Hull:
     )
 
     surge_coupling: bool = setting(doc="whether SX of Eq. (19) has the rigid-body term m vr r")
+    vertical: VerticalHull | None = setting(None, "heave, roll and pitch; a planar vehicle can do without")
 
     @pydantic.model_validator(mode="after")
     def _mass_matrix_is_definite(self) -> Hull:
@@ -62,10 +67,18 @@ class Hull:
                 raise unfit(f"{formula} = {value:g}", "greater than 0, or Eq. (18) cannot hold")
         return self
 
+    @pydantic.model_validator(mode="after")
+    def _weight_is_that_of_the_mass(self) -> Hull:
+        vertical, weight = self.vertical, self.m * GRAVITY
+        if vertical is not None and abs(vertical.W - weight) > 1e-3 * weight:
+            context = {"found": f"W = {vertical.W:g} N", "expected": f"m g = {weight:.5g} N within 0.1 %"}
+            raise PydanticCustomError("unfit", "vertical", context)
+        return self
+
 
 @settings
 class Rudder:
-    """Limits of the rudder, equal to both sides."""
+    """Limits of the rudder, or of the stern planes, equal to both sides."""
 
     max_angle_deg: float = setting(doc="largest angle", unit="deg", gt=0.0, lt=90.0)
     max_rate_deg_s: float = setting(doc="largest rate", unit="deg/s", gt=0.0)
@@ -79,6 +92,23 @@ class Rudder:
     def max_rate(self) -> float:
         """Largest rate, rad/s."""
         return math.radians(self.max_rate_deg_s)
+
+
+@settings
+class DepthRange:
+    """Where and how slowly a vehicle with stern planes may go."""
+
+    max: float = setting(100.0, "largest depth", unit="m", gt=0.0)
+    surface: float = setting(0.5, "depth at which the propeller is still under water", unit="m", ge=0.0)
+    minimum_speed: float = setting(
+        0.9, "below it the planes cannot hold a depth against the buoyancy", unit="m/s", gt=0.0
+    )
+    max_pitch_deg: float = setting(30.0, "largest pitch that guidance requests", unit="deg", gt=0.0, lt=80.0)
+
+    @property
+    def max_pitch(self) -> float:
+        """Largest pitch, rad."""
+        return math.radians(self.max_pitch_deg)
 
 
 @settings
@@ -108,6 +138,8 @@ class Vehicle:
         "of every thrust of this vehicle, in files and on the wire; percent: of its largest, which is 100",
     )
     rudder: Rudder = setting(doc="limits of the rudder")
+    sternplanes: Rudder | None = setting(None, "limits of the stern planes; a planar vehicle has none")
+    depth: DepthRange = setting(factory=DepthRange, doc="range of depth, for a vehicle with stern planes")
     hull: Hull | None = setting(
         None, "coefficients of the hull; not needed for a real vehicle with cruise and turning"
     )

@@ -17,6 +17,9 @@ class VerticalHull:
     The origin of the body axes is the centre of buoyancy; x points forward, y to starboard, z down.
     """
 
+    diameter: float = setting(
+        doc="of the hull; at the surface buoyancy acts on its immersed share", unit="m", gt=0.0
+    )
     W: float = setting(doc="weight", unit="N", gt=0.0)
     B: float = setting(doc="buoyancy under water", unit="N", gt=0.0)
     xg: float = setting(0.0, "centre of gravity ahead of the centre of buoyancy", unit="m")

@@ -75,9 +75,12 @@ def dispatched(steps: Mapping[type[Any], Step]) -> Step:
 def numbers(cls: type[T]) -> type[T]:
     """Give a settings class its `Numbers`: a named tuple class with the same field names.
 
+    Optional fields are left out: None is no number.
+
     Code that only reads `config.k1` accepts either. The tuple compiles; the settings object does not.
     """
-    names = [field.name for field in dataclasses.fields(cls)]  # type: ignore[arg-type]
+    fields = dataclasses.fields(cls)  # type: ignore[arg-type]
+    names = [field.name for field in fields if "None" not in str(field.type)]
     made: Any = namedtuple("Numbers", names)  # type: ignore[misc]
     made.__module__, made.__qualname__ = cls.__module__, f"{cls.__qualname__}.Numbers"
     cls.Numbers = made  # type: ignore[attr-defined]

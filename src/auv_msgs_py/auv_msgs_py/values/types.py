@@ -54,3 +54,56 @@ STOP = Command(0.0, 0.0)
 NO_CURRENT = Current(0.0, 0.0)
 #: Placeholder where the velocity through the water is unknown.
 NO_WATER = WaterVelocity(0.0, 0.0)
+
+
+class SpatialNavigation(NamedTuple):
+    """Pose and rates in three dimensions, NED.
+
+    Attributes:
+        x, y, z: m; z is depth, positive down.
+        phi, theta, psi: roll, pitch and heading, rad; a positive pitch is bow up.
+        q, r: pitch and yaw rate in body axes, rad/s.
+    """
+
+    x: float
+    y: float
+    z: float
+    phi: float
+    theta: float
+    psi: float
+    q: float
+    r: float
+
+
+class SpatialWater(NamedTuple):
+    """Velocity through the water in the body frame: ur forward, vr to starboard, wr down, m/s."""
+
+    ur: float
+    vr: float
+    wr: float
+
+
+class SpatialCurrent(NamedTuple):
+    """Velocity of the water over ground: Vx north, Vy east, Vz down, m/s."""
+
+    Vx: float
+    Vy: float
+    Vz: float
+
+
+class SpatialCommand(NamedTuple):
+    """Command to a vehicle with stern planes.
+
+    Attributes:
+        rudder: rad, positive to port.
+        sternplanes: rad, positive bow down.
+        thrust: N.
+    """
+
+    rudder: float
+    sternplanes: float
+    thrust: float
+
+
+SPATIAL_STOP = SpatialCommand(0.0, 0.0, 0.0)
+NO_SPATIAL_CURRENT = SpatialCurrent(0.0, 0.0, 0.0)

@@ -1,0 +1,90 @@
+"""A hull in six degrees of freedom with rudder, stern planes and propeller."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_msgs_py.values.pure import dispatched, pure
+from auv_msgs_py.values.types import SpatialCommand, SpatialCurrent, SpatialNavigation, SpatialWater
+from auv_path_following.vehicle import Vehicle
+from auv_sim.vehicle.actuator import Servo, ServoState, servo_of, servo_step
+from auv_sim.vehicle.hulls.mss_remus100 import MssRemus100, mss_remus100_step
+from auv_sim.vehicle.hulls.remus_6dof import Remus6dof, remus_6dof_of, remus_6dof_step
+from auv_sim.vehicle.hulls.rigid_body import BodyState, angles_of
+from auv_sim.vehicle.remus import MAX_STEP
+
+#: One step of a hull: (configuration, state, `BodyInputs`, dt) -> (state, state).
+body_step = dispatched({Remus6dof: remus_6dof_step, MssRemus100: mss_remus100_step})
+
+
+class SpatialPlant(NamedTuple):
+    """Configuration of a hull with its fins and propeller.
+
+    Attributes:
+        hull: of `body_step`.
+        rudder, sternplanes: of their servos.
+        thrust_max: N.
+        max_step: longest Runge-Kutta step, s.
+    """
+
+    hull: Any
+    rudder: Servo
+    sternplanes: Servo
+    thrust_max: float
+    max_step: float = MAX_STEP
+
+
+class SpatialAfloat(NamedTuple):
+    """State of a plant: that of its hull and of its servos."""
+
+    hull: BodyState
+    rudder: ServoState
+    sternplanes: ServoState
+
+
+def spatial_plant_of(vehicle: Vehicle) -> SpatialPlant:
+    """Return the configuration of a vehicle with ideal servos.
+
+    Raises:
+        ConfigurationError: the vehicle file lacks stern planes or coefficients.
+    """
+    hull = vehicle.coefficients
+    if vehicle.sternplanes is None or hull.vertical is None:
+        missing = "sternplanes" if vehicle.sternplanes is None else "hull.vertical"
+        raise ConfigurationError(f"{vehicle.name}: {missing}", "nothing", "what a vehicle that dives needs")
+    body = remus_6dof_of(hull, hull.vertical, 0.5 * hull.vertical.diameter)
+    return SpatialPlant(body, servo_of(vehicle.rudder), servo_of(vehicle.sternplanes), vehicle.thrust_max)
+
+
+@pure
+def spatial_plant_step(
+    config: SpatialPlant, state: SpatialAfloat, inputs: tuple[SpatialCommand, SpatialCurrent], dt: float
+) -> tuple[SpatialAfloat, BodyState]:
+    """Let `dt` seconds pass under a held command and current; the output is the hull's motion."""
+    hull, rudder, sternplanes = state
+    command, current = inputs
+    largest = config.thrust_max
+    thrust = 0.0 if command.thrust < 0.0 else largest if command.thrust > largest else command.thrust
+    water = (current.Vx, current.Vy, current.Vz)
+    substeps = 1 if dt <= config.max_step else math.ceil(dt / config.max_step - 1e-9)
+    h = dt / substeps
+    for k in range(substeps):
+        rudder, first = servo_step(config.rudder, rudder, (command.rudder, k == 0), h)
+        sternplanes, second = servo_step(config.sternplanes, sternplanes, (command.sternplanes, k == 0), h)
+        hull, _ = body_step(config.hull, hull, (first, second, thrust, water), h)
+    return SpatialAfloat(hull, rudder, sternplanes), hull
+
+
+@pure
+def spatial_navigation_of(body: BodyState) -> SpatialNavigation:
+    """Return what an ideal navigation measures."""
+    phi, theta, psi = angles_of(body)
+    return SpatialNavigation(body.x, body.y, body.z, phi, theta, psi, body.q, body.r)
+
+
+@pure
+def spatial_water_of(body: BodyState) -> SpatialWater:
+    """Return the velocity through the water as an ideal log measures it."""
+    return SpatialWater(body.ur, body.vr, body.wr)

@@ -1,0 +1,126 @@
+"""Flights in three dimensions, with limits that were set before they were flown."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.settings import params_file
+from auv_msgs_py.values.types import SpatialCurrent
+from auv_path_following import config_files
+from auv_path_following.curves.kinds.arc import Arc
+from auv_path_following.curves.kinds.line import Line
+from auv_path_following.curves.spatial.depth_profile import DepthProfile
+from auv_path_following.curves.spatial.spatial_path import SpatialPath
+from auv_path_following.missions import mission_file
+from auv_sim.flight.spatial_loop import SpatialScenario, fly
+from auv_sim.vehicle.hulls.rigid_body import body_at
+from hulls import DIVER
+
+PLAN = mission_file.load("paper_composite").path.segments
+LENGTH = math.fsum(segment.length for segment in PLAN)
+UPWELLING = SpatialCurrent(0.1, 0.2, 0.05)
+
+
+@pytest.fixture(scope="module")
+def robust() -> dict[str, Any]:
+    """Gains of the shipped robust.yaml."""
+    from auv_sim.sim_parameters import SUITE
+
+    loaded = params_file.load(config_files.find("params", "robust"), SUITE)
+    return {"guidance": loaded[topics.GUIDANCE].guidance, "heading": loaded[topics.AUTOPILOT].autopilot}
+
+
+def helix() -> SpatialPath:
+    """15 m radius, from 5 to 40 m of depth at 10 degrees, between two lines."""
+    slope = math.tan(math.radians(10.0))
+    arc = Arc(0.0, 15.0, 15.0, -math.pi / 2.0, -math.pi / 2.0 + 35.0 / slope / 15.0)
+    end = arc.evaluate(1.0)
+    segments = [Line(-40.0, 0.0, 40.0, 0.0), arc, Line(end.x, end.y, 40.0, end.chi)]
+    knots = [(0.0, 5.0), (40.0, 5.0), (40.0 + arc.length, 40.0), (80.0 + arc.length, 40.0)]
+    return SpatialPath(segments, DepthProfile(knots, "linear"))
+
+
+def ramps() -> SpatialPath:
+    """The paper's path between 5 and 30 m of depth."""
+    shares = [(0.0, 5.0), (0.15, 30.0), (0.3, 12.0), (0.5, 25.0), (0.65, 8.0), (0.85, 22.0), (1.0, 5.0)]
+    return SpatialPath(PLAN, DepthProfile([(share * LENGTH, depth) for share, depth in shares]))
+
+
+def level() -> SpatialPath:
+    """The paper's path at 10 m of depth."""
+    return SpatialPath(PLAN, DepthProfile.constant(10.0, LENGTH))
+
+
+def distances(path: SpatialPath, run: dict[str, np.ndarray]) -> np.ndarray:
+    """Distance in three dimensions of every row to the path, by chords of 0.1 m at most, m."""
+    from scipy.spatial import cKDTree
+
+    points = np.array(
+        [path.evaluate(i, float(t))[:3] for i in range(path.n) for t in np.linspace(0.0, 1.0, 1500)]
+    )
+    places = np.column_stack([run["x"], run["y"], run["z"]])
+    _, nearest = cKDTree(points).query(places)
+    found = np.full(len(places), np.inf)
+    for first in (nearest - 1, nearest):
+        a, b = points[np.clip(first, 0, None)], points[np.clip(first + 1, None, len(points) - 1)]
+        chord, offset = b - a, places - a
+        square = np.maximum((chord**2).sum(axis=1), 1e-12)
+        share = np.clip((offset * chord).sum(axis=1) / square, 0.0, 1.0)
+        found = np.minimum(found, np.linalg.norm(offset - share[:, None] * chord, axis=1))
+    return found
+
+
+@pytest.mark.parametrize(
+    ("path", "current", "rms", "largest"),
+    [
+        (level, SpatialCurrent(0.0, 0.0, 0.0), 0.04, 0.6),
+        (level, UPWELLING, 0.04, 0.6),
+        (ramps, UPWELLING, 0.04, 0.6),
+        (helix, SpatialCurrent(0.0, 0.0, 0.0), 0.05, 0.5),
+        (helix, UPWELLING, 0.10, 0.5),
+    ],
+    ids=["10 m", "10 m, current", "5 to 30 m, current", "helix", "helix, current"],
+)
+def test_the_path_is_followed(robust, path, current, rms, largest) -> None:
+    made = path()
+    run = fly(SpatialScenario(path=made, vehicle=DIVER, thrust=6.48, current=current, **robust))
+    off = distances(made, run)
+    assert run["s"][-1] == pytest.approx(made.n)
+    assert math.sqrt(np.mean(off**2)) <= rms
+    assert off.max() <= largest
+    if path is not helix:
+        # Subpaths 3 to 7 of the paper, behind its sharp corners.
+        ends = np.cumsum([segment.length for segment in made.plan.segments])
+        begin = 1 + np.searchsorted(ends, PLAN[0].length + PLAN[1].length - 1e-3)
+        assert math.sqrt(np.mean(off[run["s"] >= begin] ** 2)) <= 0.02
+        assert math.sqrt(np.mean(run["ze"] ** 2)) <= 0.015
+    assert abs(run["theta"]).max() <= DIVER.depth.max_pitch + math.radians(6.0)
+
+
+@pytest.mark.parametrize("above", [5.0, -5.0], ids=["above", "below"])
+def test_a_vehicle_away_from_the_depth_of_the_path_goes_there_and_stays(robust, above) -> None:
+    path = SpatialPath([Line(0.0, 0.0, 200.0, 0.0)], DepthProfile.constant(15.0, 200.0))
+    start = body_at(0.0, 0.0, 15.0 - above, 0.0, 0.0, 0.0, 1.9)
+    run = fly(SpatialScenario(path=path, vehicle=DIVER, thrust=6.48, initial=start, **robust))
+    assert math.copysign(1.0, run["theta_d"][0]) == -math.copysign(1.0, above)
+    late = run["t"] > 30.0
+    assert abs(run["z"][late] - 15.0).max() < 0.02
+    assert (above * (15.0 - run["z"])).min() > -0.3  # no overshoot worth the name
+
+
+def test_a_depth_that_a_weight_pulls_at_is_held_without_an_integral(robust) -> None:
+    """7 N of buoyancy to spare: the planes carry it, and the depth error goes to zero."""
+    import dataclasses
+
+    heavy = dataclasses.replace(DIVER.coefficients.vertical, B=DIVER.coefficients.vertical.W + 7.0)
+    light = dataclasses.replace(DIVER, hull=dataclasses.replace(DIVER.coefficients, vertical=heavy))
+    path = SpatialPath([Line(0.0, 0.0, 300.0, 0.0)], DepthProfile.constant(15.0, 300.0))
+    run = fly(SpatialScenario(path=path, vehicle=light, thrust=6.48, **robust))
+    assert abs(run["z"][-200:] - 15.0).max() < 0.002
+    assert math.degrees(run["sternplanes"][-2]) == pytest.approx(-5.5, abs=0.3)
+    assert math.degrees(run["theta"][-2]) == pytest.approx(-1.5, abs=0.2)
