@@ -9,6 +9,7 @@ import pytest
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files, vehicle
+from hulls import PRINTED, REMUS
 
 GOOD = config_files.find("vehicles", "remus100").read_text(encoding="utf-8")
 
@@ -170,3 +171,9 @@ def test_what_was_measured_counts_before_the_hull(tmp_path):
     path = tmp_path / "both.yaml"
     path.write_text(GOOD + "\ncruise: {thrust: 6.48, speed: 1.8}\n")
     assert vehicle.load(str(path)).speed_at(6.48) == pytest.approx(1.8)
+
+
+def test_a_weight_that_is_not_that_of_the_mass_is_refused():
+    heavy = dataclasses.replace(PRINTED, W=320.0)
+    with pytest.raises(ValueError, match="keys that do not fit"):
+        dataclasses.replace(REMUS.coefficients, vertical=heavy)

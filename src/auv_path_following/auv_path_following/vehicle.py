@@ -71,8 +71,7 @@ class Hull:
     def _weight_is_that_of_the_mass(self) -> Hull:
         vertical, weight = self.vertical, self.m * GRAVITY
         if vertical is not None and abs(vertical.W - weight) > 1e-3 * weight:
-            context = {"found": f"W = {vertical.W:g} N", "expected": f"m g = {weight:.5g} N within 0.1 %"}
-            raise PydanticCustomError("unfit", "vertical", context)
+            raise unfit(f"W = {vertical.W:g} N under vertical", f"m g = {weight:.5g} N within 0.1 %")
         return self
 
 

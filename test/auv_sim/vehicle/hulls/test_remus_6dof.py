@@ -155,5 +155,5 @@ def test_a_mass_matrix_that_is_not_definite_is_refused_with_its_half() -> None:
 
 
 def test_a_hull_whose_roll_nothing_damps_is_refused() -> None:
-    with pytest.raises(ValueError, match="roll"):
+    with pytest.raises(ValueError, match="keys that do not fit"):
         dataclasses.replace(PRINTED, Kpp=0.0)
