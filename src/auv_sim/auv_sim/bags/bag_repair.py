@@ -20,7 +20,8 @@ from auv_sim.bags.reading.bag_files import NO_METADATA, companions
 from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.recording import Bag, RecordedTopic
 from auv_sim.bags.reading.storage.mcap_scan import NOT_CLOSED, scan
-from auv_sim.bags.writing.bag_writer import TEXTS, BagWriter, Channel
+from auv_sim.bags.texts import TEXTS
+from auv_sim.bags.writing.bag_writer import BagWriter, Channel
 
 #: Suffix of a file that was replaced.
 KEPT = ".damaged"

@@ -1,7 +1,7 @@
-"""The whole suite wired without ROS: the reference for the graph, and the tool for fast studies.
+"""The whole suite in one loop without ROS: the reference for the graph, and the tool for fast studies.
 
 The nodes run the same steps in the same order with the same times, so the two trajectories agree to
-rounding. The graph only adds the way over the wire.
+rounding. The graph only adds the conversions of the wire.
 """
 
 from __future__ import annotations
@@ -30,6 +30,7 @@ from auv_path_following.navigation.current_observer import CurrentObserverConfig
 from auv_path_following.pilot import Pilot, begun, pilot
 from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.run_record import Run
+from auv_sim.flight.signals import TRUTH
 from auv_sim.sim_parameters import CRUISE
 from auv_sim.vehicle.remus import PlantState
 from auv_sim.vehicle.sea import Sea
@@ -38,20 +39,20 @@ from auv_sim.vehicle.simulated import SimulatedVehicle
 
 @dataclass(frozen=True, kw_only=True)
 class Scenario:
-    """One flight: everything that decides its course.
+    """The complete configuration of one flight.
 
     Attributes:
         path: what to follow.
         vehicle: the plant's hull.
         thrust: N, while the mission runs.
         initial: the plant's first state; the path's start at cruising speed if None.
-        current: constant current, m/s, NED; with a sea it comes on top of the sea's own.
-        sea: what is not ideal; None: nothing.
-        seed: of everything that is random in the sea.
+        current: constant current, m/s, NED, added to the sea's own.
+        sea: imperfections; None: an ideal sea.
+        seed: of the sea's random numbers.
         step: time between odometries, s.
         guidance, observer, autopilot: laws and gains.
         controller_vehicle: the hull that guidance and autopilot assume; the plant's own if None.
-        time_limit: the flight ends here at the latest, s.
+        time_limit: latest end of the flight, s.
     """
 
     path: CompositePath
@@ -79,16 +80,15 @@ class Scenario:
         return self.step_ns * 1e-9
 
 
-#: What a step's row holds, in its order: navigation, water, command, guidance, estimated and true current.
+#: Columns of a step's row: navigation, water, command, guidance, estimated and true current.
 _COLUMNS = (
     "x", "y", "psi", "r", "ur", "vr", "rudder_cmd", "thrust_cmd", "psi_d", "r_d", "xe", "ye", "psi_e", "s",
     "Vx_est", "Vy_est", "Vx_true", "Vy_true",
 )  # fmt: skip
-_TRUTH = ("x_true", "y_true", "psi_true")
 
 
 def start_of(path: CompositePath) -> PlantState:
-    """On the path's first point, along its tangent, at cruising speed."""
+    """Return the state on the path's first point, along its tangent, at cruising speed."""
     x, y, chi = path.start_pose
     return PlantState(x, y, chi, CRUISE, 0.0, 0.0)
 
@@ -97,7 +97,7 @@ def pilot_of(scenario: Scenario) -> Pilot:
     """Return the pilot of a scenario: no limits, no holds, and over the wire's last bits only at sea.
 
     Raises:
-        ConfigurationError: laws or gains that need what the vehicle's file does not have.
+        ConfigurationError: a law or gain needs a key that the vehicle's file lacks.
     """
     c = scenario
     hull = c.controller_vehicle or c.vehicle
@@ -140,7 +140,7 @@ def fly(scenario: Scenario, progress: Callable[[float], None] | None = None) -> 
         if progress is not None and k % 20 == 0:
             progress(g.s)
         seen = vehicle.advance(command, dt)
-    names = (*_COLUMNS, *_TRUTH) if at_sea else _COLUMNS
+    names = (*_COLUMNS, *TRUTH) if at_sea else _COLUMNS
     stamps = topics.FIRST_STAMP_NS + c.step_ns * np.arange(len(rows))
     columns = dict(zip(names, _table(rows).T, strict=True))
     return Run.from_columns(columns | {"t": stamps * 1e-9, "rudder": rudders})

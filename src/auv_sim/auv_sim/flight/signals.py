@@ -54,5 +54,8 @@ SIGNALS: dict[str, Signal] = {
     ),
 }
 
-#: Signals that people read in degrees.
+#: Columns of the true pose, of a simulator whose navigation errs.
+TRUTH = ("x_true", "y_true", "psi_true")
+
+#: Signals that are shown in degrees.
 ANGLES = tuple(name for name, signal in SIGNALS.items() if signal.unit.startswith("rad"))

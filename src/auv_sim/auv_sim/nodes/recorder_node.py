@@ -18,9 +18,10 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.node.run import run_nodes
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.bags.writing.bag_writer import BagWriter, texts_below
+from auv_sim.bags.texts import texts_below
+from auv_sim.bags.writing.bag_writer import BagWriter
 from auv_sim.bags.writing.disk_room import RoomWatch, room_lacking
-from auv_sim.bags.writing.intake import Taken, Timestamps, drain
+from auv_sim.bags.writing.intake import ReceivedMessage, Timestamps, drain
 from auv_sim.bags.writing.selection import Selection
 from auv_sim.sim_parameters import RecorderParameters
 
@@ -63,7 +64,7 @@ class RecorderNode(SuiteNode):
         )
         self._room = RoomWatch(directory)
         self._times = Timestamps(bool(self.get_parameter("use_sim_time").value))
-        self._early: list[Taken] = []
+        self._early: list[ReceivedMessage] = []
         self._last = self._flushed = self._polled = time.monotonic()
         self._flushed_ns = 0
         self._progress = self.advertise(topics.RECORDED_STEPS) if p.lockstep else None
@@ -118,7 +119,7 @@ class RecorderNode(SuiteNode):
             self._flushed, self._flushed_ns = now, end
             self._flush()
 
-    def _take_in(self, batch: list[Taken], last: bool = False) -> None:
+    def _take_in(self, batch: list[ReceivedMessage], last: bool = False) -> None:
         times, write = self._times, self.writer.write
         if times.simulated and times.now is None:
             batch = self._early + batch

@@ -14,7 +14,7 @@ from auv_msgs_py.values.errors import SuiteError
 from auv_path_following.missions import mission_file
 from auv_path_following.missions.mission_file import Mission
 from auv_sim.bags.reading.load import load
-from auv_sim.bags.writing.bag_writer import texts_below
+from auv_sim.bags.texts import texts_below
 from auv_sim.command_line import make_directory, say
 from auv_sim.flight.metrics import under_way
 from auv_sim.flight.run_record import Run

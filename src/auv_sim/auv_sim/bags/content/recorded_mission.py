@@ -17,7 +17,7 @@ from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.bags.reading.load import run_of
 from auv_sim.bags.reading.recording import Bag
-from auv_sim.bags.writing.bag_writer import texts_below
+from auv_sim.bags.texts import texts_below
 from auv_sim.flight.by_odometry import ByOdometry, by_odometry
 from auv_sim.flight.metrics import MissionSummary, summarise
 from auv_sim.flight.run_record import Run

@@ -1,4 +1,4 @@
-"""Writes a rosbag2 directory with MCAP storage, laid out as ROS 2 Jazzy's own recorder does. Needs no ROS."""
+"""Writes a rosbag2 directory with MCAP storage, in the layout of ROS 2 Jazzy's recorder. ROS-free."""
 
 from __future__ import annotations
 
@@ -14,47 +14,35 @@ from rosbags.rosbag2.metadata import dump_qos_v9
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags import metadata
-from auv_sim.bags.definitions import Definition, definition, typestore
-from auv_sim.bags.metadata import METADATA_FILE, FileMetadata, TopicMetadata
+from auv_sim.bags.definitions import Definition, typestore
+from auv_sim.bags.metadata import METADATA_FILE, FileMetadata
+from auv_sim.bags.texts import TEXTS
 from auv_sim.bags.writing.channel import Channel
 from auv_sim.bags.writing.mcap_file import Compression, McapFile
+from auv_sim.bags.writing.topic_table import TopicTable
 
 __all__ = ["METADATA_FILE", "BagWriter", "Channel", "typestore"]
 
-#: Name of the MCAP metadata record that holds the texts kept in a file.
-TEXTS = "auv_sim.texts"
-#: Larger files are no configuration, bytes.
-TEXT_LIMIT = 4_000_000
-#: What may wait in memory for a disk that is full, bytes; further messages are counted and given up.
+#: Most bytes that wait in memory for a full disk; further messages are counted and given up.
 PENDING_LIMIT = 16 * 1024 * 1024
 
 
-def texts_below(directory: Path) -> dict[str, str]:
-    """Every text file below a directory, by its path within; what is no text, or large, is left out."""
-    texts = {}
-    for file in sorted(directory.rglob("*")):
-        if file.is_file() and file.stat().st_size < TEXT_LIMIT:
-            with contextlib.suppress(UnicodeDecodeError):
-                texts[file.relative_to(directory).as_posix()] = file.read_text(encoding="utf-8")
-    return texts
-
-
 class BagWriter:
-    """One recording: `add_topic`, then `write` as often as wanted, then `close`.
+    """One recording: `add_topic`, then `write` for each message, then `close`.
 
-    Messages gather in memory until `flush` is called. After `flush` the operating system has them, so a
-    process that is killed loses only what came later.
+    Messages stay in memory until `flush` passes them to the operating system; a killed process loses only
+    later ones.
 
     Args:
-        directory: the rosbag2 directory to make; it must not exist.
+        directory: the new rosbag2 directory; it must not exist.
         compression: of the chunks, "none" or "zstd".
         chunk_size: bytes of messages that make a chunk.
         max_size: bytes after which a new file is begun; 0 for never.
         max_duration_ns: recorded time after which a new file is begun; 0 for never.
-        texts: kept in every file, by name (the configuration that was flown).
-        name: what the storage files' names begin with; the directory's name by default.
+        texts: the flown configuration by file name, kept in every storage file.
+        name: prefix of the storage files' names; the directory's name by default.
         definitions: types that need not be looked up.
-        profile: what every file says of itself.
+        profile: of every file.
 
     Raises:
         ConfigurationError: the directory exists or cannot be made, or the compression is unknown.
@@ -81,8 +69,7 @@ class BagWriter:
         self._texts = dict(texts or {})
         self._profile = profile
         self._name = name or directory.resolve().name
-        self._definitions = definitions if definitions is not None else {}
-        self._channels: dict[str, Channel] = {}
+        self._topics = TopicTable(definitions)
         self._files: list[FileMetadata] = []
         self._closed = self._whole = False
         #: Messages given up because the disk had no room for them.
@@ -97,9 +84,7 @@ class BagWriter:
 
     def _open(self) -> McapFile:
         path = self.directory / f"{self._name}_{len(self._files)}.mcap"
-        self._schemas: dict[tuple[str, str, bytes], int] = {}
-        for channel in self._channels.values():
-            channel.number = 0
+        self._topics.begin_file()
         file = McapFile(path, self._compression, self._chunk_size, self._profile)
         if self._texts:
             file.metadata(TEXTS, self._texts)
@@ -114,21 +99,21 @@ class BagWriter:
     @property
     def counts(self) -> dict[str, int]:
         """Messages written so far: topic name -> number."""
-        return {channel.name: channel.count for channel in self._channels.values()}
+        return {channel.name: channel.count for channel in self._topics}
 
     @property
     def size(self) -> int:
-        """Bytes handed over so far, all files."""
+        """Bytes passed on so far, all files."""
         return sum(file.size for file in self._files) + self._file.size
 
     @property
     def pending(self) -> int:
-        """Bytes that the operating system has not got yet."""
+        """Bytes not yet passed to the operating system."""
         return self._file.journal.pending + self._file.filling
 
     @property
     def trouble(self) -> str:
-        """Why nothing can be written at the moment; empty when all is well."""
+        """Reason why nothing can be written at present; empty without one."""
         error = self._file.journal.error
         return "" if error is None else f"{self.file.name}: {error.strerror}"
 
@@ -141,75 +126,27 @@ class BagWriter:
             qos: the QoS that each publisher offers.
 
         Raises:
-            ConfigurationError: nobody knows the type, or the topic was added before.
+            ConfigurationError: the type is unknown, or the topic was added before.
         """
-        if name in self._channels:
-            raise ConfigurationError(name, "a topic that is recorded already", "a new topic")
-        try:
-            self._definition(type_name)
-        except ConfigurationError as error:
-            raise ConfigurationError(name, f"the type {type_name}", error.expected) from None
-        channel = self._channels[name] = Channel(name, type_name, list(dump_qos_v9(list(qos))))
-        return channel
+        return self._topics.add(name, type_name, qos)
 
     def copy_topic(
         self, channel: records.Channel, schema: records.Schema | None, qos: Sequence[Qos]
     ) -> Channel:
-        """Announce a topic of another file, in whatever notation, with all that is said of it there."""
-        type_name = schema.name if schema else ""
-        made = Channel(channel.topic, type_name, list(dump_qos_v9(list(qos))), (channel, schema))
-        self._channels[channel.topic] = made
-        return made
+        """Announce a topic of another file with its description there."""
+        return self._topics.copy(channel, schema, qos)
 
     def copy(self, record: records.Metadata | records.Attachment) -> None:
-        """Take over what another file has besides messages."""
+        """Copy a metadata record or an attachment of another file."""
         if isinstance(record, records.Metadata):
             self._file.metadata(record.name, record.metadata)
         else:
             self._file.attachment(record)
 
-    def _definition(self, type_name: str) -> Definition:
-        """What is given counts for a type that is not ROS 2 Jazzy's, or is another one there."""
-        given = self._definitions.get(type_name)
-        if given is None:
-            return definition(type_name)
-        try:
-            standard = definition(type_name)
-        except ConfigurationError:
-            return given
-        return standard if not given.text or given.text.split() == standard.text.split() else given
-
     def set_qos(self, channel: Channel, qos: Sequence[Qos]) -> None:
-        """Say what the publishers really offer; counts until the topic's first message."""
+        """Set the QoS that the publishers offer; ignored after the topic's first message."""
         if not channel.count:
             channel.qos = list(dump_qos_v9(list(qos)))
-
-    def _announce(self, channel: Channel) -> int:
-        if channel.original is not None:
-            known, schema = channel.original
-            number = self._schema(schema.name, schema.encoding, schema.data) if schema else 0
-            described, encoding = known.metadata, known.message_encoding
-        else:
-            text, type_hash = self._definition(channel.type)
-            number = self._schema(channel.type, "ros2msg", text.encode())
-            qos = metadata.dump(channel.qos).rstrip("\n")
-            described, encoding = {"offered_qos_profiles": qos, "topic_type_hash": type_hash}, "cdr"
-        channel.number = self._file.channel(channel.name, number, described, encoding)
-        return channel.number
-
-    def _schema(self, *described: Any) -> int:
-        if described not in self._schemas:
-            self._schemas[described] = self._file.schema(*described)
-        return self._schemas[described]
-
-    def _facts(self, channel: Channel) -> TopicMetadata:
-        if channel.original is None:
-            type_hash, encoding = self._definition(channel.type).type_hash, "cdr"
-        else:
-            known, _ = channel.original
-            type_hash, encoding = known.metadata.get("topic_type_hash", ""), known.message_encoding
-        messages = channel.count + channel.repeated
-        return TopicMetadata(channel.name, channel.type, messages, channel.qos, type_hash, encoding)
 
     def write(
         self, channel: Channel, log_time_ns: int, publish_time_ns: int, cdr: bytes, sequence: int = 0
@@ -217,22 +154,23 @@ class BagWriter:
         """Record one message.
 
         Args:
-            channel: what `add_topic` returned.
-            log_time_ns: when it was received, ns.
-            publish_time_ns: when it was sent, ns.
-            cdr: the serialised message with its four bytes of CDR header; never looked into.
-            sequence: the publisher's number of it.
+            channel: from `add_topic`.
+            log_time_ns: time of receipt, ns.
+            publish_time_ns: time of sending, ns.
+            cdr: the serialised message with its four bytes of CDR header.
+            sequence: number from its publisher.
         """
         if self._closed or self._file.journal.pending > PENDING_LIMIT:
             self.given_up += 1
             return
         if channel.latched:
             channel.keep(sequence, publish_time_ns, cdr)
-        self._file.add(channel.number or self._announce(channel), sequence, log_time_ns, publish_time_ns, cdr)
+        number = channel.number or self._topics.announce(channel, self._file)
+        self._file.add(number, sequence, log_time_ns, publish_time_ns, cdr)
         channel.count += 1
 
     def flush(self) -> bool:
-        """Hand over everything to the operating system; False while the disk has no room (see `trouble`)."""
+        """Pass everything to the operating system; return False while the disk is full (see `trouble`)."""
         if not self._file.flush():
             return False
         file = self._file
@@ -245,30 +183,30 @@ class BagWriter:
         return True
 
     def _repeat(self, log_time_ns: int) -> None:
-        """Begin a further file with the latched messages, so that it can be understood without the others."""
-        for channel in self._channels.values():
+        """Begin a further file with the latched messages, so that it is complete without the others."""
+        for channel in self._topics:
             for sequence, publish_time_ns, cdr in channel.kept:
-                number = channel.number or self._announce(channel)
+                number = channel.number or self._topics.announce(channel, self._file)
                 self._file.add(number, sequence, log_time_ns, publish_time_ns, cdr)
                 channel.repeated += 1
 
     def _finish_file(self) -> bool:
         file = self._file
-        for channel in self._channels.values():
+        for channel in self._topics:
             if not channel.number and not self._files:
-                self._announce(channel)
+                self._topics.announce(channel, self._file)
         if not file.journal.commit() or not file.flush():
             file.journal.close()
             return False
         self._files.append(
             FileMetadata(file.path.name, file.first_ns, file.last_ns, file.messages, file.size)
         )
-        # rosbag2 keeps a copy inside the storage file, so that the file alone tells everything.
+        # rosbag2 keeps a copy in the storage file, so that the file is complete without metadata.yaml.
         file.metadata("rosbag2", {"serialized_metadata": metadata.dump(self._information()).rstrip("\n")})
         return file.finish()
 
     def close(self) -> bool:
-        """Write the index and metadata.yaml; harmless when called again.
+        """Write the index and metadata.yaml; calling it again has no effect.
 
         Returns:
             Whether the recording is whole. A disk without room leaves it unfinished, but readable.
@@ -283,11 +221,11 @@ class BagWriter:
 
     @property
     def closed(self) -> bool:
-        """Whether `close` was called: what is written after that is given up and counted."""
+        """Whether `close` was called; later messages are given up and counted."""
         return self._closed
 
     def _information(self) -> dict[str, Any]:
-        return metadata.information([self._facts(c) for c in self._channels.values()], self._files)
+        return metadata.information(self._topics.metadata(), self._files)
 
     def __enter__(self) -> BagWriter:
         return self

@@ -1,9 +1,9 @@
 """Takes messages off subscriptions in batches: one wake-up for all topics instead of one for each message.
 
-A recorder in lockstep gets some twenty messages a step. Handed over one by one each of them costs a wake-up,
-a lock and a callback, which is several times what taking it from the reader's queue costs. So the queues are
-deep, no executor looks at them, and every few milliseconds everything that has come is fetched at once. When
-each message was sent and received is what the middleware says, not a clock that is read afterwards.
+A recorder in lockstep receives some twenty messages a step. One by one, each of them costs a wake-up, a lock
+and a callback, several times the cost of taking it from the reader's queue. So the queues are deep, no
+executor serves them, and everything that has arrived is fetched every few milliseconds. The times of sending
+and receipt are the middleware's, not those of a clock that is read afterwards.
 """
 
 from __future__ import annotations
@@ -24,24 +24,24 @@ from auv_msgs_py.values.errors import MessageRefused
 from auv_sim.bags.sequence_watch import SequenceWatch
 from auv_sim.bags.writing.bag_writer import Channel
 
-#: At least so many times of /clock are remembered, for messages that come late.
+#: Least number of /clock times kept, for late messages.
 _REMEMBERED = 10_000
 #: A message sent this long before the newest /clock is a latched one, or the machine's clock was set, ns.
 _LONG_AGO = 10_000_000_000
-#: What messages are sorted by.
+#: Sort key of messages.
 _WHEN = itemgetter(0, 1, 2)
 
 
 class PolledTopic:
-    """A raw subscription that is emptied when it suits the recorder.
+    """A raw subscription that the recorder polls.
 
     Args:
         node: the recorder.
         name: full topic name.
         type_name: ROS type.
-        profile: the QoS to ask for.
-        channel: where its messages go.
-        fixed: the QoS must stay as it is (lockstep waits for exactly this reader).
+        profile: the requested QoS.
+        channel: of the writer.
+        fixed: whether the QoS must not change (lockstep waits for exactly this reader).
     """
 
     def __init__(
@@ -50,12 +50,12 @@ class PolledTopic:
         self.name = name
         self.channel = channel
         self.fixed = fixed
-        #: Whether a message has come, and from how many publishers they may come.
+        #: Whether a message has arrived; number of publishers.
         self.known = False
         self.publishers = 1
         self.watch = SequenceWatch()
         self._node = node
-        self._fetched: list[Taken] = []
+        self._fetched: list[ReceivedMessage] = []
         self._type = message_class(type_name)
         self.is_clock = name == CLOCK.name
         self._subscribe(profile)
@@ -68,24 +68,24 @@ class PolledTopic:
         self._take = take_polled(self._node, self._subscription)
 
     def resubscribe(self, profile: QoSProfile) -> None:
-        """Ask for another QoS, unless something has come by now: it would go with the old subscription."""
+        """Request another QoS, unless a message has arrived: it would be lost with the old subscription."""
         self._fetch(self._fetched)
         if not self._fetched:
             self.close()
             self._subscribe(profile)
 
     def close(self) -> None:
-        """Leave the topic."""
+        """End the subscription."""
         self._subscription.destroy()
 
-    def take(self, batch: list[Taken]) -> None:
-        """Append everything that has come."""
+    def take(self, batch: list[ReceivedMessage]) -> None:
+        """Append everything that has arrived."""
         if self._fetched:
             batch += self._fetched
             self._fetched = []
         self._fetch(batch)
 
-    def _fetch(self, batch: list[Taken]) -> None:
+    def _fetch(self, batch: list[ReceivedMessage]) -> None:
         take, kind, order = self._take, self._type, 0 if self.is_clock else 1
         while (taken := take(kind, True)) is not None:
             data, info = taken
@@ -94,45 +94,45 @@ class PolledTopic:
             batch.append((info["source_timestamp"] or received, order, sequence, received, self, data))
 
 
-#: One message: when it was sent (ns, the machine's clock), 0 for /clock and 1 for all else, its publisher's
-#: number of it, when it was received (ns), its topic, its bytes.
-Taken = tuple[int, int, int, int, PolledTopic, bytes]
+#: One message: time of sending (ns, the machine's clock), 0 for /clock and 1 for others, sequence number,
+#: time of receipt (ns), topic, bytes.
+ReceivedMessage = tuple[int, int, int, int, PolledTopic, bytes]
 
 
 class Timestamps:
     """Log time and publish time of each message.
 
     Args:
-        simulated: both are what /clock said when the message was sent; else the machine's clock.
+        simulated: whether both are the time of /clock when the message was sent; else the machine's clock.
     """
 
     def __init__(self, simulated: bool) -> None:
         self.simulated = simulated
         #: Simulated time, ns; None before the first /clock.
         self.now: int | None = None
-        # When each /clock was sent, in that order, what it said, and when the newest was sent, ns.
+        # Times of sending of /clock, in order; its times; time of sending of the newest, ns.
         self._sent: list[int] = []
-        self._said: list[int] = []
+        self._clock_times: list[int] = []
         self._newest = 0
         self._message = Clock()
 
-    def begin(self, batch: list[Taken]) -> None:
+    def begin(self, batch: list[ReceivedMessage]) -> None:
         """Give what was sent before the first /clock the time of that message."""
         first = next((data for _, order, _, _, _, data in batch if order == 0), None)
         self.now = (self._clock(first) or 0) if first is not None else 0
 
     def tick(self, sent_ns: int, data: bytes) -> None:
         """Move the time: a /clock message was sent at `sent_ns`."""
-        said = self._clock(data) if self.simulated else None
-        if said is None:
+        clock = self._clock(data) if self.simulated else None
+        if clock is None:
             return
         if self._sent and sent_ns < self._newest:  # the machine's clock was set back
-            self._sent, self._said = [], []
-        self.now, self._newest = said, sent_ns
+            self._sent, self._clock_times = [], []
+        self.now, self._newest = clock, sent_ns
         self._sent.append(sent_ns)
-        self._said.append(said)
+        self._clock_times.append(clock)
         if len(self._sent) > 2 * _REMEMBERED:
-            del self._sent[:-_REMEMBERED], self._said[:-_REMEMBERED]
+            del self._sent[:-_REMEMBERED], self._clock_times[:-_REMEMBERED]
 
     def of(self, sent_ns: int, received_ns: int) -> tuple[int, int]:
         """Return log time and publish time of a message, ns.
@@ -144,7 +144,7 @@ class Timestamps:
             return received_ns, sent_ns
         now = self.now or 0
         if self._newest - _LONG_AGO <= sent_ns < self._newest:
-            now = self._said[max(bisect_right(self._sent, sent_ns) - 1, 0)]
+            now = self._clock_times[max(bisect_right(self._sent, sent_ns) - 1, 0)]
         return now, now
 
     def _clock(self, data: bytes) -> int | None:
@@ -156,9 +156,9 @@ class Timestamps:
             return None
 
 
-def drain(topics: list[PolledTopic]) -> list[Taken]:
+def drain(topics: list[PolledTopic]) -> list[ReceivedMessage]:
     """Everything that has come on all topics, in the order in which it was sent."""
-    batch: list[Taken] = []
+    batch: list[ReceivedMessage] = []
     clocks: list[PolledTopic] = []
     for topic in topics:
         if topic.is_clock:

@@ -38,6 +38,7 @@ from auv_sim.flight.batch.scenarios import Preparation, flight_of
 from auv_sim.flight.closed_loop import Scenario, start_of
 from auv_sim.flight.flown_share import cells_of
 from auv_sim.flight.run_record import Run
+from auv_sim.flight.signals import TRUTH
 from auv_sim.vehicle.at_sea import at_sea_of
 from auv_sim.vehicle.draws import Draws
 from auv_sim.vehicle.remus import PlantState, plant_at
@@ -170,7 +171,7 @@ def track(scenario: Scenario, every: int = 1) -> Run:
         return closed_loop.fly(scenario).select(slice(None, None, every))
     *_, rows = _flown(scenario, course_of(scenario.path), flight_of(scenario), every)
     t = [(topics.FIRST_STAMP_NS + int(k) * scenario.step_ns) * 1e-9 for k in rows[:, track_row.NUMBER]]
-    names = track_row.TRACK if scenario.sea is None else (*track_row.TRACK, *track_row.TRUTH)
+    names = track_row.TRACK if scenario.sea is None else (*track_row.TRACK, *TRUTH)
     return Run.from_columns({"t": t} | {name: rows[:, j] for j, name in enumerate(names, 1)})
 
 

@@ -12,8 +12,6 @@ TRACK = (
     "x", "y", "psi", "r", "ur", "vr", "rudder", "rudder_cmd", "thrust_cmd", "psi_d", "r_d",
     "xe", "ye", "psi_e", "s", "Vx_est", "Vy_est", "Vx_true", "Vy_true",
 )  # fmt: skip
-#: Those that follow at sea.
-TRUTH = ("x_true", "y_true", "psi_true")
 
 (
     NUMBER, X, Y, PSI, R, UR, VR, RUDDER, RUDDER_CMD, THRUST_CMD, PSI_D, R_D,

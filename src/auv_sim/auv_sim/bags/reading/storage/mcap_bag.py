@@ -8,7 +8,7 @@ from mcap.records import Channel, Schema
 
 from auv_sim.bags.reading.recording import Bag, RecordedTopic, TopicFilter
 from auv_sim.bags.reading.storage.mcap_scan import ScanResult, scan
-from auv_sim.bags.writing.bag_writer import TEXTS
+from auv_sim.bags.texts import TEXTS
 
 #: The metadata record in which rosbag2 repeats metadata.yaml.
 _REPEATED = "rosbag2"
