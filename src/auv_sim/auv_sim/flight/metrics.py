@@ -151,33 +151,9 @@ def summarise(run: Run, path: CompositePath, begin: float = 0.0) -> MissionSumma
     """
     flown = under_way(run, path.n)
     part = flown_share(flown, path, begin)
-    i = flown.subpath(path.n)
-    x, y = flown.track
-    distance = path.distance(x, y, i)
-    covered = np.hypot(np.diff(x), np.diff(y))
-    moved = np.degrees(np.abs(np.diff(flown.rudder)))
-    elapsed = np.diff(flown.t)
-    heading_error = np.degrees(flown.psi_e)
-
-    def figures(rows: NDArray[np.bool_]) -> dict[str, Any]:
-        steps = rows[:-1]
-        travel, metres = _sum(moved[steps]), _sum(covered[steps])
-        return {
-            "duration": _sum(elapsed[steps]),
-            "rms_distance": _rms(distance[rows]),
-            "largest_distance": _largest(distance[rows]),
-            "rms_heading_error": _rms(heading_error[rows]),
-            "rudder_travel": travel,
-            "rudder_travel_per_metre": travel / metres if metres > 0.0 else math.nan,
-            "distance_covered": metres,
-        }
-
-    whole = figures(np.ones(flown.steps, bool))
-    corners, free = [], np.ones(flown.steps, bool)
-    for joint in (joint for joint in path.joints if joint.geometric == "G0"):
-        near = _near(joint, x, y, i)
-        corners.append(CornerSummary(joint.index, joint.x, joint.y, _largest(distance[near])))
-        free &= ~near
+    rows = _Rows(flown, path)
+    whole = rows.figures(np.ones(flown.steps, bool))
+    corners, free = rows.corners(path)
     return MissionSummary(
         completed=bool((run.s >= path.n).any()),
         flown_share=part.share,
@@ -188,14 +164,50 @@ def summarise(run: Run, path: CompositePath, begin: float = 0.0) -> MissionSumma
         mean_speed=whole["distance_covered"] / whole["duration"] if whole["duration"] > 0.0 else math.nan,
         current_estimate_error=_current_estimate_error(flown),
         subpaths=tuple(
-            SubpathSummary(number=k + 1, kind=segment.kind, **figures(i == k))
+            SubpathSummary(number=k + 1, kind=segment.kind, **rows.figures(rows.subpath == k))
             for k, segment in enumerate(path.segments)
         ),
-        corners=tuple(corners),
-        largest_distance_off_corners=_largest(distance[free]),
+        corners=corners,
+        largest_distance_off_corners=_largest(rows.distance[free]),
         navigation_error=_largest(np.hypot(flown.x_true - flown.x, flown.y_true - flown.y)),
         **whole,
     )
+
+
+class _Rows:
+    """The rows of a run under way, with their distances to the path and the steps between them."""
+
+    def __init__(self, flown: Run, path: CompositePath) -> None:
+        self.subpath = flown.subpath(path.n)
+        self.x, self.y = flown.track
+        self.distance = path.distance(self.x, self.y, self.subpath)
+        self._covered = np.hypot(np.diff(self.x), np.diff(self.y))
+        self._moved = np.degrees(np.abs(np.diff(flown.rudder)))
+        self._elapsed = np.diff(flown.t)
+        self._heading_error = np.degrees(flown.psi_e)
+
+    def figures(self, rows: NDArray[np.bool_]) -> dict[str, Any]:
+        """Return the figures of some rows, shape (n,), by the names of `SubpathSummary`."""
+        steps = rows[:-1]
+        travel, metres = _sum(self._moved[steps]), _sum(self._covered[steps])
+        return {
+            "duration": _sum(self._elapsed[steps]),
+            "rms_distance": _rms(self.distance[rows]),
+            "largest_distance": _largest(self.distance[rows]),
+            "rms_heading_error": _rms(self._heading_error[rows]),
+            "rudder_travel": travel,
+            "rudder_travel_per_metre": travel / metres if metres > 0.0 else math.nan,
+            "distance_covered": metres,
+        }
+
+    def corners(self, path: CompositePath) -> tuple[tuple[CornerSummary, ...], NDArray[np.bool_]]:
+        """Return the figures of each G0 joint, and the rows that are near none of them."""
+        corners, free = [], np.ones(len(self.x), bool)
+        for joint in (joint for joint in path.joints if joint.geometric == "G0"):
+            near = _near(joint, self.x, self.y, self.subpath)
+            corners.append(CornerSummary(joint.index, joint.x, joint.y, _largest(self.distance[near])))
+            free &= ~near
+        return tuple(corners), free
 
 
 def farthest(parts: Sequence[Part], most: int) -> list[Part]:

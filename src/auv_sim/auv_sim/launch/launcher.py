@@ -19,7 +19,7 @@ from auv_sim.launch.processes import discovery
 from auv_sim.launch.processes.adopted import Loader
 from auv_sim.launch.processes.domains import free_domain
 from auv_sim.launch.processes.placement import Processor
-from auv_sim.launch.processes.process_group import Child, Children
+from auv_sim.launch.processes.process_group import Children
 from auv_sim.launch.progress_display import ProgressDisplay
 from auv_sim.launch.vehicle_driver import EMULATOR, EMULATOR_MODULE
 
@@ -244,11 +244,4 @@ class _Flight:
     def _check_children(self) -> None:
         dead = self._children.dead()
         if dead is not None:
-            raise MissionFailed(_obituary(dead))
-
-
-def _obituary(child: Child) -> str:
-    code = child.exit_code or 0
-    how = f"was killed by signal {-code}" if code < 0 else f"ended with code {code}"
-    lines = "\n".join(f"  | {line}" for line in child.last_lines())
-    return f"{child.name} {how}; its last lines ({child.log}):\n{lines}"
+            raise MissionFailed(dead.obituary())

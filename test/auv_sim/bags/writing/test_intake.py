@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from auv_sim.bags.writing.intake import Taken, Timestamps
+from auv_sim.bags.writing.intake import ReceivedMessage, Timestamps
 
 TOPIC: Any = SimpleNamespace(name="/clock")
 
@@ -17,15 +17,15 @@ def clock(seconds: int, nanoseconds: int) -> bytes:
     return b"\x00\x01\x00\x00" + struct.pack("<iI", seconds, nanoseconds)
 
 
-def sent(at: int) -> Taken:
+def sent(at: int) -> ReceivedMessage:
     return at, 1, 1, at, TOPIC, b""
 
 
-def tick(at: int, told: int) -> Taken:
+def tick(at: int, told: int) -> ReceivedMessage:
     return at, 0, 1, at, TOPIC, clock(told, 0)
 
 
-def times_of(times: Timestamps, batch: list[Taken]) -> list[int]:
+def times_of(times: Timestamps, batch: list[ReceivedMessage]) -> list[int]:
     """Return the log time of each message, s, as a recorder gives it."""
     found = []
     for sent_ns, order, _, received_ns, _, data in batch:
@@ -40,7 +40,7 @@ def times_of(times: Timestamps, batch: list[Taken]) -> list[int]:
 @pytest.mark.parametrize("wrong", [clock(-1, 0), clock(2**31 - 1, 2**32 - 1), b"\x00\x01\x00\x00\x05"])
 def test_a_clock_that_is_no_time_moves_nothing(wrong: bytes) -> None:
     times = Timestamps(simulated=True)
-    spoiled: Taken = (1, 0, 1, 1, TOPIC, wrong)
+    spoiled: ReceivedMessage = (1, 0, 1, 1, TOPIC, wrong)
     times.begin([spoiled])
     assert times_of(times, [tick(1, 5), spoiled]) == [5, 5]
 

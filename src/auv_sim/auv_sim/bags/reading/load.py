@@ -5,28 +5,22 @@ from __future__ import annotations
 import contextlib
 from operator import itemgetter
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.frames import (
-    Convention,
     FrameIds,
     FrameTable,
-    flip_yaw,
-    swap_axes,
-    yaw_of_quaternion,
 )
 from auv_msgs_py.contract.topics import Topic
-from auv_msgs_py.values.angles import wrap
 from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
 from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.columns import Columns, decode
 from auv_sim.bags.reading.deserialize import deserializer
-from auv_sim.bags.reading.held_rows import held_rows
 from auv_sim.bags.reading.recording import Bag, RecordedTopic
+from auv_sim.bags.reading.run_columns import RecordedColumns, assemble
 from auv_sim.flight.run_record import Run
 
 #: Every topic with signals of a `Run`.
@@ -46,17 +40,6 @@ USED = (
 )
 #: Its states are intervals of time, not numbers.
 _STATE = topics.MISSION_STATE  # fmt: skip
-
-_POSITION, _ORIENTATION = "pose.pose.position.", "pose.pose.orientation."
-#: The numbers of an odometry that make a pose.
-_POSE = (f"{_POSITION}x", f"{_POSITION}y", *(f"{_ORIENTATION}{axis}" for axis in "xyzw"))
-
-
-class _Recorded(NamedTuple):
-    """One topic of the bag: log times (n,), ns, and the messages' fields."""
-
-    log_ns: NDArray[np.int64]
-    columns: Columns
 
 
 def load(bag: Path, namespace: str | None = None, frame_ids: FrameIds | None = None) -> Run:
@@ -101,7 +84,7 @@ def run_of(bag: Bag, namespace: str | None = None, frame_ids: FrameIds | None = 
         messages = [message for k in rows if (message := found.messages[k]) is not None]
         if messages:
             log_ns = np.array(found.log_ns, np.int64)[rows]
-            recorded[topic] = _Recorded(log_ns, _decoded(topic, messages, bag.path))
+            recorded[topic] = RecordedColumns(log_ns, _decoded(topic, messages, bag.path))
     if topics.ODOM not in recorded:
         expected = f"messages on {topics.ODOM.name}, or of type {topics.ODOM.type} on one other topic"
         raise ConfigurationError(str(bag.path), "no odometry", expected)
@@ -110,7 +93,7 @@ def run_of(bag: Bag, namespace: str | None = None, frame_ids: FrameIds | None = 
     states = messages_of(state) if state is not None and state.type == _STATE.type else []
     try:
         with np.errstate(over="ignore", invalid="ignore"):  # numbers of a damaged message
-            return _assemble(recorded, states, table, bag.path)
+            return assemble(recorded, states, table, bag.path)
     except MessageRefused as refused:
         raise ConfigurationError(f"{bag.path}: {refused.topic}", refused.found, refused.expected) from None
 
@@ -168,104 +151,3 @@ def _decoded(topic: Topic, messages: list[bytes], bag: Path) -> Columns:
         raise ConfigurationError(
             f"{bag}: {topic.name}", f"a damaged message ({reason})", topic.type
         ) from None
-
-
-def _assemble(
-    recorded: dict[Topic, _Recorded], states: list[tuple[int, Any]], table: FrameTable, bag: Path
-) -> Run:
-    odometry = recorded[topics.ODOM]
-    world, body = _frames(topics.ODOM, odometry.columns, bag)
-    convention = table.of_pose(topics.ODOM.name, world, body)
-    x, y, psi = _pose([odometry.columns.column(field) for field in _POSE], convention)
-    turn = odometry.columns.column("twist.twist.angular.z")
-    if convention is Convention.ENU_FLU:
-        turn = -turn
-
-    def aligned(topic: Topic, field: str = "data") -> Any:
-        return _aligned(odometry, recorded.get(topic), field)
-
-    Vx_est, Vy_est = swap_axes(*(aligned(topics.CURRENT_ESTIMATE, f"vector.{axis}") for axis in "xy"))
-    Vx_true, Vy_true = swap_axes(*(aligned(topics.TRUE_CURRENT, f"vector.{axis}") for axis in "xy"))
-    x_true, y_true, psi_true = _pose([aligned(topics.TRUE_ODOM, field) for field in _POSE], convention)
-    run = Run.from_columns(
-        {
-            "t": odometry.columns.stamp_ns * 1e-9,
-            "x": x,
-            "y": y,
-            "psi": psi,
-            "r": turn,
-            "ur": aligned(topics.WATER_VELOCITY, "twist.twist.linear.x"),
-            "vr": _sway_sign(recorded, table, bag) * aligned(topics.WATER_VELOCITY, "twist.twist.linear.y"),
-            "rudder": aligned(topics.RUDDER_STATE),
-            "rudder_cmd": aligned(topics.RUDDER_CMD),
-            "thrust_cmd": aligned(topics.THRUST_CMD),
-            "psi_d": wrap(flip_yaw(aligned(topics.DESIRED_YAW))),
-            "r_d": -aligned(topics.DESIRED_YAW_RATE),
-            "xe": aligned(topics.PATH_ERROR, "vector.x"),
-            "ye": aligned(topics.PATH_ERROR, "vector.y"),
-            "psi_e": aligned(topics.PATH_ERROR, "vector.z"),
-            "s": aligned(topics.PATH_PARAMETER),
-            "Vx_est": Vx_est,
-            "Vy_est": Vy_est,
-            "Vx_true": Vx_true,
-            "Vy_true": Vy_true,
-            "x_true": x_true,
-            "y_true": y_true,
-            "psi_true": psi_true,
-            "held": held_rows(odometry.log_ns, states),
-        }
-    )
-    return run.select(_first_flight(odometry.columns.stamp_ns))
-
-
-def _sway_sign(recorded: dict[Topic, _Recorded], table: FrameTable, bag: Path) -> float:
-    """Return -1 where the velocity through water is in FLU, whose sway is opposite to FRD's; else 1."""
-    water = recorded.get(topics.WATER_VELOCITY)
-    if water is None:
-        return 1.0
-    (frame,) = _frames(topics.WATER_VELOCITY, water.columns, bag)
-    convention = table.of_body(topics.WATER_VELOCITY.name, frame)
-    return -1.0 if convention is Convention.ENU_FLU else 1.0
-
-
-def _pose(columns: list[Any], convention: Convention) -> tuple[Any, Any, Any]:
-    """Return x, y (m) and psi (rad), NED, from the columns of `_POSE`."""
-    x, y, yaw = columns[0], columns[1], yaw_of_quaternion(*columns[2:])
-    if convention is Convention.ENU_FLU:
-        (x, y), yaw = swap_axes(x, y), flip_yaw(yaw)
-    return x, y, wrap(yaw)
-
-
-def _first_flight(stamp: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Return the rows up to the first backward jump, without lone older or repeated stamps, shape (n,)."""
-    newest_before = np.concatenate(([np.iinfo(np.int64).min], np.maximum.accumulate(stamp)[:-1]))
-    older = stamp < newest_before
-    jumps = np.flatnonzero(older[:-1] & older[1:])
-    kept: NDArray[np.bool_] = stamp > newest_before
-    if jumps.size:
-        kept[jumps[0] :] = False
-    return kept
-
-
-def _frames(topic: Topic, columns: Columns, bag: Path) -> tuple[str, ...]:
-    if len(columns.frames) > 1:
-        listed = " and ".join(repr(frames) for frames in columns.frames)
-        raise ConfigurationError(f"{bag}: {topic.name}", f"frame ids {listed}", "the same in every message")
-    return columns.frames[0]
-
-
-def _aligned(odometry: _Recorded, other: _Recorded | None, field: str) -> NDArray[np.float64]:
-    """Return one field of a topic for each odometry, shape (n,); NaN before the topic's first message."""
-    n = odometry.log_ns.size
-    if other is None:
-        return np.full(n, np.nan)
-    values = other.columns.column(field)
-    if other.columns.frames:
-        kept = _first_flight(other.columns.stamp_ns)
-        values, times, at = values[kept], other.columns.stamp_ns[kept], odometry.columns.stamp_ns
-    elif values.size == n:
-        return values
-    else:
-        times, at = other.log_ns, odometry.log_ns
-    row = np.searchsorted(times, at, side="right") - 1
-    return np.where(row >= 0, values[np.maximum(row, 0)], np.nan)

@@ -45,6 +45,13 @@ class Child:
         text = self.log.read_text(encoding="utf-8", errors="replace")
         return [line for line in text.splitlines() if line.strip()][-count:]
 
+    def obituary(self) -> str:
+        """Return how it ended, with its last lines."""
+        code = self.exit_code or 0
+        how = f"was killed by signal {-code}" if code < 0 else f"ended with code {code}"
+        lines = "\n".join(f"  | {line}" for line in self.last_lines())
+        return f"{self.name} {how}; its last lines ({self.log}):\n{lines}"
+
 
 class Children:
     """Starts and stops child processes.

@@ -108,9 +108,8 @@ def _arguments(argv: Sequence[str] | None) -> argparse.Namespace:
         default=f"udpout:127.0.0.1:{STANDARD_PORT}",
         help="where the driver is (default %(default)s)",
     )
-    p.add_argument(
-        "--vehicle", default="remus100", metavar="FILE", help="vehicle file, or the name of a shipped one"
-    )
+    vehicle_help = "vehicle file, or the name of a shipped one"
+    p.add_argument("--vehicle", default="remus100", metavar="FILE", help=vehicle_help)
     p.add_argument(
         "--initial",
         nargs=3,
@@ -119,12 +118,8 @@ def _arguments(argv: Sequence[str] | None) -> argparse.Namespace:
         metavar=("X", "Y", "PSI_DEG"),
         help="start: north, east (m), heading (deg)",
     )
-    p.add_argument(
-        "--surge",
-        type=not_negative,
-        default=CRUISE,
-        help="speed at the first thrust, m/s (default %(default)s)",
-    )
+    surge_help = "speed at the first thrust, m/s (default %(default)s)"
+    p.add_argument("--surge", type=not_negative, default=CRUISE, help=surge_help)
     p.add_argument(
         "--current",
         nargs=2,
