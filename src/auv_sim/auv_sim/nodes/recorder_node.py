@@ -27,18 +27,18 @@ from auv_sim.sim_parameters import RecorderParameters
 
 #: Requested niceness; the system grants it to root only.
 _PRIORITY = -10
-#: How often everything that has come is fetched unless the simulator asks for it, s.
+#: Period of fetching all messages unless the simulator requests it, s.
 _POLL = 0.02
-#: How often the graph is asked for new topics and publishers, s.
+#: Period of looking for new topics and publishers, s.
 _LOOK_AROUND = 0.25
-#: After a stop was requested, silence for this long means that nothing is under way any more, s.
+#: Silence after a requested stop from which on no message is under way, s.
 _QUIET = 0.2
-#: With simulated time: messages kept back until the clock's first word.
+#: With simulated time: most messages kept until the first /clock.
 _EARLY_LIMIT = 10_000
 
 
 class RecorderNode(SuiteNode):
-    """Writes what comes, as it comes."""
+    """Writes messages in the order of their arrival."""
 
     def __init__(self, **arguments: Any) -> None:
         super().__init__(topics.RECORDER, RecorderParameters, **arguments)
@@ -58,9 +58,14 @@ class RecorderNode(SuiteNode):
         if short := room_lacking(directory, p.min_free_space):
             found, expected = short
             raise ConfigurationError(f"{self.get_name()}: parameter min_free_space", found, expected)
+        # The configuration that the launcher wrote beside the bag goes into it: it then needs no other file.
         size, duration = p.max_size * 1_000_000, round(p.max_duration * 1e9)
         self.writer = BagWriter(
-            directory, p.compression, max_size=size, max_duration_ns=duration, texts=_configuration(directory)
+            directory,
+            p.compression,
+            max_size=size,
+            max_duration_ns=duration,
+            texts=texts_below(directory.parent / "config"),
         )
         self._room = RoomWatch(directory)
         self._times = Timestamps(bool(self.get_parameter("use_sim_time").value))
@@ -184,13 +189,8 @@ class RecorderNode(SuiteNode):
             print(f"{self.writer.directory}: left unfinished ({self.writer.trouble}); {advice}")
 
 
-def _configuration(directory: Path) -> dict[str, str]:
-    """Return the configuration that the launcher wrote beside the bag: the bag then needs no other file."""
-    return texts_below(directory.parent / "config")
-
-
 def main(args: Sequence[str] | None = None) -> int:
-    """The executable `recorder`."""
+    """Run the executable `recorder`."""
     # Starved of processor time it would lose messages; the threads that receive them inherit this.
     with contextlib.suppress(OSError):
         os.nice(_PRIORITY)
