@@ -56,16 +56,11 @@ class RecorderNode(SuiteNode):
                     f"{self.get_name()}: parameter {name}", str(error), "a regular expression"
                 ) from None
         if short := room_lacking(directory, p.min_free_space):
-            found, expected = short
-            raise ConfigurationError(f"{self.get_name()}: parameter min_free_space", found, expected)
-        # The configuration that the launcher wrote beside the bag goes into it: it then needs no other file.
+            raise ConfigurationError(f"{self.get_name()}: parameter min_free_space", *short)
         size, duration = p.max_size * 1_000_000, round(p.max_duration * 1e9)
+        texts = texts_below(directory.parent / "config")  # so that the bag needs no other file
         self.writer = BagWriter(
-            directory,
-            p.compression,
-            max_size=size,
-            max_duration_ns=duration,
-            texts=texts_below(directory.parent / "config"),
+            directory, p.compression, max_size=size, max_duration_ns=duration, texts=texts
         )
         self._room = RoomWatch(directory)
         self._times = Timestamps(bool(self.get_parameter("use_sim_time").value))
