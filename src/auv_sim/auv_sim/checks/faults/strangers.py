@@ -31,7 +31,7 @@ from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, Parser, command, positi
 from auv_sim.launch.processes.process_group import Children
 from auv_sim.launch.vehicle_driver import EMULATOR, EMULATOR_MODULE, free_port
 from auv_sim.nodes.mavlink.mapping import WATER_LOG, water_track
-from auv_sim.nodes.mavlink.transport.codec import Codec
+from auv_sim.nodes.mavlink.transport.datagrams import Codec
 
 #: Share of the undisturbed rate of odometry that strangers may not take.
 LEAST_SHARE = 0.95

@@ -6,7 +6,7 @@ import pytest
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.launch.vehicle_driver import free_port
-from auv_sim.nodes.mavlink.transport.codec import Frame
+from auv_sim.nodes.mavlink.transport.datagrams import Frame
 from auv_sim.nodes.mavlink.transport.link import MavlinkLink
 from auv_sim.nodes.mavlink.transport.link_watch import LinkWatch
 from auv_sim.nodes.mavlink.transport.peer import Configured, Peer

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.nodes.mavlink.transport.codec import LARGEST_DATAGRAM, Codec, Frame
+from auv_sim.nodes.mavlink.transport.datagrams import LARGEST_DATAGRAM, Codec, Frame
 from auv_sim.nodes.mavlink.transport.peer import Address, Peer, text_of
 
 #: UDP port on which ground stations listen for vehicles.

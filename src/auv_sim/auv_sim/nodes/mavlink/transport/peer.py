@@ -7,7 +7,7 @@ import socket
 from collections.abc import Sequence
 
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.nodes.mavlink.transport.codec import Frame
+from auv_sim.nodes.mavlink.transport.datagrams import Frame
 
 Address = tuple[str, int]
 #: Most other systems that are named: a forger can invent 255.

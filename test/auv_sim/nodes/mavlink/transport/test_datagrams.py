@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from pymavlink.dialects.v20 import common as mavlink
 
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.nodes.mavlink.transport.codec import Codec
+from auv_sim.nodes.mavlink.transport.datagrams import Codec
 from auv_sim.nodes.mavlink.transport.signing import load_key
 
 KEY, OTHER = bytes(range(32)), bytes(32)
