@@ -240,3 +240,13 @@ def test_what_is_no_recording_gets_one_line(
     told = capsys.readouterr().err
     assert says in told
     assert told.count("\n") == 1
+
+
+@pytest.mark.parametrize("before", [0, 3, 8, 100])
+def test_a_lost_head_takes_no_chunk_with_it(tmp_path: Path, before: int) -> None:
+    """The first chunk that is whole may begin anywhere, even where the magic bytes were."""
+    file = make(tmp_path / "bag")
+    first = chunk_starts(file)[0]
+    rest = tmp_path / "rest.mcap"
+    rest.write_bytes(file.read_bytes()[first - before :])
+    assert read_bag(rest).count == TOTAL

@@ -10,6 +10,7 @@ import pytest
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.settings import params_file
+from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import SpatialCurrent
 from auv_path_following import config_files
 from auv_path_following.curves.kinds.arc import Arc
@@ -124,3 +125,19 @@ def test_a_depth_that_a_weight_pulls_at_is_held_without_an_integral(robust) -> N
     assert abs(run["z"][-200:] - 15.0).max() < 0.002
     assert math.degrees(run["sternplanes"][-2]) == pytest.approx(-5.5, abs=0.3)
     assert math.degrees(run["theta"][-2]) == pytest.approx(-1.5, abs=0.2)
+
+
+@pytest.mark.parametrize(
+    ("depths", "thrust", "message"),
+    [
+        ((5.0, 120.0, 5.0), 6.48, r"knots\[1\]: found 120 m at 100 m of path, expected 0.5 to 100 m"),
+        ((5.0, 0.1, 5.0), 6.48, r"knots\[1\]: found 0.1 m at 100 m of path, expected 0.5 to 100 m"),
+        ((5.0, 5.0, 5.0), 1.0, r"thrust: found 1 N, 0.79 m/s, expected at least 0.9 m/s"),
+    ],
+    ids=["too deep", "out of the water", "too slow"],
+)
+def test_what_the_vehicle_cannot_do_is_refused(depths, thrust, message) -> None:
+    profile = DepthProfile(list(zip((0.0, 100.0, 200.0), depths, strict=True)))
+    path = SpatialPath([Line(0.0, 0.0, 200.0, 0.0)], profile)
+    with pytest.raises(ConfigurationError, match=message):
+        fly(SpatialScenario(path=path, vehicle=DIVER, thrust=thrust))

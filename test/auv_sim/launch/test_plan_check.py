@@ -182,3 +182,10 @@ def test_the_former_name_of_the_controller_model_still_serves(capsys):
         mission_command.parser().parse_args(["--controller-model", "remus100"]).controller_model == "remus100"
     )
     assert capsys.readouterr().err == ""
+
+
+def test_both_names_of_the_controller_model_are_refused(capsys):
+    with pytest.raises(SystemExit) as end:
+        mission_command.parser().parse_args(["--believed", "remus100", "--controller-model", "remus100"])
+    assert end.value.code == 2
+    assert "not allowed with argument --believed" in capsys.readouterr().err

@@ -79,8 +79,9 @@ def numbers(cls: type[T]) -> type[T]:
 
     Code that only reads `config.k1` accepts either. The tuple compiles; the settings object does not.
     """
+    hints = typing.get_type_hints(cls)
     fields = dataclasses.fields(cls)  # type: ignore[arg-type]
-    names = [field.name for field in fields if "None" not in str(field.type)]
+    names = [field.name for field in fields if type(None) not in typing.get_args(hints[field.name])]
     made: Any = namedtuple("Numbers", names)  # type: ignore[misc]
     made.__module__, made.__qualname__ = cls.__module__, f"{cls.__qualname__}.Numbers"
     cls.Numbers = made  # type: ignore[attr-defined]

@@ -54,9 +54,6 @@ class ReferenceLimits(NamedTuple):
     jerk: float
 
 
-#: The shaped psi_d (rad), its exact rate r_d (rad/s) and acceleration r_d_dot (rad/s^2).
-Shaped = tuple[float, float, float]
-
 #: Share of the jerk of a rudder at its greatest rate; the rest is left to the controller.
 JERK_SHARE = 0.9
 #: Time in which the reference may build up acceleration, s.

@@ -47,3 +47,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     words = sys.argv[1:] if argv is None else argv
     arguments = parser(words[:1]).parse_args(words)
     return int(arguments.run(arguments))
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

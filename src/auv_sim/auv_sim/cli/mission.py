@@ -51,12 +51,13 @@ def _add_files(p: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help=f"file or one of: {shipped['vehicles']}",
     )
-    p.add_argument(
+    model = p.add_mutually_exclusive_group()
+    model.add_argument(
         "--controller-model",
         metavar="FILE",
         help="the nodes' model of the hull, where the simulator has another hull (default: --vehicle's)",
     )
-    p.add_argument("--believed", dest="controller_model", action=Renamed, help=argparse.SUPPRESS)
+    model.add_argument("--believed", dest="controller_model", action=Renamed, help=argparse.SUPPRESS)
     p.add_argument(
         "--params", default=DEFAULT_PARAMS, metavar="FILE", help=f"file or one of: {shipped['params']}"
     )

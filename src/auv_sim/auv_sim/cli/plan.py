@@ -50,3 +50,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     from auv_sim.checks.mission_check.plan_session import plan
 
     return plan(options, not_default(p, options))
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -67,3 +67,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     from auv_sim.studies.paper.paper_session import run
 
     return run(options, not_default(p, options))
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -35,3 +35,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     from auv_sim.checks.soak.long_flight import soak
 
     return soak(options)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import NO_SPATIAL_CURRENT, SpatialCurrent
 from auv_path_following.control import autopilot
 from auv_path_following.control.autopilot import AutopilotConfig
@@ -90,9 +91,11 @@ def spatial_pilot_of(scenario: SpatialScenario) -> SpatialPilot:
     """Return the pilot of a scenario.
 
     Raises:
-        ConfigurationError: the vehicle file lacks what a vehicle that dives needs.
+        ConfigurationError: the vehicle file lacks what a vehicle that dives needs, or it cannot go so deep or
+            so slowly.
     """
     c = scenario
+    _check(c)
     agility = agility_of(c.vehicle, c.thrust)
     plane = path_follower.prepare(c.guidance, agility)
     side = pitch_plane_of(c.vehicle)
@@ -103,6 +106,23 @@ def spatial_pilot_of(scenario: SpatialScenario) -> SpatialPilot:
     )
     observer = current_observer.prepare(c.observer, c.step)
     return SpatialPilot(observer, follower, autopilot.prepare(c.heading, c.vehicle), pitch, float(c.thrust))
+
+
+def _check(scenario: SpatialScenario) -> None:
+    """Hold depths and speed of a flight against the vehicle's range."""
+    vehicle, knots = scenario.vehicle, scenario.path.profile.knots
+    allowed = vehicle.depth
+    for number, (way, depth) in enumerate(knots):
+        least = 0.0 if number in (0, len(knots) - 1) else allowed.surface
+        if not least <= depth <= allowed.max:
+            found, expected = f"{depth:g} m at {way:g} m of path", f"{least:g} to {allowed.max:g} m"
+            raise ConfigurationError(f"{vehicle.name}: depth_profile.knots[{number}]", found, expected)
+    speed = vehicle.speed_at(scenario.thrust)
+    if speed < allowed.minimum_speed:
+        expected = f"at least {allowed.minimum_speed:g} m/s, below which the planes hold no depth"
+        raise ConfigurationError(
+            f"{vehicle.name}: thrust", f"{scenario.thrust:g} N, {speed:.2f} m/s", expected
+        )
 
 
 def fly(scenario: SpatialScenario) -> dict[str, NDArray[np.float64]]:

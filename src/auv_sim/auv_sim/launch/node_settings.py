@@ -32,7 +32,7 @@ def load(options: Options, file: Path, model: Vehicle, notices: list[str]) -> No
         options: the command line.
         file: the parameter file.
         model: the hull that the nodes assume.
-        notices: lines about former names in the file are appended.
+        notices: a line for each name in a block for all nodes that no node has is appended.
 
     Raises:
         ConfigurationError: a parameter or a gain that its node would refuse.

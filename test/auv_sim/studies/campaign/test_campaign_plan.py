@@ -113,6 +113,13 @@ def test_the_former_key_of_the_controller_model_still_serves(tmp_path: Path) -> 
     assert (former.notices, present.notices) == ((f"{former.where}: believed is now controller_model",), ())
 
 
+def test_both_names_of_a_key_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(
+        ConfigurationError, match="found believed and controller_model, expected controller_model"
+    ):
+        study(tmp_path, "believed: remus100\ncontroller_model: remus100\n")
+
+
 def test_the_seed_of_the_sea_is_the_runs(tmp_path: Path) -> None:
     plan = study(tmp_path, "sea: rough\nruns: 4\n")
     seeds = [plan.scenario(k).seed for k in range(4)]

@@ -26,8 +26,9 @@ def first_of(*names: str) -> Any:
     for name in names[:-1]:
         try:
             return importlib.import_module(name)
-        except ModuleNotFoundError:
-            continue
+        except ModuleNotFoundError as error:
+            if not f"{name}.".startswith(f"{error.name}."):
+                raise  # the module is there, and something that it imports is not
     return importlib.import_module(names[-1])
 
 

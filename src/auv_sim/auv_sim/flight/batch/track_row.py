@@ -16,8 +16,8 @@ TRACK = (
 (
     NUMBER, X, Y, PSI, R, UR, VR, RUDDER, RUDDER_CMD, THRUST_CMD, PSI_D, R_D,
     XE, YE, PSI_E, S, VX_EST, VY_EST, VX_TRUE, VY_TRUE, X_TRUE, Y_TRUE, PSI_TRUE,
-) = range(23)  # fmt: skip
-TRACK_COLUMNS = 23
+) = range(1 + len(TRACK) + 3)  # fmt: skip
+TRACK_COLUMNS = 1 + len(TRACK) + 3
 
 
 @pure

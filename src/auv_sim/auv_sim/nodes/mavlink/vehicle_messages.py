@@ -82,7 +82,7 @@ class VehicleMessages:
         handler(message)
 
     def values(self) -> dict[str, Any]:
-        """Return state, restarts and round trip for /diagnostics."""
+        """Return restarts and round trip for /diagnostics."""
         restarts: dict[str, Any] = {
             "vehicle restarts": self.time.restarts,
             "water log restarts": self._log_time.restarts,

@@ -29,9 +29,8 @@ class OffsetEstimate:
     """ROS time minus time since boot, for a vehicle in real time.
 
     A message cannot arrive before it was sent, so every arrival is an upper bound, and the least of them is
-    too large by the shortest delay. An exchange of times (TIMESYNC) measures its own duration, half of which
-    is a
-    better estimate of the delay: the quickest of the last exchanges is used, if there are any.
+    too large by the shortest delay. An exchange of times (TIMESYNC) measures its own duration; half of it is
+    a better estimate of the delay. The quickest of the last exchanges is used, if there are any.
 
     Args:
         settling: time after the first message in which the estimate moves freely.

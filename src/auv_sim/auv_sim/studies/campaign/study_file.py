@@ -11,6 +11,7 @@ import pydantic
 from auv_msgs_py.settings import yaml_file
 from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.settings.validators import no_boolean, unfit
+from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.flight.batch.flight_figures import Flights
 from auv_sim.flight.least_share import LEAST_SHARE
 from auv_sim.studies.campaign.distributions import Distribution
@@ -86,7 +87,9 @@ def load_study(source: Path) -> tuple[Study, tuple[str, ...]]:
     data = yaml_file.parse(source)
     notices = []
     for former, present in _RENAMED.items():
-        if isinstance(data, dict) and former in data and present not in data:
+        if isinstance(data, dict) and former in data:
+            if present in data:
+                raise ConfigurationError(str(source), f"{former} and {present}", f"{present} alone")
             data[present] = data.pop(former)
             notices.append(f"{source}: {former} is now {present}")
     return yaml_file.checked(data, source, Study), tuple(notices)

@@ -107,11 +107,15 @@ class _Scanner:
 
     def run(self) -> ScanResult:
         data, size = self._data, len(self._data)
+        closed, position = False, len(MAGIC)
         if data[: len(MAGIC)] != MAGIC:
-            if self._next_chunk(0) is None:
+            chunk = self._next_chunk(0)
+            if chunk is None:
                 raise ConfigurationError(str(self._path), "neither its beginning nor any part of it", _MCAP)
             self._notes.append("the first bytes are damaged")
-        closed, position, reached = False, len(MAGIC), len(MAGIC)
+            # Records before the chunk name the topics; where the head is lost there may be none.
+            position = min(chunk, position)
+        reached = position
         while position + _RECORD.size <= size:
             opcode, length = _RECORD.unpack_from(data, position)
             end = position + _RECORD.size + length
