@@ -87,7 +87,7 @@ def _add_simulation(p: argparse.ArgumentParser) -> None:
         "--speed",
         type=positive,
         metavar="N",
-        help="free running at N times real time; without it lockstep, as fast as it goes",
+        help="free running at N times real time (not the vehicle's speed); default: lockstep",
     )
 
 
