@@ -169,6 +169,11 @@ class Vehicle:
         return "%" if self.thrust_unit == "percent" else "N"
 
     @property
+    def dives(self) -> bool:
+        """Whether the vehicle has stern planes; otherwise it moves in the horizontal plane."""
+        return self.sternplanes is not None
+
+    @property
     def coefficients(self) -> Hull:
         """Hull coefficients, for a simulator or a model.
 

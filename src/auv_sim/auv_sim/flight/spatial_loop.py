@@ -154,5 +154,5 @@ def fly(scenario: SpatialScenario) -> dict[str, NDArray[np.float64]]:
         if g.finished:
             break
         drift = c.current(k * dt) if callable(c.current) else c.current
-        afloat, _ = spatial_plant_step(plant, afloat, (command, drift), dt)
+        afloat, _ = spatial_plant_step(plant, afloat, (command, drift, 1.0), dt)
     return dict(zip(COLUMNS, np.array(rows).T, strict=True))

@@ -7,13 +7,22 @@ instruments, navigator and servo have errors, and the truth is available separat
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, Generic, NamedTuple, TypeVar
 
 from auv_msgs_py.values.pure import dispatched, pure
-from auv_msgs_py.values.types import NO_CURRENT, STOP, Command, Current, Navigation, WaterVelocity
+from auv_msgs_py.values.types import (
+    NO_CURRENT,
+    STOP,
+    Command,
+    Current,
+    Navigation,
+    WaterVelocity,
+)
 from auv_path_following.vehicle import Vehicle
 from auv_sim.vehicle.at_sea import Seen, VehicleAtSea, at_sea_of, measure_at_sea, step_at_sea
+from auv_sim.vehicle.diving.ideal_diver import SpatialSeen, measure_ideally, step_ideally
 from auv_sim.vehicle.draws import Draws
+from auv_sim.vehicle.hulls.spatial_plant import SpatialPlant
 from auv_sim.vehicle.remus import (
     Afloat,
     Plant,
@@ -48,31 +57,33 @@ def step(config: Plant, state: Afloat, inputs: PlantInputs, dt: float) -> tuple[
 
 
 #: The first measurement of a vehicle, and one step of it: (configuration, state, `PlantInputs` with the
-#: constant current, dt) -> (state, `Seen`). Without a sea there is no cost for one.
-vehicle_measure = dispatched({Plant: measure, VehicleAtSea: measure_at_sea})
-vehicle_step = dispatched({Plant: step, VehicleAtSea: step_at_sea})
+#: constant current, dt) -> (state, `Seen`). Without a sea there is no cost for one. For a vehicle that dives,
+#: `SpatialPlantInputs` and `SpatialSeen`.
+vehicle_measure = dispatched({Plant: measure, VehicleAtSea: measure_at_sea, SpatialPlant: measure_ideally})
+vehicle_step = dispatched({Plant: step, VehicleAtSea: step_at_sea, SpatialPlant: step_ideally})
+
+Motion = TypeVar("Motion")
+Order = TypeVar("Order")
+Flow = TypeVar("Flow")
+View = TypeVar("View", bound=Seen | SpatialSeen)
 
 
-class SimulatedVehicle:
-    """Hull, water, instruments and navigator under one clock. The node and `closed_loop` both drive this.
+class Kind(NamedTuple):
+    """What differs between vehicles: the command to stop; makers of plant, its state, and both at sea."""
 
-    Args:
-        vehicle: hull, rudder, thruster.
-        initial: first state, also after a reset.
-        sea: imperfections; None: an ideal sea.
-        seed: of its random numbers.
-        current: constant current, m/s, NED, added to the sea's own; may be changed at any time.
-        step: time of each `advance` at sea, s.
-    """
+    stop: Any
+    plant_of: Any
+    plant_at: Any
+    at_sea_of: Any
+
+
+class Simulated(Generic[Motion, Order, Flow, View]):
+    """Hull, water, instruments and navigator under one clock."""
+
+    kind: Kind
 
     def __init__(
-        self,
-        vehicle: Vehicle,
-        initial: PlantState,
-        sea: Sea | None = None,
-        seed: int = 0,
-        current: Current = NO_CURRENT,
-        step: float = 0.05,
+        self, vehicle: Vehicle, initial: Motion, sea: Sea | None, seed: int, current: Flow, step: float
     ) -> None:
         self._vehicle, self._initial, self._sea, self._seed = vehicle, initial, sea, seed
         self._step = step
@@ -84,19 +95,20 @@ class SimulatedVehicle:
         self._left = _BLOCK
         self._config: Any
         self.state: Any
-        self.seen: Seen
+        self.seen: View
+        kind = self.kind
         if self._sea is None:
-            self._config, self.state = plant_of(self._vehicle), plant_at(self._initial)
+            self._config, self.state = kind.plant_of(self._vehicle), kind.plant_at(self._initial)
         else:
             # One more step for the first measurement.
             self._draws = Draws(self._step, _BLOCK + 1)
-            self._config, self.state = at_sea_of(
+            self._config, self.state = kind.at_sea_of(
                 self._vehicle, self._initial, self._sea, self._seed, self._draws
             )
-        inputs = STOP, self.constant_current, 1.0
+        inputs = kind.stop, self.constant_current, 1.0
         self.state, self.seen = vehicle_measure(self._config, self.state, inputs, 0.0)
 
-    def advance(self, command: Command, dt: float) -> Seen:
+    def advance(self, command: Order, dt: float) -> View:
         """Advance by `dt` seconds under a held command, then measure.
 
         Returns:
@@ -118,27 +130,58 @@ class SimulatedVehicle:
         self.state, self.seen = vehicle_step(self._config, self.state, inputs, dt)
         return self.seen
 
-    def place(self, motion: PlantState) -> None:
-        """Move the hull; servo, instruments and navigator keep their state."""
-        afloat = Afloat(motion, self._afloat.servo)
+    def place(self, motion: Motion) -> None:
+        """Move the hull; servos, instruments and navigator keep their state."""
+        afloat = self._afloat._replace(hull=motion)
         self.state = afloat if self._sea is None else self.state._replace(afloat=afloat)
         if self._sea is None:
-            inputs = STOP, self.constant_current, 1.0
+            inputs = self.kind.stop, self.constant_current, 1.0
             self.state, self.seen = vehicle_measure(self._config, afloat, inputs, 0.0)
 
     @property
-    def _afloat(self) -> Afloat:
-        return self.state if self._sea is None else self.state.afloat  # type: ignore[no-any-return]
+    def _afloat(self) -> Any:
+        return self.state if self._sea is None else self.state.afloat
 
     @property
-    def motion(self) -> PlantState:
+    def motion(self) -> Motion:
         """True pose and velocity through the water."""
         return self._afloat.hull  # type: ignore[no-any-return]
 
     @property
     def rudder(self) -> float:
         """Measured rudder angle, rad."""
-        return self._afloat.servo.angle  # type: ignore[no-any-return]
+        return self.seen.rudder
+
+    @property
+    def water_lock(self) -> bool:
+        """Whether `water_velocity` was measured now; otherwise it is the last measurement."""
+        return self.seen.water_lock
+
+
+class SimulatedVehicle(Simulated[PlantState, Command, Current, Seen]):
+    """A vehicle in the horizontal plane. The node and `closed_loop` both drive this.
+
+    Args:
+        vehicle: hull, rudder, thruster.
+        initial: first state, also after a reset.
+        sea: imperfections; None: an ideal sea.
+        seed: of its random numbers.
+        current: constant current, m/s, NED, added to the sea's own; may be changed at any time.
+        step: time of each `advance` at sea, s.
+    """
+
+    kind = Kind(STOP, plant_of, plant_at, at_sea_of)
+
+    def __init__(
+        self,
+        vehicle: Vehicle,
+        initial: PlantState,
+        sea: Sea | None = None,
+        seed: int = 0,
+        current: Current = NO_CURRENT,
+        step: float = 0.05,
+    ) -> None:
+        super().__init__(vehicle, initial, sea, seed, current, step)
 
     @property
     def navigation(self) -> Navigation:
@@ -161,11 +204,6 @@ class SimulatedVehicle:
     def water_velocity(self) -> WaterVelocity:
         """Velocity through the water reported by the log, m/s, FRD."""
         return self.seen.water
-
-    @property
-    def water_lock(self) -> bool:
-        """Whether `water_velocity` was measured now; otherwise it is the last measurement."""
-        return self.seen.water_lock
 
     @property
     def current(self) -> Current:

@@ -9,10 +9,10 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.pure import dispatched, pure
 from auv_msgs_py.values.types import SpatialCommand, SpatialCurrent, SpatialNavigation, SpatialWater
 from auv_path_following.vehicle import Vehicle
-from auv_sim.vehicle.actuator import Servo, ServoState, servo_of, servo_step
+from auv_sim.vehicle.actuator import ServoState, servo_of, servo_step
 from auv_sim.vehicle.hulls.mss_remus100 import MssRemus100, mss_remus100_step
 from auv_sim.vehicle.hulls.remus_6dof import Remus6dof, remus_6dof_of, remus_6dof_step
-from auv_sim.vehicle.hulls.rigid_body import BodyState, angles_of
+from auv_sim.vehicle.hulls.rigid_body import BodyState, angles_of, to_body
 from auv_sim.vehicle.remus import MAX_STEP
 
 #: One step of a hull: (configuration, state, `BodyInputs`, dt) -> (state, state).
@@ -24,14 +24,14 @@ class SpatialPlant(NamedTuple):
 
     Attributes:
         hull: of `body_step`.
-        rudder, sternplanes: of their servos.
+        rudder, sternplanes: of `servo_step`.
         thrust_max: N.
         max_step: longest Runge-Kutta step, s.
     """
 
     hull: Any
-    rudder: Servo
-    sternplanes: Servo
+    rudder: Any
+    sternplanes: Any
     thrust_max: float
     max_step: float = MAX_STEP
 
@@ -40,8 +40,12 @@ class SpatialAfloat(NamedTuple):
     """State of a plant: that of its hull and of its servos."""
 
     hull: BodyState
-    rudder: ServoState
-    sternplanes: ServoState
+    rudder: Any
+    sternplanes: Any
+
+
+#: Command, current (m/s, NED), and the propeller's efficiency: 1 for the thrust as commanded.
+SpatialPlantInputs = tuple[SpatialCommand, SpatialCurrent, float]
 
 
 def spatial_plant_of(vehicle: Vehicle) -> SpatialPlant:
@@ -58,15 +62,21 @@ def spatial_plant_of(vehicle: Vehicle) -> SpatialPlant:
     return SpatialPlant(body, servo_of(vehicle.rudder), servo_of(vehicle.sternplanes), vehicle.thrust_max)
 
 
+def spatial_plant_at(hull: BodyState) -> SpatialAfloat:
+    """Return the state of a plant with ideal servos in neutral."""
+    return SpatialAfloat(BodyState(*map(float, hull)), ServoState(), ServoState())
+
+
 @pure
 def spatial_plant_step(
-    config: SpatialPlant, state: SpatialAfloat, inputs: tuple[SpatialCommand, SpatialCurrent], dt: float
+    config: SpatialPlant, state: SpatialAfloat, inputs: SpatialPlantInputs, dt: float
 ) -> tuple[SpatialAfloat, BodyState]:
-    """Let `dt` seconds pass under a held command and current; the output is the hull's motion."""
+    """Advance by `dt` seconds under a held command and current; the output is the hull's motion."""
     hull, rudder, sternplanes = state
-    command, current = inputs
+    command, current, efficiency = inputs
     largest = config.thrust_max
     thrust = 0.0 if command.thrust < 0.0 else largest if command.thrust > largest else command.thrust
+    thrust *= efficiency
     water = (current.Vx, current.Vy, current.Vz)
     substeps = 1 if dt <= config.max_step else math.ceil(dt / config.max_step - 1e-9)
     h = dt / substeps
@@ -79,7 +89,7 @@ def spatial_plant_step(
 
 @pure
 def spatial_navigation_of(body: BodyState) -> SpatialNavigation:
-    """Return what an ideal navigation measures."""
+    """Return ideal navigation."""
     phi, theta, psi = angles_of(body)
     return SpatialNavigation(body.x, body.y, body.z, phi, theta, psi, body.q, body.r)
 
@@ -88,3 +98,10 @@ def spatial_navigation_of(body: BodyState) -> SpatialNavigation:
 def spatial_water_of(body: BodyState) -> SpatialWater:
     """Return the velocity through the water as an ideal log measures it."""
     return SpatialWater(body.ur, body.vr, body.wr)
+
+
+@pure
+def spatial_ground_velocity(body: BodyState, current: SpatialCurrent) -> tuple[float, float, float]:
+    """Return (u, v, w) over ground, m/s, FRD: Eq. (3D-1) in body axes."""
+    uc, vc, wc = to_body(body.qw, body.qi, body.qj, body.qk, current.Vx, current.Vy, current.Vz)
+    return body.ur + uc, body.vr + vc, body.wr + wc

@@ -1,0 +1,1 @@
+"""The simulated vehicle in three dimensions: what it measures, and the sea around it. No ROS."""
