@@ -145,10 +145,10 @@ class SplineSpec:
         """Return the segment that it describes."""
         with within("points", joined=""):
             points = site.points(self.points)
-        courses = (
+        start, end = (
             None if c is None else math.radians(c) for c in (self.start_course_deg, self.end_course_deg)
         )
-        return Spline(points, *courses)
+        return Spline(points, start, end)
 
 
 _Specs = LineSpec | ArcSpec | FermatSpec | FermatMirroredSpec | ClothoidSpec | PolynomialSpec | SplineSpec

@@ -110,7 +110,7 @@ def spatial_pilot_of(scenario: SpatialScenario) -> SpatialPilot:
 
 def _check(scenario: SpatialScenario) -> None:
     """Hold depths and speed of a flight against the vehicle's range."""
-    vehicle, knots = scenario.vehicle, scenario.path.profile.knots
+    vehicle, knots = scenario.vehicle, scenario.path.knots
     allowed = vehicle.depth
     for number, (way, depth) in enumerate(knots):
         least = 0.0 if number in (0, len(knots) - 1) else allowed.surface

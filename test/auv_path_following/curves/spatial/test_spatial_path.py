@@ -87,6 +87,6 @@ def test_the_place_of_a_length_is_where_it_has_passed(segment) -> None:
 
 def test_a_profile_of_another_length_is_refused() -> None:
     with pytest.raises(
-        ConfigurationError, match=r"depth_profile: found a last knot at 90 m, expected .* 100 m"
+        ConfigurationError, match=r"depth_profile: found a last knot at 90.000 m, expected .* 100.000 m"
     ):
         SpatialPath([Line(0.0, 0.0, 100.0, 0.0)], DepthProfile([(0.0, 5.0), (90.0, 6.0)]))

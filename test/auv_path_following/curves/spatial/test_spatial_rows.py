@@ -53,7 +53,7 @@ def test_lengths_are_in_three_dimensions() -> None:
 def test_a_vertical_corner_is_a_corner() -> None:
     path = path_of("linear")
     rows = spatial_rows(path)
-    knots = {knot.depth for knot in path.profile.knots[1:-1]}
+    knots = {knot.depth for knot in path.knots[1:-1]}
     for joint, row in zip(path.joints, rows.plan.subpath, strict=False):
         if any(abs(joint.z - depth) < 1e-6 for depth in knots):
             assert row[JOINT] == CORNER

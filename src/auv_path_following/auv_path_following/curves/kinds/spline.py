@@ -23,6 +23,7 @@ class Spline:
     Args:
         points: at least two (north, east), m, neighbours not in one place.
         chi_start, chi_end: courses at its ends, rad; without one that end is without curvature.
+        chords: widths of t between the points up to a factor; None for their straight distances (m).
 
     Raises:
         ConfigurationError: neighbours in one place, or a curve that stands still somewhere.
@@ -35,14 +36,16 @@ class Spline:
         points: Sequence[tuple[float, float]],
         chi_start: float | None = None,
         chi_end: float | None = None,
+        chords: Sequence[float] | None = None,
     ) -> None:
         way = np.asarray(points, float)
-        chords = np.hypot(*np.diff(way, axis=0).T)
-        if not np.all(chords > 1e-9):
-            number = int(np.argmin(chords))
+        straight = np.hypot(*np.diff(way, axis=0).T)
+        widths: Any = straight if chords is None else np.asarray(chords, float)
+        if not np.all(straight > 1e-9):
+            number = int(np.argmin(straight))
             found = f"points[{number}] and points[{number + 1}] in one place"
             raise ConfigurationError("spline", found, "points that differ")
-        knots = np.concatenate(([0.0], np.cumsum(chords)))
+        knots = np.concatenate(([0.0], np.cumsum(widths)))
         total = float(knots[-1])
         knots /= total
         ends = []
@@ -55,7 +58,7 @@ class Spline:
         from scipy.interpolate import CubicSpline
 
         fitted = CubicSpline(knots, way, bc_type=tuple(ends))
-        self.pieces: Final = len(chords)
+        self.pieces: Final = len(widths)
         self.inner_knots: Final[list[float]] = knots[1:-1].tolist()
         self._knots: Final[list[float]] = knots[:-1].tolist()
         # c[power, piece, axis], highest power first.

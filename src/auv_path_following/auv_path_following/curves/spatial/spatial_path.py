@@ -1,21 +1,31 @@
-"""A composite path in three dimensions: planar subpaths at the depths of a profile."""
+"""A composite path in three dimensions: subpaths with depths under one scalar s in [0, n]."""
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
 
 from auv_msgs_py.values.angles import wrap
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.segment import Segment
-from auv_path_following.curves.spatial.depth_profile import DepthProfile
+from auv_path_following.curves.spatial.closest_in_space import closest_in_space, points_of
+from auv_path_following.curves.spatial.depth_profile import DepthProfile, Knot
 from auv_path_following.curves.spatial.part import Part
-from auv_path_following.curves.spatial.spatial_point import SpatialPoint, lifted, tangent_of
+from auv_path_following.curves.spatial.spatial_point import SpatialPoint, tangent_of
+from auv_path_following.curves.spatial.spatial_segment import Lifted, SpatialSegment
+
+Array = npt.NDArray[np.float64]
 
 #: Largest difference of a profile's length and its path's, m.
 LENGTH_TOLERANCE = 0.01
+#: Largest step of the depth at a joint, m.
+DEPTH_TOLERANCE = 1e-3
 #: Knots nearer to the end of a subpath than this are at it, m.
 _AT_THE_END = 1e-6
 #: Turn of the tangent from which on a joint is a corner, rad.
@@ -46,6 +56,16 @@ class SpatialJoint(NamedTuple):
         return abs(turn) > _CORNER or abs(tilt) > _CORNER
 
 
+class SpatialPose(NamedTuple):
+    """A place on a path and its direction there: NED, m, rad; the elevation gamma is positive upwards."""
+
+    x: float
+    y: float
+    z: float
+    gamma: float
+    chi: float
+
+
 class SpatialPath:
     """Subpaths in a row; subpath i (from 0) owns s in [i, i + 1). Immutable.
 
@@ -53,44 +73,98 @@ class SpatialPath:
     at a knot the slope is that of the subpath that is asked.
 
     Args:
-        segments: the planar subpaths in their order.
-        profile: depth over their horizontal length.
+        segments: the subpaths in their order: planar ones, or without a profile spatial ones.
+        profile: depth over the horizontal length of planar segments.
 
     Raises:
-        ConfigurationError: the profile is longer or shorter than the path, or a planar joint does not meet.
+        ConfigurationError: the profile is longer or shorter than the path, or a joint does not meet.
     """
 
-    def __init__(self, segments: Sequence[Segment], profile: DepthProfile) -> None:
-        length = math.fsum(segment.length for segment in segments)
-        if abs(profile.length - length) > LENGTH_TOLERANCE:
-            found = f"a last knot at {profile.length:.6g} m"
-            raise ConfigurationError("depth_profile", found, f"the path's horizontal length, {length:.6g} m")
-        self.profile: Final = profile
-        parts, self._ramps, self._begins = _divided(segments, profile)
-        self.plan: Final = CompositePath(parts)
-        self.n: Final = self.plan.n
-        ends = [tangent_of(self.evaluate(i, 1.0)) for i in range(self.n - 1)]
-        begins = [tangent_of(self.evaluate(i, 0.0)) for i in range(1, self.n)]
-        places = [self.evaluate(i, 0.0)[:3] for i in range(1, self.n)]
-        self.joints: Final = tuple(
-            SpatialJoint(*place, before.chi, after.chi, before.gamma, after.gamma)
-            for place, before, after in zip(places, ends, begins, strict=True)
+    def __init__(
+        self, segments: Sequence[Segment] | Sequence[SpatialSegment], profile: DepthProfile | None = None
+    ) -> None:
+        self.subpaths: Final[tuple[SpatialSegment, ...]] = tuple(
+            segments if profile is None else _divided(segments, profile)  # type: ignore[arg-type]
         )
+        self.plan: Final = CompositePath(subpath.plan for subpath in self.subpaths)
+        self.n: Final = self.plan.n
+        self.knots: Final = tuple(profile.knots if profile is not None else _knots_of(self.subpaths))
+        ends = [self.evaluate(i, 1.0) for i in range(self.n - 1)]
+        begins = [self.evaluate(i, 0.0) for i in range(1, self.n)]
+        for number, (end, begin) in enumerate(zip(ends, begins, strict=True), start=1):
+            if not abs(end.z - begin.z) <= DEPTH_TOLERANCE:
+                found = f"a depth of {begin.z:.6g} m where segments[{number - 1}] ends at {end.z:.6g} m"
+                raise ConfigurationError(f"segments[{number}]", found, "the same depth")
+        tangents = zip(map(tangent_of, ends), map(tangent_of, begins), strict=True)
+        self.joints: Final = tuple(
+            SpatialJoint(*place[:3], before.chi, after.chi, before.gamma, after.gamma)
+            for place, (before, after) in zip(begins, tangents, strict=True)
+        )
+        lengths = [subpath.length for subpath in self.subpaths]
+        #: Length in three dimensions, m.
+        self.length: Final = math.fsum(lengths)
+        self._after: Final = tuple(itertools.accumulate(reversed(lengths[1:]), initial=0.0))[::-1]
 
     def evaluate(self, i: int, t: float) -> SpatialPoint:
         """Return the point at t in [0, 1] of subpath i (from 0)."""
-        segment = self.plan.segments[i]
-        way = self._begins[i] + segment.length - segment.length_to_go(t)
-        return lifted(segment.evaluate(t), self.profile.at(way, self._ramps[i]))
+        return self.subpaths[i].evaluate(t)
+
+    def sampled(self, i: int, t: Array) -> SpatialPoint:
+        """Return the points at an array of t in [0, 1] of subpath i (from 0): arrays of that shape."""
+        return points_of(self.subpaths[i], t)
+
+    def distance_to_go(self, i: int, t: float) -> float:
+        """Return the length of path from t of subpath i (from 0) to the end of the path, m."""
+        return self.subpaths[i].length_to_go(t) + self._after[i]
+
+    @property
+    def start_pose(self) -> SpatialPose:
+        """Start of the path, and its direction there."""
+        start = self.evaluate(0, 0.0)
+        along = tangent_of(start)
+        return SpatialPose(start.x, start.y, start.z, along.gamma, along.chi)
+
+    def distance(self, x: Array, y: Array, z: Array, i: npt.NDArray[Any]) -> Array:
+        """Return the distance of a track from the path, near the subpath followed.
+
+        Args:
+            x, y, z: shape (n,), NED, m.
+            i: shape (n,), subpath followed at each sample, from 0; it and its neighbours are searched.
+
+        Returns:
+            closest distance, shape (n,), m, not negative; NaN where x, y or z is not finite.
+        """
+        followed = np.asarray(i)
+        order = np.argsort(followed, kind="stable")
+        in_order = followed[order]
+        result = np.full(len(x), np.inf)
+        for j in np.unique(np.concatenate([in_order + step for step in (-1, 0, 1)])):
+            if 0 <= j < self.n:
+                first, last = np.searchsorted(in_order, (j - 1, j + 2))
+                near = order[first:last]
+                found = closest_in_space(self.subpaths[j], x[near], y[near], z[near])
+                result[near] = np.minimum(result[near], found)
+        return result
 
 
-def _divided(
-    segments: Sequence[Segment], profile: DepthProfile
-) -> tuple[list[Segment], list[int], list[float]]:
-    """Return the subpaths divided at the knots, the ramp of each, and the horizontal length before it, m."""
-    parts: list[Segment] = []
-    ramps: list[int] = []
-    begins: list[float] = []
+def _knots_of(subpaths: Sequence[SpatialSegment]) -> list[Knot]:
+    """Return the knots of all subpaths by their horizontal length from the path's start, joints once."""
+    found: list[Knot] = []
+    before = 0.0
+    for subpath in subpaths:
+        own = subpath.knots if not found else subpath.knots[1:]
+        found += [Knot(before + knot.way, knot.depth) for knot in own]
+        before += subpath.plan.length
+    return found
+
+
+def _divided(segments: Sequence[Segment], profile: DepthProfile) -> list[Lifted]:
+    """Return the subpaths, divided at the knots."""
+    length = math.fsum(segment.length for segment in segments)
+    if abs(profile.length - length) > LENGTH_TOLERANCE:
+        found = f"a last knot at {profile.length:.3f} m"
+        raise ConfigurationError("depth_profile", found, f"the path's horizontal length, {length:.3f} m")
+    lifted_: list[Lifted] = []
     before, ramp = 0.0, 0
     for segment in segments:
         t, after = 0.0, before + segment.length
@@ -100,14 +174,13 @@ def _divided(
             knot = profile.knots[ramp + 1].way
             is_inside = ramp + 2 < len(profile.knots) and knot < after - _AT_THE_END
             end = place_of(segment, segment.length - (after - knot)) if is_inside else 1.0
-            parts.append(segment if (t, end) == (0.0, 1.0) else Part(segment, t, end))
-            ramps.append(ramp)
-            begins.append(before)
+            part = segment if (t, end) == (0.0, 1.0) else Part(segment, t, end)
+            lifted_.append(Lifted(part, profile, ramp, before))
             if not is_inside:
                 break
             t, before = end, knot
         before = after
-    return parts, ramps, begins
+    return lifted_
 
 
 def place_of(segment: Segment, way: float) -> float:

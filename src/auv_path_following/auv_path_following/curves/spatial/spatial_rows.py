@@ -9,28 +9,21 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from auv_msgs_py.values.pure import pure
-from auv_path_following.curves.pieces import fitted_row
 from auv_path_following.curves.rows import (
     AFTER,
     CORNER,
-    FITTED_WIDTH,
     JOINT,
     LENGTH,
     SMOOTH,
     SPEED,
-    TERMS,
     PathRows,
     evaluate,
 )
-from auv_path_following.curves.segment import PathPoint
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_path_following.curves.spatial.spatial_point import SpatialPoint, tangent_of
+from auv_path_following.curves.spatial.spatial_segment import DEPTH_WIDTH
 
-#: Numbers of a piece of depth: the t at its start and 2 / its width, then its coefficients of u in [-1, 1].
-DEPTH_WIDTH = 2 + TERMS
 #: Columns of a row of depth: where its first piece begins in `SpatialRows.depth_piece`, number of pieces,
 #: depth at its end (m).
 FIRST, PIECES, END_DEPTH = range(3)
@@ -84,7 +77,7 @@ def spatial_rows(path: SpatialPath) -> SpatialRows:
     planar = path.plan.rows
     depth: list[tuple[float, ...]] = []
     pieces: list[float] = []
-    lengths = [_length(path, i) for i in range(path.n)]
+    lengths = [subpath.length for subpath in path.subpaths]
     subpaths = []
     for i in range(path.n):
         row = list(planar.subpath[i])
@@ -93,39 +86,7 @@ def spatial_rows(path: SpatialPath) -> SpatialRows:
         if i < len(path.joints):
             row[JOINT] = CORNER if path.joints[i].is_corner else SMOOTH
         subpaths.append(tuple(row))
-        own = _fitted_depth(path, i)
+        own = path.subpaths[i].depth_pieces
         depth.append((float(len(pieces)), float(len(own) // DEPTH_WIDTH), path.evaluate(i, 1.0).z))
         pieces += own
     return SpatialRows(PathRows(path.n, tuple(subpaths), planar.piece), tuple(depth), pieces)
-
-
-class _DepthOverT:
-    """Depth of a subpath as the first axis of a curve, which `fitted_row` fits."""
-
-    kind = "depth"
-
-    def __init__(self, path: SpatialPath, i: int) -> None:
-        self._path, self._i = path, i
-
-    def evaluate(self, t: Any) -> PathPoint:
-        """Depth and its derivatives in the place of x, dx and ddx."""
-        points = [self._path.evaluate(self._i, float(one)) for one in np.atleast_1d(t)]
-        z, dz, ddz = (np.array([getattr(p, name) for p in points]) for name in ("z", "dz", "ddz"))
-        none = np.zeros(len(points))
-        return PathPoint(z, none, dz, none, ddz, none)  # type: ignore[arg-type]
-
-
-def _fitted_depth(path: SpatialPath, i: int) -> list[float]:
-    """Return the pieces of a subpath's depth."""
-    _, *numbers = fitted_row(_DepthOverT(path, i))  # type: ignore[arg-type]
-    found: list[float] = []
-    for begin in range(0, len(numbers), FITTED_WIDTH):
-        found += numbers[begin : begin + DEPTH_WIDTH]
-    return found
-
-
-def _length(path: SpatialPath, i: int) -> float:
-    """Length of a subpath in three dimensions, m."""
-    nodes, weights = np.polynomial.legendre.leggauss(32)
-    speeds = [tangent_of(path.evaluate(i, 0.5 + 0.5 * float(node))).speed for node in nodes]
-    return float(0.5 * np.dot(weights, speeds))

@@ -1,0 +1,90 @@
+"""Exact distance of points from one subpath in three dimensions, to measure a track."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from auv_path_following.curves.closest import samples
+from auv_path_following.curves.spatial.spatial_point import SpatialPoint
+from auv_path_following.curves.spatial.spatial_segment import SpatialSegment, depths_at
+
+Array = npt.NDArray[np.float64]
+
+_CHUNK = 2048
+_STEPS = 60
+_CLOSE = 1e-13
+
+
+def points_of(segment: SpatialSegment, t: Array) -> SpatialPoint:
+    """Return the points of a subpath at an array of t in [0, 1]: arrays of that shape."""
+    x, y, dx, dy, ddx, ddy = segment.plan.evaluate(t)
+    z, dz, ddz = depths_at(segment.depth_pieces, t)
+    return SpatialPoint(x, y, z, dx, dy, dz, ddx, ddy, ddz)
+
+
+def closest_in_space(segment: SpatialSegment, x: Array, y: Array, z: Array) -> Array:
+    """Return the distance of each point to a subpath, its ends included.
+
+    Newton's method, safeguarded by bisection, refines every minimum of a coarse sampling, as in the plane.
+
+    Args:
+        segment: any subpath.
+        x, y, z: shape (n,), NED, m.
+
+    Returns:
+        shape (n,), m, not negative; NaN for a point that is not finite.
+    """
+    t = np.linspace(0.0, 1.0, 2 * samples(segment.plan) + 1)
+    places = np.column_stack((x, y, z))
+    result = np.full(len(x), np.nan)
+    finite = np.flatnonzero(np.isfinite(places).all(axis=1))
+    for start in range(0, len(finite), _CHUNK):
+        part = finite[start : start + _CHUNK]
+        result[part] = _of_chunk(segment, t, places[part])
+    return result
+
+
+def _of_chunk(segment: SpatialSegment, t: Array, places: Array) -> Array:
+    coarse = _axes(points_of(segment, t), 0)
+    squared = np.full((len(places), len(t) + 2), np.inf)
+    squared[:, 1:-1] = ((coarse[None] - places[:, None]) ** 2).sum(axis=2)
+    middle = squared[:, 1:-1]
+    owner, sample = np.nonzero((middle <= squared[:, :-2]) & (middle <= squared[:, 2:]))
+    last = len(t) - 1
+    low, high = t[np.maximum(sample - 1, 0)], t[np.minimum(sample + 1, last)]
+    best = _descend(segment, places[owner], t[sample], low, high)
+    result = np.full(len(places), np.inf)
+    offsets = _axes(points_of(segment, best), 0) - places[owner]
+    np.minimum.at(result, owner, np.sqrt((offsets**2).sum(axis=1)))
+    return result
+
+
+def _axes(point: Any, derivative: int) -> Array:
+    """Return the three axes of a place or of a derivative of it, shape (m, 3)."""
+    return np.column_stack(point[3 * derivative : 3 * derivative + 3])
+
+
+def _descend(segment: SpatialSegment, places: Array, t: Array, low: Array, high: Array) -> Array:
+    """Return the t of least distance between `low` and `high`, started at `t`; all of shape (m,)."""
+    t, low, high = t.copy(), low.copy(), high.copy()
+    active = np.arange(len(t))
+    for _ in range(_STEPS):
+        at, lo, hi = t[active], low[active], high[active]
+        point = points_of(segment, at)
+        offset, along = _axes(point, 0) - places[active], _axes(point, 1)
+        slope = (offset * along).sum(axis=1)
+        bend = (along**2).sum(axis=1) + (offset * _axes(point, 2)).sum(axis=1)
+        lo = np.where(slope <= 0.0, at, lo)
+        hi = np.where(slope >= 0.0, at, hi)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            newton = at - slope / bend
+        good = (bend > 0.0) & (newton >= lo) & (newton <= hi)
+        new = np.where(good, newton, 0.5 * (lo + hi))
+        t[active], low[active], high[active] = new, lo, hi
+        active = active[np.abs(new - at) > _CLOSE]
+        if not len(active):
+            break
+    return t
