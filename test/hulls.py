@@ -7,8 +7,7 @@ import dataclasses
 import numpy as np
 
 from auv_path_following import vehicle
-from auv_path_following.vehicle import Hull, Rudder, Vehicle
-from auv_path_following.vertical_hull import VerticalHull
+from auv_path_following.vehicle import Hull, Vehicle
 from auv_sim.vehicle.hulls.remus_6dof import remus_6dof_of
 
 REMUS = vehicle.load("remus100")
@@ -23,22 +22,17 @@ STABLE = dataclasses.replace(
     ),
 )  # fmt: skip
 
-#: Heave, roll and pitch of the REMUS 100 as Prestero (2001) prints them; the buoyancy is DSTO's.
-PRINTED = VerticalHull(
-    diameter=0.19,
-    W=299.0, B=302.34, zg=0.0196, Ixx=0.177, Iyy=3.45, Xwq=-35.5, Xqq=-1.93, Ywp=35.5, Ypq=1.93, Zww=-131.0,
-    Zqq=-0.632, Zuw=-28.6, Zuq=-5.22, Zvp=-35.5, Zrp=1.93, Zwd=-35.5, Zqd=-1.93, Zuud=-9.64, Kpp=-0.130,
-    Kpd=-0.0704, Kprop=-0.141, Mww=3.18, Mqq=-188.0, Muw=24.0, Muq=-2.0, Mvp=-1.93, Mrp=4.86, Mwd=-1.93,
-    Mqd=-4.88, Muud=-6.15, Nwp=-1.93, Npq=-4.86,
-)  # fmt: skip
+#: The REMUS 100 with stern planes, as Prestero (2001) prints it.
+DIVER = vehicle.load("remus100_6dof")
+PRINTED = DIVER.coefficients.vertical
+assert PRINTED is not None
 RADIUS = 0.5 * PRINTED.diameter  # m
-#: The REMUS 100 with stern planes.
-DIVER = dataclasses.replace(
-    REMUS,
-    hull=dataclasses.replace(REMUS.coefficients, vertical=PRINTED),
-    sternplanes=Rudder(max_angle_deg=20.0, max_rate_deg_s=15.0),
-)
-SIX_DOF = remus_6dof_of(REMUS.coefficients, PRINTED, RADIUS)
+SIX_DOF = remus_6dof_of(DIVER.coefficients)
+
+
+def with_vertical(**changes: float) -> Hull:
+    """Return the coefficients of `DIVER` with others of heave, roll and pitch."""
+    return dataclasses.replace(DIVER.coefficients, vertical=dataclasses.replace(PRINTED, **changes))
 
 
 def drawn(number: int) -> Vehicle:

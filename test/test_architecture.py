@@ -20,8 +20,8 @@ ROOMS = (
     (
         "auv_path_following",
         (
-            "config_files", "registry", "vertical_hull", "vehicle", "curves", "navigation", "missions",
-            "control", "guidance", "parameters", "pilot", "spatial_pilot", "nodes",
+            "config_files", "registry", "abilities", "vertical_hull", "vehicle", "curves", "navigation",
+            "missions", "control", "guidance", "parameters", "pilot", "spatial_pilot", "nodes",
         ),
     ),
 )  # fmt: skip

@@ -13,10 +13,13 @@ from auv_msgs_py.settings.validators import unfit
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.pure import numbers
 from auv_path_following import config_files
-from auv_path_following.vertical_hull import VerticalHull
+from auv_path_following.abilities import Cruise, DepthRange, Pitching, Turning
+from auv_path_following.vertical_hull import VerticalHull, check_planes
 
 #: m/s^2.
 GRAVITY = 9.81
+#: Hulls that the simulator has as programs, without coefficients, as a vehicle file names them.
+BuiltInHull = Literal["mss_remus100"]
 
 
 @numbers
@@ -68,6 +71,28 @@ class Hull:
         return self
 
     @pydantic.model_validator(mode="after")
+    def _spatial_mass_matrix_is_definite(self) -> Hull:
+        c = self.vertical
+        if c is None:
+            return self
+        arm, m, roll = self.m * c.zg, self.m, c.Ixx - c.Kpd
+        heave_pitch, sway_yaw = -m * c.xg - 0.5 * (c.Zqd + c.Mwd), m * c.xg - 0.5 * (self.Yrd + self.Nvd)
+        minors = {"m - Zwd": m - c.Zwd, "Iyy - Mqd": c.Iyy - c.Mqd, "Ixx - Kpd": roll}
+        if min(minors.values()) > 0.0:
+            surge, heave, sway, yaw = m - self.Xud, m - c.Zwd, m - self.Yvd, self.Izz - self.Nrd
+            # Schur complements: what the couplings leave of the last diagonal element of each half.
+            minors["pitch row of the mass matrix less its couplings"] = (
+                c.Iyy - c.Mqd - arm * arm / surge - heave_pitch * heave_pitch / heave
+            )
+            minors["sway row of the mass matrix less its couplings"] = (
+                sway - arm * arm / roll - sway_yaw * sway_yaw / yaw
+            )
+        for formula, value in minors.items():
+            if not value > 0.0:
+                raise unfit(f"{formula} = {value:g}", "greater than 0, or Eq. (3D-3) has no solution")
+        return self
+
+    @pydantic.model_validator(mode="after")
     def _weight_is_that_of_the_mass(self) -> Hull:
         vertical, weight = self.vertical, self.m * GRAVITY
         if vertical is not None and abs(vertical.W - weight) > 1e-3 * weight:
@@ -94,38 +119,6 @@ class Rudder:
 
 
 @settings
-class DepthRange:
-    """Where and how slowly a vehicle with stern planes may go."""
-
-    max: float = setting(100.0, "largest depth", unit="m", gt=0.0)
-    surface: float = setting(0.5, "depth at which the propeller is still under water", unit="m", ge=0.0)
-    minimum_speed: float = setting(
-        0.9, "below it the planes cannot hold a depth against the buoyancy", unit="m/s", gt=0.0
-    )
-    max_pitch_deg: float = setting(30.0, "largest pitch that guidance requests", unit="deg", gt=0.0, lt=80.0)
-
-    @property
-    def max_pitch(self) -> float:
-        """Largest pitch, rad."""
-        return math.radians(self.max_pitch_deg)
-
-
-@settings
-class Turning:
-    """Measured turning ability, used instead of the hull's coefficients."""
-
-    radius: float = setting(doc="radius of a steady turn with full rudder", unit="m", gt=0.0)
-
-
-@settings
-class Cruise:
-    """Measured speed straight ahead, used instead of the hull's drag."""
-
-    thrust: float = setting(doc="steady thrust", unit="N", gt=0.0)
-    speed: float = setting(doc="steady speed through the water at this thrust", unit="m/s", gt=0.0)
-
-
-@settings
 class Vehicle:
     """One vehicle, as plant or as a controller's model."""
 
@@ -142,8 +135,12 @@ class Vehicle:
     hull: Hull | None = setting(
         None, "coefficients of the hull; not needed for a real vehicle with cruise and turning"
     )
+    simulated_as: BuiltInHull | None = setting(
+        None, "hull that the simulator has as a program, in place of coefficients"
+    )
     cruise: Cruise | None = setting(None, "measured speed at a thrust; from the hull if left out")
     turning: Turning | None = setting(None, "measured turning ability; from the hull if left out")
+    pitching: Pitching | None = setting(None, "measured ability to pitch; from the hull if left out")
 
     @pydantic.model_validator(mode="after")
     def _is_known_well_enough(self) -> Vehicle:
@@ -152,6 +149,31 @@ class Vehicle:
                 "nothing under hull, and not both of cruise and turning",
                 "a mapping under hull, or what was measured under cruise and turning",
             )
+        return self
+
+    @pydantic.model_validator(mode="after")
+    def _is_simulated_one_way(self) -> Vehicle:
+        if self.hull is not None and self.simulated_as is not None:
+            raise unfit(f"a hull, and simulated_as: {self.simulated_as}", "one of them")
+        return self
+
+    @pydantic.model_validator(mode="after")
+    def _pitch_is_known_where_there_are_planes(self) -> Vehicle:
+        has_vertical = self.hull is not None and self.hull.vertical is not None
+        if self.sternplanes is None and (self.pitching is not None or has_vertical):
+            raise unfit(
+                f"{'pitching' if self.pitching is not None else 'hull.vertical'} without sternplanes",
+                "sternplanes: their largest angle and rate",
+            )
+        if self.sternplanes is not None and self.pitching is None and not has_vertical:
+            raise unfit("sternplanes without hull.vertical or pitching", "one of the two")
+        return self
+
+    @pydantic.model_validator(mode="after")
+    def _planes_hold_the_depth(self) -> Vehicle:
+        if self.hull is None or self.hull.vertical is None or self.sternplanes is None:
+            return self
+        check_planes(self.hull.vertical, self.sternplanes.max_angle_deg, self.depth)
         return self
 
     @pydantic.model_validator(mode="after")
@@ -181,8 +203,11 @@ class Vehicle:
             ConfigurationError: the vehicle file has none.
         """
         if self.hull is None:
+            found = "nothing" if self.simulated_as is None else f"simulated_as: {self.simulated_as}"
             raise ConfigurationError(
-                f"{self.name}: hull", "nothing", "the hull's coefficients, which a simulator or a model needs"
+                f"{self.name}: hull",
+                found,
+                "the hull's coefficients, which a planar simulator or a model needs",
             )
         return self.hull
 

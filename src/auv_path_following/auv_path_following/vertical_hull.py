@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
+
 import pydantic
 
 from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.settings.validators import unfit
 from auv_msgs_py.values.pure import numbers
+from auv_path_following.abilities import DepthRange
 
 
 @numbers
@@ -67,3 +70,81 @@ class VerticalHull:
         if not (self.Kpp < 0.0 or self.Kup < 0.0):
             raise unfit("Kpp = 0 and Kup = 0", "one of them below 0: roll has to be damped")
         return self
+
+
+def reversal_speed(hull: VerticalHull) -> float:
+    """Return the speed (m/s) below which "planes down" makes the hull climb, Eq. (3D-5); 0 if there is none.
+
+    At low speed the planes' own lift, which pushes the stern the wrong way, outweighs the pitch that they
+    give against the weight's righting moment.
+    """
+    attack = -hull.Zuud / hull.Zuw if hull.Zuw < 0.0 else 0.0  # w/u for each radian of planes
+    pitch = (hull.Muw * attack + hull.Muud) / (hull.zg * hull.W)  # theta/u^2 for each radian, s^2/m^2
+    if pitch >= 0.0:
+        return math.inf
+    return math.sqrt(attack / pitch) if attack < 0.0 else 0.0
+
+
+#: Largest pitch of a level trim that is looked for, rad.
+_STEEPEST_TRIM = math.radians(60.0)
+
+
+def level_trim(hull: VerticalHull, speed: float) -> tuple[float, float]:
+    """Return pitch and stern planes (rad) that hold a depth against weight and buoyancy; NaN if none do.
+
+    Args:
+        hull: its coefficients.
+        speed: through the water, m/s, above `reversal_speed`.
+    """
+    c = hull
+
+    def without_planes(theta: float) -> tuple[float, float, float]:
+        u, w = speed * math.cos(theta), speed * math.sin(theta)
+        Z = (c.W - c.B) * math.cos(theta) + c.Zww * w * abs(w) + c.Zuw * u * w
+        weight = -c.zg * c.W * math.sin(theta) - c.xg * c.W * math.cos(theta)
+        return u * u, Z, weight + c.Mww * w * abs(w) + c.Muw * u * w
+
+    def left_over(theta: float) -> float:
+        _, Z, M = without_planes(theta)
+        return Z * c.Muud - M * c.Zuud
+
+    low, high = -_STEEPEST_TRIM, _STEEPEST_TRIM
+    at_low = left_over(low)
+    if at_low * left_over(high) > 0.0:
+        return math.nan, math.nan
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if left_over(middle) * at_low > 0.0 else (low, middle)
+    square, _, M = without_planes(low)
+    return low, -M / (c.Muud * square)
+
+
+#: `depth.minimum_speed` is at least this many times the speed at which stern planes reverse.
+REVERSAL_MARGIN = 1.5
+
+
+def check_planes(hull: VerticalHull, max_angle_deg: float, depth: DepthRange) -> None:
+    """Check that stern planes of this largest angle (deg) hold a depth at the lowest speed.
+
+    Raises:
+        PydanticCustomError: they reverse or reach their stop there, or the hull sinks.
+    """
+    slowest, reversal = depth.minimum_speed, reversal_speed(hull)
+    if slowest < REVERSAL_MARGIN * reversal:
+        raise unfit(
+            f"depth.minimum_speed: {slowest:g} m/s, with planes that reverse at {reversal:.3g} m/s",
+            f"at least {REVERSAL_MARGIN:g} times as much, {REVERSAL_MARGIN * reversal:.3g} m/s",
+        )
+    planes = math.degrees(abs(level_trim(hull, slowest)[1]))
+    if not planes < max_angle_deg:
+        found = "no angle" if math.isnan(planes) else f"{planes:.1f} deg"
+        raise unfit(
+            f"{found} of stern planes at depth.minimum_speed, {slowest:g} m/s",
+            f"less than sternplanes.max_angle_deg, {max_angle_deg:g} deg, to hold a depth: "
+            "a higher minimum_speed, or B closer to W",
+        )
+    if hull.B < hull.W and not depth.allow_sinking:
+        raise unfit(
+            f"hull.vertical: B = {hull.B:g} N below W = {hull.W:g} N",
+            "a hull that floats up without thrust, or depth: {allow_sinking: true}",
+        )

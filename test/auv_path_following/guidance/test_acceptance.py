@@ -12,6 +12,7 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.settings import params_file
 from auv_msgs_py.values.types import NO_CURRENT, Current
 from auv_path_following import config_files, vehicle
+from auv_path_following.abilities import Cruise, Turning
 from auv_path_following.control.autopilot import HeadingAutopilot
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.kinds.line import Line
@@ -25,7 +26,7 @@ from auv_path_following.guidance.acceptance import (
     reach,
 )
 from auv_path_following.parameters import AutopilotParameters, GuidanceParameters, ObserverParameters
-from auv_path_following.vehicle import Cruise, Turning, Vehicle
+from auv_path_following.vehicle import Vehicle
 from hulls import REMUS, STABLE
 
 _NODES = {

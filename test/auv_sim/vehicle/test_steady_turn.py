@@ -10,14 +10,15 @@ import pytest
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import Command
 from auv_path_following import config_files, vehicle
+from auv_path_following.abilities import Cruise, Turning
 from auv_path_following.control.hull_model import tightest_turn
-from auv_path_following.vehicle import Cruise, Turning, Vehicle
+from auv_path_following.vehicle import Vehicle
 from auv_sim.vehicle.remus import PlantState
 from auv_sim.vehicle.simulated import SimulatedVehicle
 from hulls import REMUS, STABLE, drawn
 
 HULLS = {
-    **{name: vehicle.load(name) for name in config_files.shipped("vehicles")},
+    **{name: vehicle.load(name) for name in config_files.shipped("vehicles") if name != "mss_remus100"},
     "stable": STABLE,
     **{f"drawn {number}": drawn(number) for number in range(8)},
 }

@@ -57,13 +57,26 @@ LEAST_EFFECT, TYPICAL_EFFECT = 1.0, 1.8
 def rudder_effect(vehicle: Vehicle, without_hull: float = TYPICAL_EFFECT) -> float:
     """Return b = |dr/dt| for each radian of rudder at the speed of full thrust, 1/s^2.
 
+    A measured effect takes precedence. It grows with the square of the speed.
+
     Args:
         vehicle: with a hull, or with its length and measured speed.
-        without_hull: b L^2/u^2 to assume where the file has no hull.
+        without_hull: b L^2/u^2 to assume where the file has neither hull nor effect.
     """
+    measured = measured_effect(vehicle)
+    if measured is not None:
+        return measured
     if vehicle.hull is not None:
         return HullModel(vehicle).b
     return without_hull * (vehicle.top_speed / vehicle.length) ** 2
+
+
+def measured_effect(vehicle: Vehicle) -> float | None:
+    """Return b at the speed of full thrust as the file's `turning.effect` gives it, 1/s^2."""
+    turning, cruise = vehicle.turning, vehicle.cruise
+    if turning is None or turning.effect is None:
+        return None
+    return turning.effect if cruise is None else turning.effect * (vehicle.top_speed / cruise.speed) ** 2
 
 
 class SwayYaw(NamedTuple):

@@ -10,24 +10,46 @@ from __future__ import annotations
 import dataclasses
 
 from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following.abilities import Cruise, Turning
 from auv_path_following.vehicle import Hull, Vehicle
+from auv_path_following.vertical_hull import VerticalHull
 
 
 def pitch_plane_of(vehicle: Vehicle) -> Vehicle:
     """Return the vehicle as its pitch autopilot sees it.
 
+    What was measured under `pitching` takes the place of a measured turn; its radius is that of a loop at the
+    speed of cruise.
+
     Raises:
-        ConfigurationError: the vehicle file has no stern planes, or no coefficients of heave and pitch.
+        ConfigurationError: the vehicle file has no stern planes.
     """
-    hull = vehicle.coefficients
     if vehicle.sternplanes is None:
         raise ConfigurationError(f"{vehicle.name}: sternplanes", "nothing", "their largest angle and rate")
-    if hull.vertical is None:
-        raise ConfigurationError(
-            f"{vehicle.name}: hull.vertical", "nothing", "coefficients of heave and pitch"
+    hull, turning, measured = vehicle.hull, None, vehicle.pitching
+    cruise = vehicle.cruise or Cruise(thrust=vehicle.thrust_max, speed=vehicle.top_speed)
+    if measured is not None:
+        turning = Turning(
+            radius=cruise.speed / measured.rate,
+            effect=measured.effect,
+            divergence=measured.divergence,
+            drift_time=measured.drift_time,
         )
-    c = hull.vertical
-    planar = Hull(
+    side = None if hull is None or hull.vertical is None else _seen_from_the_side(hull, hull.vertical)
+    return dataclasses.replace(
+        vehicle,
+        rudder=vehicle.sternplanes,
+        sternplanes=None,
+        hull=side,
+        cruise=cruise,
+        turning=turning,
+        pitching=None,
+    )
+
+
+def _seen_from_the_side(hull: Hull, c: VerticalHull) -> Hull:
+    """Return the planar hull whose sway and yaw are heave and pitch."""
+    return Hull(
         m=hull.m,
         Izz=c.Iyy,
         Xuu=hull.Xuu,
@@ -50,4 +72,3 @@ def pitch_plane_of(vehicle: Vehicle) -> Vehicle:
         Nuud=c.Muud,
         surge_coupling=hull.surge_coupling,
     )
-    return dataclasses.replace(vehicle, rudder=vehicle.sternplanes, hull=planar, turning=None)

@@ -15,7 +15,7 @@ from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.values.angles import wrap
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.pure import bounded, pure
-from auv_path_following.control.hull_model import LEAST_EFFECT, rudder_effect, tightest_turn
+from auv_path_following.control.hull_model import LEAST_EFFECT, measured_effect, rudder_effect, tightest_turn
 from auv_path_following.vehicle import Vehicle
 
 
@@ -78,13 +78,13 @@ def limits_of(config: ReferenceConfig, vehicle: Vehicle, rudder_rate: float) -> 
         rudder_rate: the fastest that the controller moves the rudder, rad/s.
 
     Raises:
-        ConfigurationError: a limit has to be derived, and the vehicle file has no hull.
+        ConfigurationError: a limit has to be derived, and the vehicle file has neither hull nor effect.
     """
     if config.max_rate and config.max_acceleration and config.max_jerk:
         return ReferenceLimits(config.max_rate, config.max_acceleration, config.max_jerk)
     # By the least b, limits without a hull are narrow rather than wide.
     limits = _derived(config, vehicle, rudder_effect(vehicle, LEAST_EFFECT), rudder_rate)
-    if vehicle.hull is not None:
+    if vehicle.hull is not None or measured_effect(vehicle) is not None:
         return limits
     advice = limits._asdict()
     missing = [name for name in advice if not getattr(config, f"max_{name}")]

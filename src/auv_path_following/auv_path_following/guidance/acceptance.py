@@ -8,7 +8,7 @@ from typing import NamedTuple
 from auv_msgs_py.values.angles import wrap
 from auv_msgs_py.values.pure import pure
 from auv_msgs_py.values.types import NO_CURRENT, Current
-from auv_path_following.control.hull_model import tightest_turn
+from auv_path_following.control.hull_model import measured_effect, tightest_turn
 from auv_path_following.control.nism import NismConfig, kp_of
 from auv_path_following.control.reference_model import ReferenceConfig, limits_of
 from auv_path_following.curves.composite import CompositePath
@@ -51,7 +51,7 @@ def cornering_of(vehicle: Vehicle) -> Cornering:
     Raises:
         ConfigurationError: no turn of the hull is steady, and none was measured.
     """
-    if vehicle.hull is None:
+    if vehicle.hull is None and measured_effect(vehicle) is None:
         return Cornering(vehicle.top_speed / tightest_turn(vehicle).radius, _USUAL_LEAD)
     rudder_rate = kp_of(NismConfig(kp_from_rudder=True), vehicle)
     rate, acceleration, jerk = limits_of(ReferenceConfig(), vehicle, rudder_rate)

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from auv_msgs_py.values.types import Current
 from auv_path_following import vehicle
+from auv_path_following.abilities import Turning
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.kinds.arc import Arc
 from auv_path_following.curves.kinds.line import Line
@@ -21,7 +22,6 @@ from auv_path_following.guidance.switching import SwitchingConfig
 from auv_path_following.missions import mission_file
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.missions.routes.smoothing import Smoothing, smooth
-from auv_path_following.vehicle import Turning
 from auv_sim.checks.mission_check.crossings import crossings
 from auv_sim.checks.mission_check.flyable import check
 

@@ -11,17 +11,24 @@ import pytest
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import Current
 from auv_path_following import vehicle
-from auv_sim.vehicle.hulls.remus_6dof import Remus6dof, remus_6dof_of, remus_6dof_step, remus_accelerations
+from auv_path_following.vertical_hull import level_trim, reversal_speed
+from auv_sim.vehicle.hulls.remus_6dof import (
+    Remus6dof,
+    remus_6dof_of,
+    remus_6dof_step,
+    remus_accelerations,
+    remus_loads,
+)
 from auv_sim.vehicle.hulls.rigid_body import BodyState, angles_of, body_at, quaternion_of
 from auv_sim.vehicle.remus import PlantState, planar_hull_of, planar_step
-from hulls import PRINTED, RADIUS
+from hulls import PRINTED, RADIUS, with_vertical
 
 STILL, NEUTRAL = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
 PLANAR = vehicle.load("remus100")
 
 
 def hull(**changes: float) -> Remus6dof:
-    return remus_6dof_of(PLANAR.coefficients, dataclasses.replace(PRINTED, **changes), RADIUS)
+    return remus_6dof_of(with_vertical(**changes))
 
 
 def flat() -> Remus6dof:
@@ -104,10 +111,29 @@ def test_eigenvalues_of_the_printed_hull(speed: float, vertical: tuple, lateral:
 
 def test_planes_work_backwards_below_the_reversal_speed() -> None:
     """(3D-5): u_rev = sqrt(a / k) = 0.372 m/s; below it planes that put the bow down make the hull rise."""
-    c = hull().vertical
-    a = -c.Zuud / c.Zuw
-    k = (c.Muw * a + c.Muud) / (c.zg * c.W)
-    assert math.sqrt(a / k) == pytest.approx(0.372, abs=5e-4)
+    reversal = reversal_speed(PRINTED)
+    assert reversal == pytest.approx(0.372, abs=5e-4)
+    config = hull(B=299.0, Kprop=0.0)
+    for share, sign in ((0.8, -1.0), (1.3, 1.0)):  # deeper or shallower after 300 s with the bow put down
+        speed, planes = share * reversal, (math.radians(1.0),) * 3
+        body = body_at(0.0, 0.0, 50.0, 0.0, 0.0, 0.0, speed)
+        for _ in range(3000):
+            body, _ = remus_6dof_step(config, body, (NEUTRAL, planes, 1.62 * speed * speed, STILL), 0.1)
+        assert sign * (body.z - 50.0) > 0.05
+
+
+@pytest.mark.parametrize("ballast", [3.34, 7.0, -3.0])
+def test_level_trim_holds_the_depth(ballast: float) -> None:
+    """Heave force and pitch moment vanish on a level way at the pitch and planes of the trim."""
+    theta, planes = level_trim(dataclasses.replace(PRINTED, B=299.0 + ballast), 1.25)
+    config = hull(B=299.0 + ballast, Kprop=0.0)
+    u, w = 1.25 * math.cos(theta), 1.25 * math.sin(theta)
+    body = BodyState(0.0, 0.0, 50.0, *quaternion_of(0.0, theta, 0.0), u, 0.0, w, 0.0, 0.0, 0.0)
+    _, _, Z, _, M, _ = remus_loads(config, body, 0.0, planes, 2.5)
+    assert pytest.approx((0.0, 0.0), abs=1e-9) == (Z, M)
+    if ballast == 3.34:
+        assert math.degrees(theta) == pytest.approx(-1.89, abs=0.05)
+        assert math.degrees(planes) == pytest.approx(-6.3, abs=0.05)
 
 
 def test_the_propeller_rolls_the_hull_to_port_until_the_weight_holds_it() -> None:
@@ -149,9 +175,9 @@ def test_fins_have_the_signs_of_this_suite(sign: float) -> None:
     assert sign * (dived.z - 20.0) > 0.0
 
 
-def test_a_mass_matrix_that_is_not_definite_is_refused_with_its_half() -> None:
-    with pytest.raises(ConfigurationError, match="mass matrix of surge, heave and pitch: found eigenvalues"):
-        hull(Mqd=10.0)
+def test_a_planar_hull_cannot_be_flown() -> None:
+    with pytest.raises(ConfigurationError, match=r"hull\.vertical: found nothing"):
+        remus_6dof_of(PLANAR.coefficients)
 
 
 def test_a_hull_whose_roll_nothing_damps_is_refused() -> None:

@@ -16,8 +16,9 @@ import numpy as np
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.frames import flip_yaw, quaternion_of_yaw, swap_axes, yaw_of_quaternion
 from auv_msgs_py.values.types import STOP, Command, Current
+from auv_path_following.abilities import Cruise, Turning
 from auv_path_following.control.hull_model import tightest_turn
-from auv_path_following.vehicle import Cruise, Turning, Vehicle
+from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.vehicle_check.samples import OdometrySample, WaterSample
 from auv_sim.checks.vehicle_check.verdict import Mistake
 from auv_sim.vehicle.actuator import with_rate

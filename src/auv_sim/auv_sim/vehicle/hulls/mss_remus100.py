@@ -3,7 +3,8 @@
 Another hull than Prestero's: spheroid added mass, linear damping, lift and drag of the body, cross-flow drag
 by strips, a propeller by open-water data. The signs of the fins are those of this suite: a positive rudder
 turns to port, positive planes put the bow down. The published model is kept with its peculiarities, which
-comments name.
+comments name. The propeller takes a thrust in N, as that of every other hull does, and turns as fast as gives
+it: a command means the same on all hulls, and the roll moment is that of the revolutions.
 """
 
 from __future__ import annotations

@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.pure import dispatched, pure
 from auv_msgs_py.values.types import SpatialCommand, SpatialCurrent, SpatialNavigation, SpatialWater
-from auv_path_following.vehicle import Vehicle
+from auv_path_following.vehicle import BuiltInHull, Vehicle
 from auv_sim.vehicle.actuator import ServoState, servo_of, servo_step
-from auv_sim.vehicle.hulls.mss_remus100 import MssRemus100, mss_remus100_step
+from auv_sim.vehicle.hulls.mss_remus100 import MssRemus100, mss_remus100, mss_remus100_step
 from auv_sim.vehicle.hulls.remus_6dof import Remus6dof, remus_6dof_of, remus_6dof_step
 from auv_sim.vehicle.hulls.rigid_body import BodyState, angles_of, to_body
 from auv_sim.vehicle.remus import MAX_STEP
 
 #: One step of a hull: (configuration, state, `BodyInputs`, dt) -> (state, state).
 body_step = dispatched({Remus6dof: remus_6dof_step, MssRemus100: mss_remus100_step})
+
+
+#: Hulls without coefficients, by the name in a vehicle file.
+BUILT_IN: dict[BuiltInHull, Callable[[], Any]] = {"mss_remus100": mss_remus100}
 
 
 class SpatialPlant(NamedTuple):
@@ -54,11 +59,13 @@ def spatial_plant_of(vehicle: Vehicle) -> SpatialPlant:
     Raises:
         ConfigurationError: the vehicle file lacks stern planes or coefficients.
     """
-    hull = vehicle.coefficients
-    if vehicle.sternplanes is None or hull.vertical is None:
-        missing = "sternplanes" if vehicle.sternplanes is None else "hull.vertical"
-        raise ConfigurationError(f"{vehicle.name}: {missing}", "nothing", "what a vehicle that dives needs")
-    body = remus_6dof_of(hull, hull.vertical, 0.5 * hull.vertical.diameter)
+    if vehicle.sternplanes is None:
+        raise ConfigurationError(f"{vehicle.name}: sternplanes", "nothing", "their largest angle and rate")
+    body = (
+        BUILT_IN[vehicle.simulated_as]()
+        if vehicle.simulated_as is not None
+        else remus_6dof_of(vehicle.coefficients)
+    )
     return SpatialPlant(body, servo_of(vehicle.rudder), servo_of(vehicle.sternplanes), vehicle.thrust_max)
 
 
