@@ -17,8 +17,9 @@ from auv_sim.vehicle.remus import PlantState
 from auv_sim.vehicle.simulated import SimulatedVehicle
 from hulls import REMUS, STABLE, drawn
 
+SHIPPED = {name: vehicle.load(name) for name in config_files.shipped("vehicles")}
 HULLS = {
-    **{name: vehicle.load(name) for name in config_files.shipped("vehicles") if name != "mss_remus100"},
+    **{name: hull for name, hull in SHIPPED.items() if not hull.dives},
     "stable": STABLE,
     **{f"drawn {number}": drawn(number) for number in range(8)},
 }
