@@ -106,6 +106,13 @@ class Rudder:
 
     max_angle_deg: float = setting(doc="largest angle", unit="deg", gt=0.0, lt=90.0)
     max_rate_deg_s: float = setting(doc="largest rate", unit="deg/s", gt=0.0)
+    dead_time: float = setting(
+        0.0,
+        "time from a command to the start of the fin: of the link and of the servo",
+        unit="s",
+        ge=0.0,
+        le=2.0,
+    )
 
     @property
     def max_angle(self) -> float:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.values.pure import bounded, dispatched, pure
 from auv_path_following.vehicle import Rudder, Vehicle
+from auv_sim.vehicle.late_servo import LateServo, late_servo_at, late_servo_of, turn_late
 
 
 @settings
@@ -98,23 +99,46 @@ def with_rate(vehicle: Vehicle, share: float) -> Vehicle:
     return dataclasses.replace(vehicle, rudder=dataclasses.replace(vehicle.rudder, max_rate_deg_s=rate))
 
 
-def servo_of(rudder: Rudder) -> Servo:
-    """Return the configuration of an ideal servo."""
+def servo_of(rudder: Rudder) -> Servo | LateServo:
+    """Return the configuration of a servo that is ideal but for its dead time."""
+    if rudder.dead_time > 0.0:
+        return late_servo_of(rudder)
     return Servo(rudder.max_angle, rudder.max_rate)
+
+
+@pure
+def ideal_servo_at(config: Servo, ring: Any, angle: float, dt: float) -> tuple[ServoState, float]:
+    """Return the first state at an angle (rad), and the angle; it needs no ring."""
+    return ServoState(angle), angle
+
+
+#: First state of a servo: (configuration, ring, angle in rad, 0) -> (state, angle).
+servo_begin = dispatched({Servo: ideal_servo_at, LateServo: late_servo_at})
+
+
+def ring_size(servo: Servo | LateServo) -> int:
+    """Return how many numbers the ring of a servo holds."""
+    return 2 * servo.size if isinstance(servo, LateServo) else 0
+
+
+def servo_at(servo: Servo | LateServo) -> Any:
+    """Return the state of a servo in neutral."""
+    return servo_begin(servo, [0.0] * ring_size(servo), 0.0, 0.0)[0]
 
 
 def flawed_servo_of(rudder: Rudder, flaws: RudderFlaws, step: float) -> FlawedServo:
     """Return the configuration of a servo with flaws.
 
     Args:
-        rudder: limits.
+        rudder: limits, and a dead time that adds to that of the flaws.
         flaws: in degrees and s.
         step: shortest time between two commands, s.
     """
-    size = math.ceil(flaws.dead_time / step) + 3
+    dead_time = flaws.dead_time + rudder.dead_time
+    size = math.ceil(dead_time / step) + 3
     band, play = math.radians(flaws.dead_band_deg), math.radians(0.5 * flaws.backlash_deg)
     limits = rudder.max_angle, rudder.max_rate
-    return FlawedServo(*limits, band, play, flaws.dead_time, size, [0.0] * (2 * size))
+    return FlawedServo(*limits, band, play, dead_time, size, [0.0] * (2 * size))
 
 
 @pure
@@ -178,4 +202,4 @@ def _aim(band: float, angle: float, target: float, command: float) -> float:
 
 
 #: One step of the servo: (configuration, state, `Order`, dt) -> (state, `Deflection`).
-servo_step = dispatched({Servo: turn, FlawedServo: turn_flawed})
+servo_step = dispatched({Servo: turn, FlawedServo: turn_flawed, LateServo: turn_late})

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from auv_msgs_py.values.pure import dispatched, pure
 from auv_msgs_py.values.types import Command, Current, Navigation
 from auv_path_following.vehicle import Vehicle
-from auv_sim.vehicle.actuator import Deflection, ServoState, servo_of, servo_step
+from auv_sim.vehicle.actuator import Deflection, ServoState, servo_at, servo_of, servo_step
 
 #: Longest Runge-Kutta step, s; longer steps are divided.
 MAX_STEP = 0.05
@@ -167,7 +167,7 @@ PlantInputs = tuple[Command, Current, float]
 
 
 def plant_of(vehicle: Vehicle) -> Plant:
-    """Return the configuration of a vehicle with an ideal servo.
+    """Return the configuration of a vehicle whose servo is ideal but for its dead time.
 
     Raises:
         ConfigurationError: the vehicle file has no hull.
@@ -175,9 +175,9 @@ def plant_of(vehicle: Vehicle) -> Plant:
     return Plant(planar_hull_of(vehicle), servo_of(vehicle.rudder), vehicle.thrust_max)
 
 
-def plant_at(hull: PlantState) -> Afloat:
-    """Return the state of a plant with the ideal servo neutral."""
-    return Afloat(PlantState(*map(float, hull)), ServoState())
+def plant_at(hull: PlantState, plant: Plant | None = None) -> Afloat:
+    """Return the state of a plant with its servo in neutral; of one with an ideal servo if None."""
+    return Afloat(PlantState(*map(float, hull)), ServoState() if plant is None else servo_at(plant.servo))
 
 
 @pure

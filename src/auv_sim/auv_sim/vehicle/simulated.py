@@ -98,7 +98,8 @@ class Simulated(Generic[Motion, Order, Flow, View]):
         self.seen: View
         kind = self.kind
         if self._sea is None:
-            self._config, self.state = kind.plant_of(self._vehicle), kind.plant_at(self._initial)
+            self._config = kind.plant_of(self._vehicle)
+            self.state = kind.plant_at(self._initial, self._config)
         else:
             # One more step for the first measurement.
             self._draws = Draws(self._step, _BLOCK + 1)

@@ -21,7 +21,7 @@ from auv_sim.flight.batch.distance import Outlines, distance_to
 from auv_sim.flight.batch.flown_cells import pass_cells
 from auv_sim.flight.batch.track_row import TRACK_COLUMNS, fill_row
 from auv_sim.flight.flown_share import Cells
-from auv_sim.vehicle.actuator import ServoState
+from auv_sim.vehicle.actuator import servo_begin
 from auv_sim.vehicle.remus import Afloat, PlantState
 from auv_sim.vehicle.simulated import vehicle_measure, vehicle_step
 
@@ -56,15 +56,23 @@ class Course(NamedTuple):
 
 
 class Scratch(NamedTuple):
-    """Tables that a flight writes: rows of its approach, and whether each cell was flown, shape (cells,)."""
+    """Tables that a flight writes.
+
+    Attributes:
+        approach: rows of its approach.
+        flown: whether each cell was flown, shape (cells,).
+        ring: of its servo.
+    """
 
     approach: Array
     flown: Flags
+    ring: Array
 
 
-def scratch_of(course: Course) -> Scratch:
-    """Return tables for flights of a course."""
-    return Scratch(np.array(empty_approach()), np.zeros(len(course.cells.cells), np.bool_))
+def scratch_of(course: Course, ring: int = 0) -> Scratch:
+    """Return tables for flights of a course whose servos have rings of at most `ring` numbers."""
+    cells = np.zeros(len(course.cells.cells), np.bool_)
+    return Scratch(np.array(empty_approach()), cells, np.zeros(max(ring, 1)))
 
 
 @compiled
@@ -88,7 +96,8 @@ def fly_many(
     for k in range(len(which)):
         flight = unpack(example, configs[which[k]])
         row = starts[k]  # the fields of PlantState
-        start = Afloat(PlantState(row[0], row[1], row[2], row[3], row[4], row[5]), ServoState(0.0))
+        servo, _ = servo_begin(flight.plant.servo, scratch.ring, 0.0, 0.0)
+        start = Afloat(PlantState(row[0], row[1], row[2], row[3], row[4], row[5]), servo)
         current = Current(currents[k, 0], currents[k, 1])
         fly_one(
             flight, flight.plant, start, current, course, scratch, whole[k], subpaths[k], ends[k], none, 0

@@ -39,9 +39,10 @@ from auv_sim.flight.closed_loop import Scenario, start_of
 from auv_sim.flight.flown_share import cells_of
 from auv_sim.flight.run_record import Run
 from auv_sim.flight.signals import TRUTH
+from auv_sim.vehicle.actuator import ring_size, servo_begin, servo_of
 from auv_sim.vehicle.at_sea import at_sea_of
 from auv_sim.vehicle.draws import Draws
-from auv_sim.vehicle.remus import PlantState, plant_at
+from auv_sim.vehicle.remus import Afloat, PlantState
 from auv_sim.vehicle.sea import Sea
 
 #: Flights of one compiled call.
@@ -107,10 +108,11 @@ class _Chunk(NamedTuple):
         currents = np.array([scenario.current for scenario in flown], np.float64)
         whole, ends = np.empty((n, tally.FLIGHT_TALLIES)), np.empty((n, tally.ENDS))
         subpaths = np.empty((n, m, tally.SUBPATH_TALLIES))
+        ring = max(ring_size(servo_of(scenario.vehicle.rudder)) for scenario in flown)
         with np.errstate(all="ignore"):  # a state that runs away is a result
             fly_many(
                 self.example, self.configs, self.which, starts, currents, self.course,
-                scratch_of(self.course), whole, subpaths, ends,
+                scratch_of(self.course, ring), whole, subpaths, ends,
             )  # fmt: skip
         dt = np.array([scenario.dt for scenario in flown])
         return figures_of(ends, whole, subpaths, dt)
@@ -196,7 +198,8 @@ def _flown(scenario: Scenario, course: Course, flight: FlightConfig, every: int)
         steps = min(steps, flight.steps)
         kept = np.empty((math.ceil(steps / every) if every else 0, track_row.TRACK_COLUMNS))
         vehicle: Any = flight.plant
-        state: Any = plant_at(start)
+        servo, ring = vehicle.servo, np.zeros(max(ring_size(vehicle.servo), 1))
+        state: Any = Afloat(start, servo_begin(servo, ring, 0.0, 0.0)[0])
         if scenario.sea is not None:
             draws = Draws(flight.dt, steps, arrays=True)
             vehicle, state = at_sea_of(scenario.vehicle, start, scenario.sea, scenario.seed, draws)

@@ -10,7 +10,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.pure import dispatched, pure
 from auv_msgs_py.values.types import SpatialCommand, SpatialCurrent, SpatialNavigation, SpatialWater
 from auv_path_following.vehicle import BuiltInHull, Vehicle
-from auv_sim.vehicle.actuator import ServoState, servo_of, servo_step
+from auv_sim.vehicle.actuator import ServoState, servo_at, servo_of, servo_step
 from auv_sim.vehicle.hulls.mss_remus100 import MssRemus100, mss_remus100, mss_remus100_step
 from auv_sim.vehicle.hulls.remus_6dof import Remus6dof, remus_6dof_of, remus_6dof_step
 from auv_sim.vehicle.hulls.rigid_body import BodyState, angles_of, to_body
@@ -54,7 +54,7 @@ SpatialPlantInputs = tuple[SpatialCommand, SpatialCurrent, float]
 
 
 def spatial_plant_of(vehicle: Vehicle) -> SpatialPlant:
-    """Return the configuration of a vehicle with ideal servos.
+    """Return the configuration of a vehicle whose servos are ideal but for their dead time.
 
     Raises:
         ConfigurationError: the vehicle file lacks stern planes or coefficients.
@@ -69,9 +69,11 @@ def spatial_plant_of(vehicle: Vehicle) -> SpatialPlant:
     return SpatialPlant(body, servo_of(vehicle.rudder), servo_of(vehicle.sternplanes), vehicle.thrust_max)
 
 
-def spatial_plant_at(hull: BodyState) -> SpatialAfloat:
-    """Return the state of a plant with ideal servos in neutral."""
-    return SpatialAfloat(BodyState(*map(float, hull)), ServoState(), ServoState())
+def spatial_plant_at(hull: BodyState, plant: SpatialPlant | None = None) -> SpatialAfloat:
+    """Return the state of a plant with its servos in neutral; of one with ideal servos if None."""
+    if plant is None:
+        return SpatialAfloat(BodyState(*map(float, hull)), ServoState(), ServoState())
+    return SpatialAfloat(BodyState(*map(float, hull)), servo_at(plant.rudder), servo_at(plant.sternplanes))
 
 
 @pure
