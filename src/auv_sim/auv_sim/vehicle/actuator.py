@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.values.pure import bounded, dispatched, pure
 from auv_path_following.vehicle import Rudder, Vehicle
-from auv_sim.vehicle.late_servo import LateServo, late_servo_at, late_servo_of, turn_late
+from auv_sim.vehicle.fins.late_servo import LateServo, late_servo_at, late_servo_of, turn_late
 
 
 @settings

@@ -34,7 +34,7 @@ _COMPILED_FROM = (
     *((auv_path_following, f"{room}/**/*.py") for room in ("curves", "missions", "navigation")),
     *((auv_path_following, f"{room}/**/*.py") for room in ("guidance", "control")),
     (auv_sim, "flight/**/*.py"),
-    (auv_sim, "vehicle/*.py"),
+    (auv_sim, "vehicle/**/*.py"),
 )
 
 #: Whether the engine is compiled; otherwise a flight takes about as long as one of `closed_loop`.

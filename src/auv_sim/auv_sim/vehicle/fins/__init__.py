@@ -1,0 +1,1 @@
+"""Servos of fins beside the usual one."""
