@@ -17,7 +17,7 @@ from auv_path_following import config_files, vehicle
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.missions import mission_file
 from auv_path_following.vehicle import Vehicle
-from auv_sim.flight.closed_loop import Scenario
+from auv_sim.flight.scenario import Scenario
 from auv_sim.sim_parameters import CRUISE, SUITE
 from auv_sim.studies.settings_changes import changed
 from auv_sim.vehicle import sea

@@ -30,7 +30,7 @@ from auv_path_following.missions import mission_file
 from auv_path_following.nodes.current_observer_node import CurrentObserverNode
 from auv_path_following.nodes.guidance_node import GuidanceNode
 from auv_path_following.nodes.heading_autopilot_node import HeadingAutopilotNode
-from auv_sim.flight.closed_loop import start_of
+from auv_sim.flight.scenario import start_of
 from auv_sim.vehicle.simulated import SimulatedVehicle
 
 CURRENT = Current(0.1, -0.1)

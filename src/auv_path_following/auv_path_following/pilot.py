@@ -12,7 +12,8 @@ from auv_path_following.control.autopilot import Autopilot, AutopilotState, stee
 from auv_path_following.curves.rows import PathRows
 from auv_path_following.guidance import guide as guidance
 from auv_path_following.guidance.follow import GuidanceOutput
-from auv_path_following.guidance.guide import Guide, GuideState, Measured, guide
+from auv_path_following.guidance.guide import Guide, GuideState, guide
+from auv_path_following.guidance.measured import Measured
 from auv_path_following.navigation.current_observer import (
     ObserverState,
     observe,

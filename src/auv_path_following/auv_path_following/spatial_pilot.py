@@ -2,33 +2,26 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
+from auv_msgs_py.contract.frames import flip_yaw
 from auv_msgs_py.values.pure import pure
-from auv_msgs_py.values.types import (
-    Navigation,
-    Reference,
-    SpatialCommand,
-    SpatialCurrent,
-    SpatialNavigation,
-    SpatialWater,
-    WaterVelocity,
-)
+from auv_msgs_py.values.types import Navigation, Reference, SpatialCommand, SpatialCurrent, WaterVelocity
+from auv_path_following.control import autopilot
 from auv_path_following.control.autopilot import Autopilot, AutopilotState, steer
 from auv_path_following.curves.spatial.spatial_rows import SpatialRows
-from auv_path_following.guidance.follow import FollowerState
-from auv_path_following.guidance.spatial_follow import (
-    SpatialFollower,
-    SpatialOutput,
-    follow_spatial,
-    level_of,
-)
-from auv_path_following.guidance.spatial_laws import euler_rates, levelled
+from auv_path_following.guidance import guide as guidance
+from auv_path_following.guidance.guide import Guide, GuideState, guide
+from auv_path_following.guidance.measured import SpatialMeasured
+from auv_path_following.guidance.spatial.spatial_follow import SpatialOutput, level_of
+from auv_path_following.guidance.spatial.spatial_laws import Levelled, euler_rates, levelled
 from auv_path_following.navigation.current_observer import Observer
 from auv_path_following.navigation.spatial_observer import (
+    UNOBSERVED,
     SpatialObserverState,
     observe_spatial,
     spatial_estimate,
+    spatially_relocated,
 )
 
 
@@ -36,39 +29,66 @@ class SpatialPilot(NamedTuple):
     """Configuration.
 
     Attributes:
-        observer, follower: of the parts.
-        heading, pitch: the autopilots of the two planes; they are of one kind.
-        thrust: while the mission runs, N.
+        observer, guide: of the parts.
+        heading, pitch: the autopilots of the two planes.
+        reversal: below this speed through the water the stern planes rest, m/s.
+        longest_gap: a longer gap between measurements resets the autopilots, s.
+        by_wire: whether psi_d is rounded as on the wire.
     """
 
     observer: Observer
-    follower: SpatialFollower
+    guide: Guide
     heading: Autopilot
     pitch: Autopilot
-    thrust: float
+    reversal: float
+    longest_gap: float
+    by_wire: bool
 
 
 class SpatialPilotState(NamedTuple):
     """States of the parts."""
 
     observer: SpatialObserverState
-    follower: FollowerState
+    guide: GuideState
     heading: AutopilotState
     pitch: AutopilotState
 
 
-#: The estimated current (NED, m/s), the result of guidance, the command.
-SpatialPilotOutput = tuple[SpatialCurrent, SpatialOutput, SpatialCommand]
+class SpatialReference(NamedTuple):
+    """Reference from guidance: Euler angles (rad), their rates (rad/s), and thrust (N)."""
+
+    psi_d: float
+    r_d: float
+    theta_d: float
+    q_d: float
+    thrust: float
+
+
+#: The estimated current (NED, m/s), the result of guidance, the reference for the autopilots, the command.
+SpatialPilotOutput = tuple[SpatialCurrent, SpatialOutput, SpatialReference, SpatialCommand]
+
+
+@pure
+def spatial_first_state(config: SpatialPilot, approach: Any) -> SpatialPilotState:
+    """Return the state of a pilot before its mission; `approach` as of `approach.empty_approach`."""
+    return SpatialPilotState(
+        UNOBSERVED,
+        guidance.first_state(config.guide, approach),
+        autopilot.first_state(config.heading),
+        autopilot.first_state(config.pitch),
+    )
+
+
+@pure
+def spatial_begun(config: SpatialPilot, approach: Any) -> SpatialPilotState:
+    """Return the state of a pilot whose mission has just been started; `approach` as above."""
+    observer, guiding, heading, pitch = spatial_first_state(config, approach)
+    return SpatialPilotState(observer, guidance.start(config.guide, guiding), heading, pitch)
 
 
 @pure
 def spatial_pilot(
-    config: SpatialPilot,
-    path: SpatialRows,
-    state: SpatialPilotState,
-    navigation: SpatialNavigation,
-    water: SpatialWater,
-    dt: float,
+    config: SpatialPilot, path: SpatialRows, state: SpatialPilotState, measured: SpatialMeasured, dt: float
 ) -> tuple[SpatialPilotState, SpatialPilotOutput]:
     """Answer one measurement with a command.
 
@@ -76,25 +96,44 @@ def spatial_pilot(
         config: of the parts.
         path: as rows.
         state: of the parts.
-        navigation: measured pose, NED.
-        water: measured velocity through the water, FRD.
-        dt: seconds since the last measurement (0 on the first one).
+        measured: the measurement.
+        dt: seconds since the last one (0 on the first one).
     """
+    navigation, water, has_water, moved, _, _, _ = measured
+    observer, guiding, heading, pitch = state
     level, flow = level_of(navigation), levelled(water, navigation.phi, navigation.theta)
+    if moved:
+        observer = spatially_relocated(observer)
     across = WaterVelocity(flow.ahead, flow.starboard)
     observer = observe_spatial(
-        config.observer, state.observer, level, navigation.z, across, flow.down, True, dt
+        config.observer, observer, level, navigation.z, across, flow.down, has_water, dt
     )
     current = spatial_estimate(observer)
-    follower, output = follow_spatial(config.follower, path, state.follower, navigation, water, current, dt)
-    thrust = 0.0 if output.finished else config.thrust
-    turning = Reference(output.psi_d, output.r_d, thrust)
-    heading, turned, _ = steer(config.heading, state.heading, level, turning, dt)
-    _, theta_rate = euler_rates(navigation.phi, navigation.theta, navigation.q, navigation.r)
-    pitched, pitching = (
-        Navigation(0.0, 0.0, navigation.theta, theta_rate),
-        Reference(output.theta_d, output.q_d, thrust),
-    )
-    pitch, tilted, _ = steer(config.pitch, state.pitch, pitched, pitching, dt)
-    command = SpatialCommand(turned.rudder, tilted.rudder, turned.thrust)
-    return SpatialPilotState(observer, follower, heading, pitch), (current, output, command)
+    guiding, output, thrust, _ = guide(config.guide, path, guiding, measured, current, dt)
+    psi_d = flip_yaw(flip_yaw(output.psi_d)) if config.by_wire else output.psi_d
+    reference = SpatialReference(psi_d, output.r_d, output.theta_d, output.q_d, thrust)
+    if moved or dt > config.longest_gap:
+        heading, pitch = autopilot.first_state(config.heading), autopilot.first_state(config.pitch)
+    heading, turned, _ = steer(config.heading, heading, level, Reference(psi_d, output.r_d, thrust), dt)
+    pitch, sternplanes = pitched(config, pitch, measured, flow, reference, dt)
+    command = SpatialCommand(turned.rudder, sternplanes, turned.thrust)
+    return SpatialPilotState(observer, guiding, heading, pitch), (current, output, reference, command)
+
+
+@pure
+def pitched(
+    config: SpatialPilot, state: AutopilotState, measured: SpatialMeasured, flow: Levelled,
+    reference: SpatialReference, dt: float,
+) -> tuple[AutopilotState, float]:  # fmt: skip
+    """Return the state of the pitch autopilot and the angle of the stern planes (rad): Eq. (3D-28).
+
+    Below the reversal speed the planes would act in the opposite sense, so they rest.
+    """
+    if flow.Ur < config.reversal:
+        return autopilot.first_state(config.pitch), 0.0
+    navigation = measured.navigation
+    _, rate = euler_rates(navigation.phi, navigation.theta, navigation.q, navigation.r)
+    seen = Navigation(0.0, 0.0, navigation.theta, rate)
+    asked = Reference(reference.theta_d, reference.q_d, reference.thrust)
+    state, tilted, _ = steer(config.pitch, state, seen, asked, dt)
+    return state, tilted.rudder

@@ -17,6 +17,7 @@ from auv_path_following.guidance.follow import (
     first_state,
     follow,
 )
+from auv_path_following.guidance.measured import Measured
 from auv_path_following.guidance.path_follower import PathFollowerConfig, prepare
 
 SPEED, DT = 1.9, 0.1
@@ -25,13 +26,17 @@ PATH = CompositePath([Line(0.0, 0.0, 60.0, 0.0), Line(60.0, 0.0, 60.0, math.pi /
 AGILITY = Agility(speed=SPEED, turn_rate=0.35, cornering=Cornering(rate=0.35, lead=0.5))
 
 
+def measured(navigation: Navigation, water: WaterVelocity) -> Measured:
+    return Measured(navigation, water, True, False, 0.0, 0.0)
+
+
 def test_from_one_state_the_same_step_gives_the_same_result_again() -> None:
     """Along an approach, a corner and the end of the path, on the desired heading."""
     config = prepare(PathFollowerConfig(), AGILITY)
     state, outputs = first_state(config, empty_approach()), []
     x, y, psi = -30.0, 20.0, 0.0
     for k in range(2000):
-        inputs = Navigation(x, y, psi, 0.0), AHEAD, NO_CURRENT
+        inputs = measured(Navigation(x, y, psi, 0.0), AHEAD), NO_CURRENT
         before = state
         state, output = follow(config, PATH, before, *inputs, DT if k else 0.0)
         assert (state, output) == follow(config, PATH, before, *inputs, DT if k else 0.0)
@@ -48,7 +53,7 @@ def test_from_one_state_the_same_step_gives_the_same_result_again() -> None:
 def first_output(navigation: Navigation, water: WaterVelocity, current: Current) -> GuidanceOutput:
     config = prepare(PathFollowerConfig(minimum_speed=0.2))
     state = first_state(config, empty_approach())
-    return follow(config, PATH, state, navigation, water, current, 0.0)[1]
+    return follow(config, PATH, state, measured(navigation, water), current, 0.0)[1]
 
 
 @pytest.mark.parametrize("speed", [0.0, 0.1, 0.19])
@@ -67,7 +72,7 @@ def test_above_the_least_speed_they_are() -> None:
 
 def test_a_long_gap_counts_as_a_short_one() -> None:
     config = prepare(PathFollowerConfig())
-    inputs = Navigation(0.0, 0.0, 0.0, 0.0), AHEAD, NO_CURRENT
+    inputs = measured(Navigation(0.0, 0.0, 0.0, 0.0), AHEAD), NO_CURRENT
     state, _ = follow(config, PATH, first_state(config, empty_approach()), *inputs, 0.0)
     _, output = follow(config, PATH, state, *inputs, 75.0)
     assert output.x_p == pytest.approx(SPEED * LONGEST_STEP)

@@ -14,7 +14,8 @@ from auv_path_following.curves.kinds.line import Line
 from auv_path_following.guidance import guide as guidance
 from auv_path_following.guidance.approach import agility_of, empty_approach
 from auv_path_following.guidance.follow import GuidanceOutput
-from auv_path_following.guidance.guide import Measured, guide, start
+from auv_path_following.guidance.guide import guide, start
+from auv_path_following.guidance.measured import Measured
 from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.missions import limits as bounds
 from auv_path_following.missions import mission_state as m

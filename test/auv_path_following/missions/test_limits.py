@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from auv_msgs_py.values.types import Navigation
 from auv_path_following.missions.limits import (
     LimitsConfig,
+    LimitsInputs,
     LimitsState,
     NoLimits,
     inside,
@@ -33,7 +34,8 @@ class MissionRun:
         self.state = LimitsState()
 
     def broken(self, navigation, xe, ye, to_go, dt, holds=False, rests=False):
-        inputs = navigation, xe, ye, to_go, holds, rests
+        x, y = navigation[:2]
+        inputs = LimitsInputs(x, y, 0.0, math.hypot(xe, ye), 0.0, math.inf, to_go, holds, rests)
         self.state, reason = limits_step(self.config, self.state, inputs, dt)
         return "" if reason == NO_REASON else words(reason)
 
@@ -66,7 +68,8 @@ def test_a_limit_that_is_set_in_flight_counts_from_the_start():
 
 
 def test_a_flight_that_never_has_limits_is_never_ended():
-    state, reason = limits_step(NoLimits(), LimitsState(), (at(0.0, 0.0), 0.0, 1e9, 0.0, False, False), 1e9)
+    far = LimitsInputs(0.0, 0.0, 0.0, 1e9, 0.0, math.inf, 0.0, False, False)
+    state, reason = limits_step(NoLimits(), LimitsState(), far, 1e9)
     assert (state, reason) == (LimitsState(), NO_REASON)
 
 

@@ -17,8 +17,9 @@ from auv_path_following.curves.kinds.line import Line
 from auv_path_following.guidance.approach import ApproachConfig
 from auv_path_following.guidance.switching import SwitchingConfig
 from auv_path_following.missions import mission_file
-from auv_sim.flight.closed_loop import Scenario, fly, start_of
+from auv_sim.flight.closed_loop import fly
 from auv_sim.flight.metrics import summarise
+from auv_sim.flight.scenario import Scenario, start_of
 from auv_sim.sim_parameters import CRUISE, SUITE
 from auv_sim.vehicle.remus import PlantState
 

@@ -14,7 +14,8 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files, vehicle
 from auv_path_following.missions import mission_file
 from auv_sim.cli import mission as mission_command
-from auv_sim.flight.closed_loop import Scenario, fly
+from auv_sim.flight.closed_loop import fly
+from auv_sim.flight.scenario import Scenario
 from auv_sim.launch import mission_plan
 from auv_sim.launch.options import Options
 from auv_sim.sim_parameters import SUITE

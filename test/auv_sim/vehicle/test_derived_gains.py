@@ -15,7 +15,7 @@ from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.kinds.line import Line
 from auv_path_following.guidance.approach import ApproachConfig
 from auv_sim.flight.batch import engine
-from auv_sim.flight.closed_loop import Scenario
+from auv_sim.flight.scenario import Scenario
 from auv_sim.sim_parameters import SUITE
 from auv_sim.vehicle.remus import PlantState
 from hulls import STABLE, drawn

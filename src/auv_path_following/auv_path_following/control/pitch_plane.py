@@ -11,8 +11,17 @@ import dataclasses
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.abilities import Cruise, Turning
+from auv_path_following.control.autopilot import AutopilotConfig
+from auv_path_following.control.nism import NismConfig
+from auv_path_following.control.reference_model import ReferenceConfig
 from auv_path_following.vehicle import Hull, Vehicle
 from auv_path_following.vertical_hull import VerticalHull
+
+
+def pitch_gains() -> AutopilotConfig:
+    """Return the gains of the pitch autopilot that suit the REMUS 100."""
+    gains = NismConfig(k1=0.4, k3=0.4, kp_from_rudder=True)
+    return AutopilotConfig(nism=gains, reference=ReferenceConfig(enabled=True, bandwidth=1.0))
 
 
 def pitch_plane_of(vehicle: Vehicle) -> Vehicle:

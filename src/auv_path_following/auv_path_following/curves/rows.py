@@ -24,10 +24,10 @@ LINE, ARC, FERMAT, MIRRORED, SPIRAL, CUBIC, FITTED = map(float, range(1, 8))
 #   CUBIC, FITTED    where its first piece begins in `PathRows.piece`, number of pieces
 # Then its length, the length of path after it and |dp/dt| at its start (m). Then the joint at its end: its
 # kind (below), its position (m), the t of the last stretch to it, both courses there (rad), half the shorter
-# subpath (m).
+# subpath, its depth (m; 0 in a planar path).
 KIND, A, B, C, D, E, F, LENGTH, AFTER, SPEED, JOINT, JOINT_X, JOINT_Y, STRETCH = range(14)
-CHI_IN, CHI_OUT, WIDEST = range(14, 17)
-COLUMNS = 17
+CHI_IN, CHI_OUT, WIDEST, JOINT_Z = range(14, 18)
+COLUMNS = 18
 #: Values of JOINT: the end of the path; a joint at which the course is continuous; a corner (G0).
 END, SMOOTH, CORNER = map(float, range(3))
 

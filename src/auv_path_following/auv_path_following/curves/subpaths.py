@@ -60,11 +60,11 @@ class Subpaths(dict[int, Row]):
             shape = self._shapes[id(segment)] = self._shape(segment)
         length, speed = segment.length, segment.evaluate(0.0).speed
         if i == len(self._joints):
-            return (*shape, length, 0.0, speed, END, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+            return (*shape, length, 0.0, speed, END, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
         joint = self._joints[i]
         kind = CORNER if joint.geometric == "G0" else SMOOTH
         widest = 0.5 * min(length, self._segments[i + 1].length)
-        at = (kind, joint.x, joint.y, last_stretch(segment), joint.chi_in, joint.chi_out, widest)
+        at = (kind, joint.x, joint.y, last_stretch(segment), joint.chi_in, joint.chi_out, widest, 0.0)
         return (*shape, length, self._after[i], speed, *at)
 
     def _shape(self, segment: Segment) -> list[float]:

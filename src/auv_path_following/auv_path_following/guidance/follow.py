@@ -7,10 +7,11 @@ from typing import Any, NamedTuple
 
 from auv_msgs_py.values.angles import wrap
 from auv_msgs_py.values.pure import bounded, pure
-from auv_msgs_py.values.types import NO_CURRENT, Current, Navigation, WaterVelocity
+from auv_msgs_py.values.types import NO_CURRENT, Current, Navigation
 from auv_path_following.curves.rows import PathRows, curvature, evaluate
 from auv_path_following.guidance.laws.law import LawInputs
 from auv_path_following.guidance.laws.registered import law_step
+from auv_path_following.guidance.measured import Measured
 from auv_path_following.guidance.progress import (
     Progress,
     ProgressConfig,
@@ -108,8 +109,7 @@ def follow(
     config: FollowerConfig,
     path: PathRows,
     state: FollowerState,
-    navigation: Navigation,
-    water: WaterVelocity,
+    measured: Measured,
     current: Current,
     dt: float,
 ) -> tuple[FollowerState, GuidanceOutput]:
@@ -119,14 +119,14 @@ def follow(
         config: of `prepare`.
         path: the path's rows.
         state: of the last step.
-        navigation: measured pose, NED.
-        water: measured velocity through the water, FRD.
+        measured: the measurement.
         current: the observer's estimate, NED.
         dt: time since the last step, s (0 on the first one), bounded by `LONGEST_STEP`.
     """
     # Unpacked at once: faster than one field after the other.
     law_config, _, compensates, minimum_speed, k, saturation, turn_rate, where = config
     progress, law = state
+    navigation, water, _, _, _, _ = measured
     psi, (ur, vr) = navigation.psi, water
     if dt > LONGEST_STEP:
         dt = LONGEST_STEP
@@ -164,7 +164,7 @@ def follow(
 
 @pure
 def look(
-    path: PathRows, state: FollowerState, navigation: Navigation
+    config: FollowerConfig, path: PathRows, state: FollowerState, navigation: Navigation
 ) -> tuple[FollowerState, GuidanceOutput]:
     """Return the errors while no mission runs.
 

@@ -6,20 +6,18 @@ import math
 from typing import Any, NamedTuple
 
 from auv_msgs_py.values.pure import pure
-from auv_msgs_py.values.types import Current, Navigation, WaterVelocity
-from auv_path_following.curves.rows import PathRows
-from auv_path_following.guidance import follow as following
 from auv_path_following.guidance import path_follower
 from auv_path_following.guidance.approach import Agility
-from auv_path_following.guidance.follow import (
-    FollowerConfig,
-    FollowerState,
-    GuidanceOutput,
-    follow,
-    look,
-    rejoin,
+from auv_path_following.guidance.followers import (
+    follow_step,
+    follower_begins,
+    limits_inputs,
+    look_step,
+    rejoin_step,
 )
 from auv_path_following.guidance.path_follower import PathFollowerConfig
+from auv_path_following.guidance.spatial import spatial_follower
+from auv_path_following.guidance.spatial.vertical_modes import FOLLOW_PATH
 from auv_path_following.missions.limits import (
     BEGINNING,
     LimitsState,
@@ -40,19 +38,20 @@ from auv_path_following.missions.mission_state import (
     navigation_lost,
     started,
 )
+from auv_path_following.vehicle import Vehicle
 
 
 class Guide(NamedTuple):
     """Configuration.
 
     Attributes:
-        follower: of virtual point, law and switching.
+        follower: of virtual point, laws and switching, in the plane or in space.
         limits: configuration of `limits_step`.
         hold_after: a mission holds after this long without usable navigation, s; infinite: never.
         thrust: desired while the mission runs, N.
     """
 
-    follower: FollowerConfig
+    follower: Any
     limits: Any
     hold_after: float
     thrust: float
@@ -77,24 +76,27 @@ def prepare(
     return Guide(path_follower.prepare(config, agility), bounds or NoLimits(), hold_after, float(thrust))
 
 
-class Measured(NamedTuple):
-    """One measurement.
+def prepare_spatial(
+    config: PathFollowerConfig,
+    vehicle: Vehicle,
+    thrust: float,
+    mode: Any = FOLLOW_PATH,
+    hold_after: float = math.inf,
+    bounds: MissionLimits | NoLimits | None = None,
+) -> Guide:
+    """Return the configuration of guidance of a vehicle that dives.
 
-    Attributes:
-        navigation: pose and yaw rate, NED.
-        water: velocity through the water, FRD, m/s.
-        has_water: whether `water` is valid.
-        moved: whether the pose does not continue the last one.
-        to_go: path from the virtual point to the end at the last step, m; only for limits.
-        now: ROS time, s.
+    Args:
+        config: laws and gains.
+        vehicle: hull and fins.
+        mode: of `vertical_step`: what the vertical plane follows; the path if left out.
+        thrust, hold_after, bounds: as in `prepare`.
+
+    Raises:
+        ConfigurationError: the vehicle's file lacks what the pitch autopilot needs.
     """
-
-    navigation: Navigation
-    water: WaterVelocity
-    has_water: bool
-    moved: bool
-    to_go: float
-    now: float
+    follower = spatial_follower.prepare(config, vehicle, thrust, mode)
+    return Guide(follower, bounds or NoLimits(), hold_after, float(thrust))
 
 
 class GuideState(NamedTuple):
@@ -112,7 +114,7 @@ class GuideState(NamedTuple):
     begins: bool
     rejoins: bool
     blind: float
-    follower: FollowerState
+    follower: Any
     limits: LimitsState
 
 
@@ -125,7 +127,7 @@ def first_state(config: Guide, approach: Any) -> GuideState:
 @pure
 def at_the_beginning(config: Guide, mission: MissionStatus, approach: Any) -> GuideState:
     """Return the state at the beginning of the path."""
-    follower = following.first_state(config.follower, approach)
+    follower = follower_begins(config.follower, approach)
     return GuideState(mission, True, False, 0.0, follower, BEGINNING)
 
 
@@ -139,21 +141,24 @@ def start(config: Guide, state: GuideState) -> GuideState:
 
 def reconfigured(config: Guide, state: GuideState) -> GuideState:
     """Return the state for a new configuration; the place on the path is kept."""
-    return state._replace(follower=following.reconfigured(config.follower, state.follower))
+    begins = follower_begins(config.follower, state.follower.progress.approach)
+    if type(state.follower.law) is type(begins.law):
+        return state
+    return state._replace(follower=begins._replace(progress=state.follower.progress))
 
 
 @pure
 def guide(
-    config: Guide, path: PathRows, state: GuideState, measured: Measured, current: Current, dt: float
-) -> tuple[GuideState, GuidanceOutput, float, bool]:
+    config: Guide, path: Any, state: GuideState, measured: Any, current: Any, dt: float
+) -> tuple[GuideState, Any, float, bool]:
     """Answer one measurement.
 
     Args:
         config: of guidance.
-        path: as rows.
+        path: `PathRows`, or `SpatialRows` for a vehicle that dives.
         state: of the mission.
-        measured: the measurement.
-        current: estimate, NED, m/s.
+        measured: `Measured`, or `SpatialMeasured`.
+        current: estimate, NED, m/s: `Current`, or `SpatialCurrent`.
         dt: seconds since the last measurement.
 
     Returns:
@@ -161,7 +166,7 @@ def guide(
         whether the mission resumed after a hold, including one that only a gap before this measurement shows.
     """
     mission, begins, rejoins, blind, follower, limits = state
-    navigation, water, has_water, moved, to_go, now = measured
+    navigation, _, has_water, moved, _, now = measured[:6]
     if begins:
         dt = 0.0
     rejoins = (rejoins or moved) and not begins
@@ -177,16 +182,16 @@ def guide(
     is_followed = mission.state == RUNNING and has_water
     if is_followed:
         if rejoins:
-            follower = rejoin(config.follower, path, follower, navigation)
+            follower = rejoin_step(config.follower, path, follower, navigation)
         since = 0.0 if rejoins else dt
-        follower, output = follow(config.follower, path, follower, navigation, water, current, since)
+        follower, output = follow_step(config.follower, path, follower, measured, current, since)
         if output.finished:
             mission = completed(mission)
     else:
-        follower, output = look(path, follower, navigation)
+        follower, output = look_step(config.follower, path, follower, navigation)
     if is_followed or is_under_way(mission):
         rests = is_followed and (rejoins or begins)
-        seen = navigation, output.xe, output.ye, to_go, not is_followed, rests
+        seen = limits_inputs(config.follower, measured, output, not is_followed, rests)
         limits, reason = limits_step(config.limits, limits, seen, dt)
         if reason.cause != NO_REASON.cause and is_under_way(mission):
             mission = aborted(mission, reason)

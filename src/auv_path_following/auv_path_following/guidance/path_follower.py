@@ -18,7 +18,9 @@ from auv_path_following.guidance.follow import (
     follow,
 )
 from auv_path_following.guidance.laws.registered import LAWS
+from auv_path_following.guidance.measured import Measured
 from auv_path_following.guidance.progress import ProgressConfig, approach_to_go
+from auv_path_following.guidance.spatial.vertical_modes import VerticalConfig
 from auv_path_following.guidance.switching import SwitchingConfig, circles_of
 from auv_path_following.guidance.virtual_point import VirtualPoint, VirtualPointConfig
 from auv_path_following.registry import law_of, law_settings
@@ -47,6 +49,9 @@ class PathFollowerConfig:
     )
     virtual_point: VirtualPointConfig = setting(factory=VirtualPointConfig, doc="virtual point")
     switching: SwitchingConfig = setting(factory=SwitchingConfig, doc="subpath switching")
+    vertical: VerticalConfig = setting(
+        factory=VerticalConfig, doc="vertical plane of a vehicle with stern planes"
+    )
 
     if TYPE_CHECKING:  # the choice and the laws' own settings
 
@@ -139,12 +144,13 @@ class PathFollower:
 
     def look(self, navigation: Navigation) -> GuidanceOutput:
         """Return the errors while no mission runs, see `look`."""
-        self.state, output = steps.look(self.path.rows, self.state, navigation)
+        self.state, output = steps.look(self.config, self.path.rows, self.state, navigation)
         return output
 
     def update(
         self, navigation: Navigation, water: WaterVelocity, current: Current, dt: float
     ) -> GuidanceOutput:
         """Take one step, see `follow`."""
-        self.state, output = follow(self.config, self.path.rows, self.state, navigation, water, current, dt)
+        measured = Measured(navigation, water, True, False, 0.0, 0.0)
+        self.state, output = follow(self.config, self.path.rows, self.state, measured, current, dt)
         return output

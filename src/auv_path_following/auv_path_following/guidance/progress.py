@@ -79,14 +79,9 @@ def approach_to_go(legs: int, approach: Any, i: int, t: float) -> float:
 
 @pure
 def move(
-    config: ProgressConfig,
-    path: PathRows,
-    state: Progress,
-    navigation: Navigation,
-    Ur: float,
-    current: Current,
-    dt: float,
-) -> tuple[int, float, bool, int, bool, bool]:
+    config: ProgressConfig, path: PathRows, state: Progress, navigation: Navigation, Ur: float,
+    current: Current, dt: float, z: float = 0.0,
+) -> tuple[int, float, bool, int, bool, bool]:  # fmt: skip
     """Move P for `dt` seconds; on the path never past what the vehicle has not passed.
 
     Args:
@@ -95,6 +90,7 @@ def move(
         Ur: speed through the water, m/s.
         current: the observer's estimate, m/s, NED.
         dt: seconds since the last step.
+        z: the vehicle's depth, m; 0 on a planar path.
 
     Returns:
         P's subpath, t on it and whether the path has ended; number of the approach's subpaths; whether the
@@ -116,7 +112,7 @@ def move(
         return i, t, finished, legs, joined, False
     switched = i != P.i or finished != P.finished
     x, y, _, _ = navigation
-    if joined and not finished and reached(config.circles, path.subpath[i], x, y, t, Ur, current):
+    if joined and not finished and reached(config.circles, path.subpath[i], x, y, t, Ur, current, z):
         i, t, finished, _ = passed_on(path, i, 0.0)
         switched = True
     return i, t, finished, 0, joined and not switched, switched

@@ -16,6 +16,7 @@ from auv_path_following.curves.rows import (
     JOINT,
     JOINT_X,
     JOINT_Y,
+    JOINT_Z,
     STRETCH,
     WIDEST,
 )
@@ -98,8 +99,9 @@ def radius_at(circles: Circles, row: Any, Ur: float, current: Current) -> float:
 
 @pure
 def reached(
-    circles: Circles, row: Any, x: float, y: float, t: float, Ur: float = 0.0, current: Current = NO_CURRENT
-) -> bool:
+    circles: Circles, row: Any, x: float, y: float, t: float, Ur: float = 0.0,
+    current: Current = NO_CURRENT, z: float = 0.0,
+) -> bool:  # fmt: skip
     """Return whether to follow the next subpath, Eq. (44), for subpaths of any length and shape.
 
     A subpath that returns to its start has its joint there, inside whose circle the vehicle starts: only the
@@ -113,13 +115,16 @@ def reached(
         t: place of P on the subpath.
         Ur: speed through the water, m/s.
         current: the estimate, m/s, NED.
+        z: the vehicle's depth, m; 0 on a planar path.
     """
     if t < 0.5 or t < row[STRETCH]:
         return False
     mode, joint = circles.mode, row[JOINT]
     if mode == OFF or joint == END or (mode == ONLY_CORNERS and joint != CORNER):
         return False
-    distance = math.hypot(row[JOINT_X] - x, row[JOINT_Y] - y)
+    distance, above = math.hypot(row[JOINT_X] - x, row[JOINT_Y] - y), row[JOINT_Z] - z
+    if above != 0.0:
+        distance = math.hypot(distance, above)
     if circles.computed and distance > reach(circles.cornering, circles.lookahead, Ur, current):
         return False
     return distance <= radius_at(circles, row, Ur, current)

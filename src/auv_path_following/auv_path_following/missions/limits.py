@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 
 from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.values.pure import dispatched, numbers, numbers_of, pure
-from auv_msgs_py.values.types import Navigation
 from auv_path_following.missions.mission_state import (
     DURATION,
     GEOFENCE,
@@ -142,9 +141,28 @@ class LimitsState(NamedTuple):
 BEGINNING = LimitsState()
 
 
-#: Measured pose (NED); xe and ye from the virtual point, and the path to go, m; whether the mission holds
-#: (then only its time counts); whether the vehicle rested until now (then the speed windows begin again).
-LimitsInputs = tuple[Navigation, float, float, float, bool, bool]
+class LimitsInputs(NamedTuple):
+    """What the limits judge at one measurement.
+
+    Attributes:
+        x, y, z: position, NED, m; z is 0 for a planar vehicle.
+        off_path: distance from the virtual point, m.
+        depth_error: distance below the requested depth, m; 0 for a planar vehicle.
+        altitude: above the bottom, m; infinite where it is not measured.
+        to_go: path from the virtual point to the end, m.
+        holds: whether the mission holds; then only its time counts.
+        rests: whether the vehicle rested until now; then the speed windows begin again.
+    """
+
+    x: float
+    y: float
+    z: float
+    off_path: float
+    depth_error: float
+    altitude: float
+    to_go: float
+    holds: bool
+    rests: bool
 
 
 def prepare(config: LimitsConfig, geofence: Sequence[Point] = ()) -> MissionLimits:
@@ -174,14 +192,12 @@ def limits(
     elapsed, has_been_near, most_to_go, has_followed, places, along = state
     elapsed += dt
     reason = NO_REASON
-    navigation, xe, ye, to_go, holds, rests = inputs
-    x, y = navigation.x, navigation.y
+    x, y, _, off_path, _, _, to_go, holds, rests = inputs
     if rests:
         places, along = _NO_MARKS, _NO_MARKS
     if c.duration > 0.0 and elapsed > c.duration:
         reason = Reason(DURATION, elapsed, 0.0, c.duration)
     elif not holds:
-        off_path = math.hypot(xe, ye)
         is_near = off_path <= c.path_distance
         if c.path_distance > 0.0 and has_been_near and not is_near:
             reason = Reason(PATH_DISTANCE, off_path, 0.0, c.path_distance)

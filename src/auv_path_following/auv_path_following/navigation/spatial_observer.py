@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from auv_msgs_py.values.pure import pure
-from auv_msgs_py.values.types import Navigation, SpatialCurrent, WaterVelocity
+from auv_msgs_py.values.types import NO_CURRENT, Navigation, SpatialCurrent, WaterVelocity
 from auv_path_following.navigation.current_observer import Observer, ObserverState, observe, relocated
 
 
@@ -14,6 +14,13 @@ class SpatialObserverState(NamedTuple):
 
     horizontal: ObserverState
     vertical: ObserverState
+
+
+#: The state before the first measurement.
+UNOBSERVED = SpatialObserverState(
+    ObserverState(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, NO_CURRENT),
+    ObserverState(False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, NO_CURRENT),
+)
 
 
 @pure

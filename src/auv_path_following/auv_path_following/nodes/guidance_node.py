@@ -12,7 +12,7 @@ from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.types import NO_WATER
 from auv_path_following import vehicle
 from auv_path_following.guidance.approach import ApproachWatch, agility_of
-from auv_path_following.guidance.guide import Measured
+from auv_path_following.guidance.measured import Measured
 from auv_path_following.guidance.path_follower import distance_to_go
 from auv_path_following.missions import mission_file
 from auv_path_following.nodes.guidance_output import GuidanceMessages, whole_path

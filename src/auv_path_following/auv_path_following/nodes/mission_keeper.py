@@ -16,7 +16,6 @@ from auv_path_following.guidance.approach import Agility, empty_approach
 from auv_path_following.guidance.follow import GuidanceOutput
 from auv_path_following.guidance.guide import (
     Guide,
-    Measured,
     at_the_beginning,
     first_state,
     guide,
@@ -24,6 +23,7 @@ from auv_path_following.guidance.guide import (
     reconfigured,
     start,
 )
+from auv_path_following.guidance.measured import Measured
 from auv_path_following.missions import limits
 from auv_path_following.missions import mission_state as states
 from auv_path_following.missions.mission_file import Mission

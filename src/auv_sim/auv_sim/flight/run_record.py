@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from auv_sim.flight.signals import SIGNALS
+from auv_sim.flight.signals import SIGNALS, SPATIAL_SIGNALS, Signal
 
 Column = NDArray[np.float64]
 
@@ -69,12 +69,15 @@ class Run:
         """Build a run from lists or arrays; columns left out become NaN.
 
         Args:
-            columns: field name -> n numbers. `t`, `x`, `y` and `psi` are needed.
+            columns: field name -> n numbers. `t`, `x`, `y` and `psi` are needed. A column of `SpatialRun`
+                makes one.
 
         Raises:
             ValueError: an unknown or a missing column, or columns of different lengths.
         """
-        if unknown := sorted(set(columns) - set(SIGNALS)):
+        is_spatial = bool(set(columns) & set(SPATIAL_SIGNALS))
+        signals = SIGNALS | SPATIAL_SIGNALS if is_spatial else SIGNALS
+        if unknown := sorted(set(columns) - set(signals)):
             raise ValueError(f"unknown columns {', '.join(unknown)}")
         if missing := sorted(set(_REQUIRED) - set(columns)):
             raise ValueError(f"missing columns {', '.join(missing)}")
@@ -82,7 +85,13 @@ class Run:
         n = arrays["t"].size
         if wrong := {name: array.shape for name, array in arrays.items() if array.shape != (n,)}:
             raise ValueError(f"columns of another shape than t's ({n},): {wrong}")
-        return cls(**{name: arrays[name] if name in arrays else np.full(n, np.nan) for name in SIGNALS})
+        made = SpatialRun if is_spatial else cls
+        return made(**{name: arrays[name] if name in arrays else np.full(n, np.nan) for name in signals})
+
+    @property
+    def signals(self) -> Mapping[str, Signal]:
+        """The signal of each column, by its name."""
+        return SIGNALS
 
     @property
     def steps(self) -> int:
@@ -107,4 +116,50 @@ class Run:
 
     def select(self, rows: Any) -> Run:
         """Return the rows that a mask, a slice or an index array picks."""
-        return Run(**{field.name: getattr(self, field.name)[rows] for field in dataclasses.fields(self)})
+        picked = {field.name: getattr(self, field.name)[rows] for field in dataclasses.fields(self)}
+        return type(self)(**picked)
+
+
+@dataclass(frozen=True, eq=False)
+class SpatialRun(Run):
+    """A run in three dimensions; units, meaning and source of each column in `signals.SPATIAL_SIGNALS`.
+
+    Attributes:
+        z, phi, theta, q: depth, roll, pitch and pitch rate.
+        wr: velocity through the water, downwards in body axes.
+        sternplanes, sternplanes_cmd: measured and commanded angle, positive bow down.
+        theta_d, q_d, depth_d: desired pitch, its rate, and the requested depth.
+        ze, theta_e: error below the path, Eq. (3D-12), and of the pitch.
+        altitude: range to the bottom.
+        Vz_est, Vz_true: estimated and true current, down.
+        z_true, phi_true, theta_true: true pose, from a simulator whose navigation errs.
+    """
+
+    z: Column
+    phi: Column
+    theta: Column
+    q: Column
+    wr: Column
+    sternplanes: Column
+    sternplanes_cmd: Column
+    theta_d: Column
+    q_d: Column
+    depth_d: Column
+    ze: Column
+    theta_e: Column
+    altitude: Column
+    Vz_est: Column
+    Vz_true: Column
+    z_true: Column
+    phi_true: Column
+    theta_true: Column
+
+    @property
+    def signals(self) -> Mapping[str, Signal]:
+        """The signal of each column, by its name."""
+        return SIGNALS | SPATIAL_SIGNALS
+
+    @property
+    def depth(self) -> Column:
+        """The best depth known, m: the truth where it was recorded, else the odometry's."""
+        return np.where(np.isfinite(self.z_true), self.z_true, self.z)

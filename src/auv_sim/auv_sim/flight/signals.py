@@ -54,8 +54,33 @@ SIGNALS: dict[str, Signal] = {
     ),
 }
 
+_ERROR_3D, _PITCH, _PITCH_RATE = "path_error_3d", "desired_pitch", "desired_pitch_rate"
+
+#: The same for the further columns of `SpatialRun`.
+SPATIAL_SIGNALS: dict[str, Signal] = {
+    "z": Signal("m", "depth", _ODOM),
+    "phi": Signal("rad", "roll", _ODOM),
+    "theta": Signal("rad", "pitch, positive bow up", _ODOM),
+    "q": Signal("rad/s", "pitch rate in body axes", _ODOM),
+    "wr": Signal("m/s", "heave through the water, positive down", _WATER),
+    "sternplanes": Signal("rad", "measured angle of the stern planes, positive bow down", "sternplane_state"),
+    "sternplanes_cmd": Signal("rad", "commanded angle of the stern planes", "sternplane_cmd"),
+    "theta_d": Signal("rad", "desired pitch, Eq. (3D-24)", _PITCH),
+    "q_d": Signal("rad/s", "feed-forward rate of the desired pitch", _PITCH_RATE),
+    "depth_d": Signal("m", "requested depth", "desired_depth"),
+    "ze": Signal("m", "error below the path, Eq. (3D-12)", _ERROR_3D),
+    "theta_e": Signal("rad", "pitch error theta - theta_d", _PITCH),
+    "altitude": Signal("m", "range to the bottom along body z; infinite without an echo", "altitude"),
+    "Vz_est": Signal("m/s", "current estimate, down", _ESTIMATE),
+    "Vz_true": Signal("m/s", "true current, down, of a simulator", _TRUE),
+    "z_true": Signal("m", "true depth, of a simulator whose navigation errs", _TRUE_ODOM),
+    "phi_true": Signal("rad", "true roll, of a simulator whose navigation errs", _TRUE_ODOM),
+    "theta_true": Signal("rad", "true pitch, of a simulator whose navigation errs", _TRUE_ODOM),
+}
+
 #: Columns of the true pose, of a simulator whose navigation errs.
 TRUTH = ("x_true", "y_true", "psi_true")
+SPATIAL_TRUTH = ("x_true", "y_true", "z_true", "phi_true", "theta_true", "psi_true")
 
 #: Signals that are shown in degrees.
-ANGLES = tuple(name for name, signal in SIGNALS.items() if signal.unit.startswith("rad"))
+ANGLES = tuple(name for name, signal in (SIGNALS | SPATIAL_SIGNALS).items() if signal.unit.startswith("rad"))

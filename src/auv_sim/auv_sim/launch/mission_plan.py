@@ -18,7 +18,7 @@ from auv_path_following.missions import mission_file
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.mission_check.flyable import Findings, check, refusal
-from auv_sim.flight.closed_loop import Scenario
+from auv_sim.flight.scenario import Scenario
 from auv_sim.launch import node_settings
 from auv_sim.launch.options import DRIVERS, Options
 from auv_sim.launch.vehicle_driver import configure_driver

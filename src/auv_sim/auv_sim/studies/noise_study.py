@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from rich.table import Table
 
 from auv_sim.flight.batch import engine
-from auv_sim.flight.closed_loop import Scenario
+from auv_sim.flight.scenario import Scenario
 from auv_sim.launch import mission_plan
 from auv_sim.launch.options import Options
 from auv_sim.studies.settings_changes import changed

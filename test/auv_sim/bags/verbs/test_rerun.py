@@ -23,7 +23,8 @@ from auv_sim.bags.content.rerun_pilot import _Phase, _RerunPilot, _Step
 from auv_sim.bags.definitions import typestore
 from auv_sim.bags.writing.bag_writer import BagWriter
 from auv_sim.cli import bag as bag_command
-from auv_sim.flight.closed_loop import Scenario, fly
+from auv_sim.flight.closed_loop import fly
+from auv_sim.flight.scenario import Scenario
 from auv_sim.sim_parameters import SUITE
 
 TYPES = {topic.name: topic.type for topic in topics.CONTRACT}

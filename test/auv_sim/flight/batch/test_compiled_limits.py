@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
 import pytest
 
 from auv_msgs_py.values.pure import numbers_of
-from auv_msgs_py.values.types import Navigation
 from auv_path_following.missions.limits import (
     BEGINNING,
     LimitsConfig,
+    LimitsInputs,
     MissionLimits,
     NoLimits,
     limits_step,
@@ -28,8 +29,8 @@ def ended(config: Any, track: Any, dt: float) -> tuple[int, Reason]:
     state, reason = BEGINNING, NO_REASON
     for k in range(len(track)):
         row = track[k]
-        navigation = Navigation(row[0], row[1], 0.0, 0.0)
-        inputs = navigation, row[2], row[3], row[4], row[5] > 0.0, row[6] > 0.0
+        off = math.hypot(row[2], row[3])
+        inputs = LimitsInputs(row[0], row[1], 0.0, off, 0.0, math.inf, row[4], row[5] > 0.0, row[6] > 0.0)
         state, reason = limits_step(config, state, inputs, dt)
         if reason.cause != NO_REASON.cause:
             return k, reason

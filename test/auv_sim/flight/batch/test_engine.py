@@ -25,8 +25,8 @@ from auv_path_following.missions import mission_file
 from auv_sim.flight import closed_loop
 from auv_sim.flight.batch import engine
 from auv_sim.flight.batch.judge import judged
-from auv_sim.flight.closed_loop import Scenario
 from auv_sim.flight.run_record import Run
+from auv_sim.flight.scenario import Scenario
 from auv_sim.sim_parameters import SUITE
 from auv_sim.vehicle import sea
 from auv_sim.vehicle.remus import PlantState

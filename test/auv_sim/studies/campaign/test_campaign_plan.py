@@ -11,7 +11,7 @@ import pytest
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files, vehicle
-from auv_sim.flight.closed_loop import start_of
+from auv_sim.flight.scenario import start_of
 from auv_sim.studies.campaign.campaign_plan import StudyPlan
 from auv_sim.studies.campaign.distributions import Distribution
 

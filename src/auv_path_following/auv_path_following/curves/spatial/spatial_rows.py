@@ -14,6 +14,7 @@ from auv_path_following.curves.rows import (
     AFTER,
     CORNER,
     JOINT,
+    JOINT_Z,
     LENGTH,
     SMOOTH,
     SPEED,
@@ -24,9 +25,8 @@ from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_path_following.curves.spatial.spatial_point import SpatialPoint, tangent_of
 from auv_path_following.curves.spatial.spatial_segment import DEPTH_WIDTH
 
-#: Columns of a row of depth: where its first piece begins in `SpatialRows.depth_piece`, number of pieces,
-#: depth at its end (m).
-FIRST, PIECES, END_DEPTH = range(3)
+#: Columns of a row of depth: where its first piece begins in `SpatialRows.depth_piece`, number of pieces.
+FIRST, PIECES = range(2)
 
 
 class SpatialRows(NamedTuple):
@@ -85,8 +85,9 @@ def spatial_rows(path: SpatialPath) -> SpatialRows:
         row[SPEED] = tangent_of(path.evaluate(i, 0.0)).speed
         if i < len(path.joints):
             row[JOINT] = CORNER if path.joints[i].is_corner else SMOOTH
+            row[JOINT_Z] = path.joints[i].z
         subpaths.append(tuple(row))
         own = path.subpaths[i].depth_pieces
-        depth.append((float(len(pieces)), float(len(own) // DEPTH_WIDTH), path.evaluate(i, 1.0).z))
+        depth.append((float(len(pieces)), float(len(own) // DEPTH_WIDTH)))
         pieces += own
     return SpatialRows(PathRows(path.n, tuple(subpaths), planar.piece), tuple(depth), pieces)

@@ -24,7 +24,8 @@ from auv_msgs_py.values.types import NO_WATER, WaterVelocity
 from auv_path_following.control import autopilot
 from auv_path_following.guidance import guide
 from auv_path_following.guidance.approach import agility_of, empty_approach
-from auv_path_following.guidance.guide import GuideState, Measured, at_the_beginning
+from auv_path_following.guidance.guide import GuideState, at_the_beginning
+from auv_path_following.guidance.measured import Measured
 from auv_path_following.missions import mission_state as states
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.navigation import current_observer

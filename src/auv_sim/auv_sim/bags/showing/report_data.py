@@ -20,7 +20,7 @@ from auv_sim.flight.by_odometry import ByOdometry
 from auv_sim.flight.flown_share import percent
 from auv_sim.flight.metrics import MissionSummary, SubpathSummary
 from auv_sim.flight.run_record import Run
-from auv_sim.flight.signals import ANGLES, SIGNALS
+from auv_sim.flight.signals import ANGLES
 
 
 def page_data(flight: RecordedMission, events: list[Event], title: str) -> dict[str, Any]:
@@ -57,7 +57,7 @@ def _columns(flight: RecordedMission) -> dict[str, NDArray[np.float64]]:
     run = flight.run
     assert run is not None
     columns: dict[str, NDArray[np.float64]] = {}
-    for name in SIGNALS:
+    for name in run.signals:
         values = getattr(run, name)
         if np.isfinite(values).any():
             columns[name] = np.degrees(values) if name in ANGLES else values

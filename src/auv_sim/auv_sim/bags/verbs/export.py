@@ -17,7 +17,6 @@ from auv_sim.bags.reading.load import run_of
 from auv_sim.bags.verbs.arguments import add_choice
 from auv_sim.command_line import say, target
 from auv_sim.flight.run_record import Run
-from auv_sim.flight.signals import SIGNALS
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -38,7 +37,7 @@ def run(arguments: argparse.Namespace) -> int:
     flown = run_of(bag, arguments.namespace)
     if arguments.rate is not None:
         flown = _resampled(flown, arguments.rate)
-    columns = {f"{name} [{signal.unit}]": getattr(flown, name) for name, signal in SIGNALS.items()}
+    columns = {f"{name} [{signal.unit}]": getattr(flown, name) for name, signal in flown.signals.items()}
     file = arguments.out or bag.path.parent / f"{bag.path.stem}.csv"
     try:
         if file.suffix == ".csv":

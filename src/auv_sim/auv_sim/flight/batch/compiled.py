@@ -82,7 +82,7 @@ def take_over_pure() -> None:
 def _chooser(steps: Mapping[type[Any], Step]) -> Callable[..., Any]:
     """Return what picks a step while a caller is compiled, by the class of the configuration."""
 
-    def choose(config: Any, state: Any, inputs: Any, dt: Any) -> Any:
+    def choose(config: Any, *inputs: Any) -> Any:
         return steps.get(getattr(config, "instance_class", type(None)))
 
     return choose

@@ -12,7 +12,7 @@ from auv_msgs_py.contract.frames import heading_over_the_wire
 from auv_msgs_py.values.types import Command, Current, Navigation
 from auv_path_following.curves.rows import PathRows
 from auv_path_following.guidance.approach import empty_approach
-from auv_path_following.guidance.guide import Measured
+from auv_path_following.guidance.measured import Measured
 from auv_path_following.pilot import Pilot, begun, pilot
 from auv_sim.flight.batch import same_bits, tally  # noqa: F401 - before anything is compiled
 from auv_sim.flight.batch.compiled import compiled, take_over_pure

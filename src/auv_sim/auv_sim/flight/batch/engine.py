@@ -35,9 +35,9 @@ from auv_sim.flight.batch.distance import outlines_of, rows_of
 from auv_sim.flight.batch.flight_figures import Flights, figures_of
 from auv_sim.flight.batch.judge import judged
 from auv_sim.flight.batch.scenarios import Preparation, flight_of
-from auv_sim.flight.closed_loop import Scenario, start_of
 from auv_sim.flight.flown_share import cells_of
 from auv_sim.flight.run_record import Run
+from auv_sim.flight.scenario import Scenario, start_of
 from auv_sim.flight.signals import TRUTH
 from auv_sim.vehicle.actuator import ring_size, servo_begin, servo_of
 from auv_sim.vehicle.at_sea import at_sea_of

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from auv_sim.flight.batch import tally
-from auv_sim.flight.closed_loop import Scenario
 from auv_sim.flight.metrics import summarise
 from auv_sim.flight.run_record import Run
+from auv_sim.flight.scenario import Scenario
 
 
 def judged(run: Run, scenario: Scenario) -> dict[str, Any]:

@@ -10,7 +10,8 @@ import numpy.typing as npt
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.flight.batch.compiled_flight import FlightConfig
 from auv_sim.flight.batch.config_rows import flat, layout_of
-from auv_sim.flight.closed_loop import Scenario, pilot_of
+from auv_sim.flight.loops import pilot_of
+from auv_sim.flight.scenario import Scenario
 from auv_sim.vehicle.remus import plant_of
 
 

@@ -15,7 +15,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.batch.scenarios import flight_of
-from auv_sim.flight.closed_loop import Scenario
+from auv_sim.flight.scenario import Scenario
 from auv_sim.studies.campaign import targets
 from auv_sim.studies.campaign.distributions import Value
 from auv_sim.studies.campaign.study_file import load_study

@@ -19,9 +19,9 @@ from auv_sim.bags.reading.load import load
 from auv_sim.cli import mission as mission_command
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, to_type
 from auv_sim.flight.batch import engine
-from auv_sim.flight.closed_loop import Scenario, start_of
 from auv_sim.flight.metrics import summarise
 from auv_sim.flight.run_record import Run
+from auv_sim.flight.scenario import Scenario, start_of
 from auv_sim.sim_parameters import ConstantCurrent, InitialPose
 from auv_sim.studies.campaign.campaign_plan import StudyPlan
 from auv_sim.studies.campaign.store import RESULTS, Store

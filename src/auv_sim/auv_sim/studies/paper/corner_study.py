@@ -23,7 +23,7 @@ from auv_path_following import config_files, vehicle
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.kinds.line import Line
 from auv_sim.flight.batch import engine
-from auv_sim.flight.closed_loop import Scenario
+from auv_sim.flight.scenario import Scenario
 from auv_sim.sim_parameters import SUITE
 
 #: (hull that is flown, hull of the controller's model).

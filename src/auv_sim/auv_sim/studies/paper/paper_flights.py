@@ -15,8 +15,8 @@ from auv_path_following import config_files, vehicle
 from auv_path_following.missions import mission_file
 from auv_path_following.vehicle import Vehicle
 from auv_sim.flight import closed_loop
-from auv_sim.flight.closed_loop import Scenario
 from auv_sim.flight.run_record import Run
+from auv_sim.flight.scenario import Scenario
 from auv_sim.sim_parameters import CRUISE, SUITE
 from auv_sim.studies.paper.variants import PLANTS
 from auv_sim.studies.settings_changes import changed

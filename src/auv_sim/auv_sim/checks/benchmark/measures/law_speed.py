@@ -18,7 +18,7 @@ from auv_sim.checks.benchmark.scale import Scale
 from auv_sim.flight import closed_loop
 from auv_sim.flight.batch import engine
 from auv_sim.flight.batch.compiled import COMPILED
-from auv_sim.flight.closed_loop import Scenario
+from auv_sim.flight.scenario import Scenario
 from auv_sim.launch import mission_plan
 from auv_sim.launch.options import Options
 

@@ -13,14 +13,17 @@ from auv_msgs_py.settings import params_file
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import SpatialCurrent
 from auv_path_following import config_files
+from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.kinds.arc import Arc
 from auv_path_following.curves.kinds.line import Line
 from auv_path_following.curves.spatial.depth_profile import DepthProfile
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
+from auv_path_following.guidance.spatial.spatial_limits import steepest_at, steepest_of
 from auv_path_following.missions import mission_file
-from auv_sim.flight.spatial_loop import SpatialScenario, fly
+from auv_sim.flight.closed_loop import fly
+from auv_sim.flight.scenario import Scenario
 from auv_sim.vehicle.hulls.rigid_body import body_at
-from hulls import DIVER
+from hulls import DIVER, REMUS
 
 PLAN = mission_file.load("paper_composite").path.segments
 LENGTH = math.fsum(segment.length for segment in PLAN)
@@ -33,7 +36,12 @@ def robust() -> dict[str, Any]:
     from auv_sim.sim_parameters import SUITE
 
     loaded = params_file.load(config_files.find("params", "robust"), SUITE)
-    return {"guidance": loaded[topics.GUIDANCE].guidance, "heading": loaded[topics.AUTOPILOT].autopilot}
+    return {"guidance": loaded[topics.GUIDANCE].guidance, "autopilot": loaded[topics.AUTOPILOT].autopilot}
+
+
+def scenario(path: SpatialPath, **others: Any) -> Scenario:
+    """A scenario that follows a path in three dimensions."""
+    return Scenario(path=path.plan, spatial=path, **others)
 
 
 def helix() -> SpatialPath:
@@ -57,23 +65,9 @@ def level() -> SpatialPath:
     return SpatialPath(PLAN, DepthProfile.constant(10.0, LENGTH))
 
 
-def distances(path: SpatialPath, run: dict[str, np.ndarray]) -> np.ndarray:
-    """Distance in three dimensions of every row to the path, by chords of 0.1 m at most, m."""
-    from scipy.spatial import cKDTree
-
-    points = np.array(
-        [path.evaluate(i, float(t))[:3] for i in range(path.n) for t in np.linspace(0.0, 1.0, 1500)]
-    )
-    places = np.column_stack([run["x"], run["y"], run["z"]])
-    _, nearest = cKDTree(points).query(places)
-    found = np.full(len(places), np.inf)
-    for first in (nearest - 1, nearest):
-        a, b = points[np.clip(first, 0, None)], points[np.clip(first + 1, None, len(points) - 1)]
-        chord, offset = b - a, places - a
-        square = np.maximum((chord**2).sum(axis=1), 1e-12)
-        share = np.clip((offset * chord).sum(axis=1) / square, 0.0, 1.0)
-        found = np.minimum(found, np.linalg.norm(offset - share[:, None] * chord, axis=1))
-    return found
+def distances(path: SpatialPath, run: Any) -> np.ndarray:
+    """Distance in three dimensions of every row to the path, m."""
+    return path.distance(run.x, run.y, run.z, run.subpath(path.n))
 
 
 @pytest.mark.parametrize(
@@ -89,29 +83,29 @@ def distances(path: SpatialPath, run: dict[str, np.ndarray]) -> np.ndarray:
 )
 def test_the_path_is_followed(robust, path, current, rms, largest) -> None:
     made = path()
-    run = fly(SpatialScenario(path=made, vehicle=DIVER, thrust=6.48, current=current, **robust))
+    run = fly(scenario(made, vehicle=DIVER, thrust=6.48, current=current, **robust))
     off = distances(made, run)
-    assert run["s"][-1] == pytest.approx(made.n)
+    assert run.s[-1] == pytest.approx(made.n)
     assert math.sqrt(np.mean(off**2)) <= rms
     assert off.max() <= largest
     if path is not helix:
         # Subpaths 3 to 7 of the paper, behind its sharp corners.
         ends = np.cumsum([segment.length for segment in made.plan.segments])
         begin = 1 + np.searchsorted(ends, PLAN[0].length + PLAN[1].length - 1e-3)
-        assert math.sqrt(np.mean(off[run["s"] >= begin] ** 2)) <= 0.02
-        assert math.sqrt(np.mean(run["ze"] ** 2)) <= 0.015
-    assert abs(run["theta"]).max() <= DIVER.depth.max_pitch + math.radians(6.0)
+        assert math.sqrt(np.mean(off[run.s >= begin] ** 2)) <= 0.02
+        assert math.sqrt(np.mean(run.ze**2)) <= 0.015
+    assert abs(run.theta).max() <= DIVER.depth.max_pitch + math.radians(6.0)
 
 
 @pytest.mark.parametrize("above", [5.0, -5.0], ids=["above", "below"])
 def test_a_vehicle_away_from_the_depth_of_the_path_goes_there_and_stays(robust, above) -> None:
     path = SpatialPath([Line(0.0, 0.0, 200.0, 0.0)], DepthProfile.constant(15.0, 200.0))
     start = body_at(0.0, 0.0, 15.0 - above, 0.0, 0.0, 0.0, 1.9)
-    run = fly(SpatialScenario(path=path, vehicle=DIVER, thrust=6.48, initial=start, **robust))
-    assert math.copysign(1.0, run["theta_d"][0]) == -math.copysign(1.0, above)
-    late = run["t"] > 30.0
-    assert abs(run["z"][late] - 15.0).max() < 0.02
-    assert (above * (15.0 - run["z"])).min() > -0.3  # no overshoot worth the name
+    run = fly(scenario(path, vehicle=DIVER, thrust=6.48, initial=start, **robust))
+    assert math.copysign(1.0, run.theta_d[0]) == -math.copysign(1.0, above)
+    late = run.t - run.t[0] > 30.0
+    assert abs(run.z[late] - 15.0).max() < 0.02
+    assert (above * (15.0 - run.z)).min() > -0.3  # no overshoot worth the name
 
 
 def test_a_depth_that_a_weight_pulls_at_is_held_without_an_integral(robust) -> None:
@@ -121,10 +115,10 @@ def test_a_depth_that_a_weight_pulls_at_is_held_without_an_integral(robust) -> N
     heavy = dataclasses.replace(DIVER.coefficients.vertical, B=DIVER.coefficients.vertical.W + 7.0)
     light = dataclasses.replace(DIVER, hull=dataclasses.replace(DIVER.coefficients, vertical=heavy))
     path = SpatialPath([Line(0.0, 0.0, 300.0, 0.0)], DepthProfile.constant(15.0, 300.0))
-    run = fly(SpatialScenario(path=path, vehicle=light, thrust=6.48, **robust))
-    assert abs(run["z"][-200:] - 15.0).max() < 0.002
-    assert math.degrees(run["sternplanes"][-2]) == pytest.approx(-5.5, abs=0.3)
-    assert math.degrees(run["theta"][-2]) == pytest.approx(-1.5, abs=0.2)
+    run = fly(scenario(path, vehicle=light, thrust=6.48, **robust))
+    assert abs(run.z[-200:] - 15.0).max() < 0.002
+    assert math.degrees(run.sternplanes_cmd[-2]) == pytest.approx(-5.5, abs=0.3)
+    assert math.degrees(run.theta[-2]) == pytest.approx(-1.5, abs=0.2)
 
 
 @pytest.mark.parametrize(
@@ -140,4 +134,35 @@ def test_what_the_vehicle_cannot_do_is_refused(depths, thrust, message) -> None:
     profile = DepthProfile(list(zip((0.0, 100.0, 200.0), depths, strict=True)))
     path = SpatialPath([Line(0.0, 0.0, 200.0, 0.0)], profile)
     with pytest.raises(ConfigurationError, match=message):
-        fly(SpatialScenario(path=path, vehicle=DIVER, thrust=thrust))
+        fly(scenario(path, vehicle=DIVER, thrust=thrust))
+
+
+def test_a_planar_mission_is_flown_at_the_surface_depth(robust) -> None:
+    """Without a depth the vehicle stays where its propeller is still under water."""
+    path = CompositePath([Line(0.0, 0.0, 150.0, 0.0)])
+    run = fly(Scenario(path=path, vehicle=DIVER, thrust=6.48, **robust))
+    assert run.s[-1] == 1.0
+    late = run.t - run.t[0] > 20.0
+    assert abs(run.depth[late] - DIVER.depth.surface).max() < 0.05
+
+
+def test_a_path_with_depths_needs_stern_planes(robust) -> None:
+    with pytest.raises(ConfigurationError, match="REMUS 100: sternplanes: found a path with depth"):
+        fly(scenario(level(), vehicle=REMUS, thrust=6.48, **robust))
+
+
+def test_a_slow_vehicle_pitches_less(robust) -> None:
+    """From 0.5 m and 0.3 m/s to 10 m: planes rest below the reversal speed, and theta_max grows with it."""
+    path = SpatialPath([Line(0.0, 0.0, 150.0, 0.0)], DepthProfile.constant(10.0, 150.0))
+    start = body_at(0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.3)
+    run = fly(scenario(path, vehicle=DIVER, thrust=6.48, initial=start, **robust))
+    slow = run.ur < 0.37
+    assert slow[0]
+    assert not run.sternplanes_cmd[slow].any()
+    bounds = [
+        steepest_at(steepest_of(DIVER, 6.48), math.hypot(u, w)) for u, w in zip(run.ur, run.wr, strict=True)
+    ]
+    assert (abs(run.theta_d[:-1]) <= np.array(bounds[:-1]) + 1e-3).all()
+    reached = run.t[np.argmax(run.z > 9.0)] - run.t[0]
+    assert reached < 21.0
+    assert run.z.max() < 10.1

@@ -13,7 +13,7 @@ from auv_msgs_py.values.types import Current, Navigation, WaterVelocity
 from auv_path_following.curves.spatial.spatial_point import Tangent
 from auv_path_following.guidance.laws.ailos import AilosConfig, adaptive_offset, ailos
 from auv_path_following.guidance.laws.law import LawInputs, NoState
-from auv_path_following.guidance.spatial_laws import (
+from auv_path_following.guidance.spatial.spatial_laws import (
     VerticalLaw,
     current_along,
     elevation_seen,

@@ -139,7 +139,7 @@ class VerticalOutput(NamedTuple):
 @pure
 def vertical_ailos(
     law: VerticalLaw, ze: float, gamma_a: float, rho: float, flow: Levelled, water: Vector, phi: float,
-    Vb: float, steepest: float,
+    Vb: float, steepest: float, least_climb: float = -math.inf,
 ) -> VerticalOutput:  # fmt: skip
     """Return the pitch that leads to the path: Eqs. (3D-22) to (3D-24).
 
@@ -153,6 +153,7 @@ def vertical_ailos(
         phi: roll, rad.
         Vb: current down from the path, m/s.
         steepest: theta_max, rad.
+        least_climb: least elevation gamma_d, rad.
     """
     ur, vr, wr = water
     w1 = math.sin(phi) * vr + math.cos(phi) * wr
@@ -163,6 +164,8 @@ def vertical_ailos(
     alpha_b = adaptive_offset(ze, theta_b, law.lookahead)
     gamma_r = math.atan((ze + alpha_b) / law.lookahead)
     gamma_d = bounded(gamma_a + gamma_r, steepest)
+    if gamma_d < least_climb:
+        gamma_d = least_climb
     along = math.hypot(ur, w1)
     theta_d = gamma_d + attack
     if flow.Ur >= law.minimum_speed and along > 0.0:

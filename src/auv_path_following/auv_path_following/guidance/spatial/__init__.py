@@ -1,0 +1,1 @@
+"""Guidance in three dimensions: errors, laws in both planes, vertical modes and limits of pitch. No ROS."""

@@ -1,0 +1,53 @@
+"""Configuration of guidance in three dimensions, from settings and vehicle."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from auv_path_following.control.pitch_plane import pitch_plane_of
+from auv_path_following.guidance import path_follower
+from auv_path_following.guidance.approach import agility_of
+from auv_path_following.guidance.path_follower import PathFollowerConfig
+from auv_path_following.guidance.spatial.spatial_follow import SpatialFollower
+from auv_path_following.guidance.spatial.spatial_laws import VerticalLaw
+from auv_path_following.guidance.spatial.spatial_limits import steepest_of
+from auv_path_following.guidance.spatial.vertical_modes import AltitudeHold
+from auv_path_following.vehicle import Vehicle
+
+#: Bound of |theta_b|: the share of the speed that a current across the path may have.
+CURRENT_SHARE = 0.95
+
+
+def prepare(config: PathFollowerConfig, vehicle: Vehicle, thrust: float, mode: Any) -> SpatialFollower:
+    """Return the configuration of guidance.
+
+    Args:
+        config: laws and gains of both planes.
+        vehicle: hull and fins.
+        thrust: of the mission, N.
+        mode: of `vertical_step`.
+
+    Raises:
+        ConfigurationError: the vehicle's file lacks what the pitch autopilot needs.
+    """
+    plane = path_follower.prepare(config, agility_of(vehicle, thrust))
+    law = VerticalLaw(float(config.vertical.lookahead), CURRENT_SHARE, plane.minimum_speed)
+    rate = agility_of(pitch_plane_of(vehicle), thrust).turn_rate
+    return SpatialFollower(plane, law, mode, steepest_of(vehicle, thrust), rate)
+
+
+def altitude_hold(
+    config: PathFollowerConfig, vehicle: Vehicle, above: float, least: float, deepest: float = 0.0
+) -> AltitudeHold:
+    """Return the mode that holds an altitude.
+
+    Args:
+        config: filter of the bottom, and the response to a lost echo.
+        vehicle: for its range of depth.
+        above, least: requested and least altitude, m.
+        deepest: of the mission, m; 0 for the vehicle's own largest depth.
+    """
+    c, depth = config.vertical.altitude, vehicle.depth
+    bound = min(deepest, depth.max) if deepest > 0.0 else depth.max
+    values = (above, least, depth.surface, bound, c.bandwidth, c.damping, c.patience)
+    return AltitudeHold(*map(float, values))

@@ -1,0 +1,174 @@
+"""What `closed_loop` wires, in the plane and in three dimensions: pilot, path, vehicle, one step's answer."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from auv_msgs_py.contract.frames import heading_over_the_wire
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_msgs_py.values.types import SpatialCurrent
+from auv_path_following.control import autopilot
+from auv_path_following.control.pitch_plane import pitch_plane_of
+from auv_path_following.curves.spatial.depth_profile import DepthProfile
+from auv_path_following.curves.spatial.spatial_path import SpatialPath
+from auv_path_following.curves.spatial.spatial_rows import spatial_rows
+from auv_path_following.guidance import guide
+from auv_path_following.guidance.approach import agility_of
+from auv_path_following.guidance.measured import Measured, SpatialMeasured
+from auv_path_following.navigation import current_observer
+from auv_path_following.pilot import Pilot, begun, pilot
+from auv_path_following.spatial_pilot import SpatialPilot, spatial_begun, spatial_pilot
+from auv_sim.flight.scenario import Scenario, spatial_start_of, start_of
+from auv_sim.flight.signals import SPATIAL_TRUTH, TRUTH
+from auv_sim.vehicle.diving.ideal_diver import SpatialSeen
+from auv_sim.vehicle.diving.simulated_diver import SimulatedDiver
+from auv_sim.vehicle.hulls.rigid_body import angles_of
+from auv_sim.vehicle.simulated import SimulatedVehicle
+
+
+class Loop(NamedTuple):
+    """One flight, wired.
+
+    Attributes:
+        pilot, begun: configuration of the pilot, and what makes its first state.
+        path: as rows.
+        vehicle: simulated.
+        answer: (pilot, path, state, seen, at_sea, now, dt) -> (state, command, s, finished, row).
+        columns: names of the row.
+    """
+
+    pilot: Any
+    begun: Callable[..., Any]
+    path: Any
+    vehicle: Any
+    answer: Callable[..., Any]
+    columns: tuple[str, ...]
+
+
+#: Columns of a step's row: navigation, water, command, guidance, estimated and true current, servo.
+_COLUMNS = (
+    "x", "y", "psi", "r", "ur", "vr", "rudder_cmd", "thrust_cmd", "psi_d", "r_d", "xe", "ye", "psi_e", "s",
+    "Vx_est", "Vy_est", "Vx_true", "Vy_true", "rudder",
+)  # fmt: skip
+_SPATIAL_COLUMNS = (
+    "x", "y", "z", "phi", "theta", "psi", "q", "r", "ur", "vr", "wr", "rudder_cmd", "sternplanes_cmd",
+    "thrust_cmd", "psi_d", "r_d", "theta_d", "q_d", "xe", "ye", "ze", "psi_e", "theta_e", "s", "Vx_est",
+    "Vy_est", "Vz_est", "Vx_true", "Vy_true", "Vz_true", "rudder", "sternplanes", "depth_d", "altitude",
+)  # fmt: skip
+
+
+def pilot_of(scenario: Scenario) -> Pilot:
+    """Return the pilot of a planar scenario: no limits, no holds, over the wire's last bits only at sea.
+
+    Raises:
+        ConfigurationError: a law or gain needs a key that the vehicle's file lacks.
+    """
+    c = scenario
+    hull = c.controller_vehicle or c.vehicle
+    guidance = guide.prepare(c.guidance, agility_of(hull, c.thrust), c.thrust)
+    steering = autopilot.prepare(c.autopilot, hull)
+    observer = current_observer.prepare(c.observer, c.dt)
+    return Pilot(observer, guidance, steering, math.inf, c.sea is not None)
+
+
+def spatial_pilot_of(scenario: Scenario) -> SpatialPilot:
+    """Return the pilot of a scenario in three dimensions, otherwise as `pilot_of`.
+
+    Raises:
+        ConfigurationError: the vehicle's file lacks a key that a law or a gain needs.
+    """
+    c = scenario
+    hull = c.controller_vehicle or c.vehicle
+    guiding = guide.prepare_spatial(c.guidance, hull, c.thrust, c.mode)
+    return SpatialPilot(
+        current_observer.prepare(c.observer, c.dt),
+        guiding,
+        autopilot.prepare(c.autopilot, hull),
+        autopilot.prepare(c.pitch, pitch_plane_of(hull)),
+        guiding.follower.steepness.reversal,
+        math.inf,
+        c.sea is not None,
+    )
+
+
+def spatial_path_of(scenario: Scenario) -> SpatialPath:
+    """Return the path in three dimensions; a planar one at the vehicle's surface depth.
+
+    Raises:
+        ConfigurationError: the path leaves the vehicle's range of depth, or the thrust is too low for it.
+    """
+    path, vehicle = scenario.spatial, scenario.vehicle
+    allowed = vehicle.depth
+    if path is None:
+        length = math.fsum(segment.length for segment in scenario.path.segments)
+        path = SpatialPath(scenario.path.segments, DepthProfile.constant(allowed.surface, length))
+    for number, (way, depth) in enumerate(path.knots):
+        least = 0.0 if number in (0, len(path.knots) - 1) else allowed.surface
+        if not least <= depth <= allowed.max:
+            found, expected = f"{depth:g} m at {way:g} m of path", f"{least:g} to {allowed.max:g} m"
+            raise ConfigurationError(f"{vehicle.name}: depth_profile.knots[{number}]", found, expected)
+    speed = vehicle.speed_at(scenario.thrust)
+    if speed < allowed.minimum_speed:
+        found = f"{scenario.thrust:g} N, {speed:.2f} m/s"
+        expected = f"at least {allowed.minimum_speed:g} m/s, below which the planes hold no depth"
+        raise ConfigurationError(f"{vehicle.name}: thrust", found, expected)
+    return path
+
+
+def loop_of(scenario: Scenario) -> Loop:
+    """Return a flight, wired.
+
+    Raises:
+        ConfigurationError: what the path or the gains need is not in the vehicle's file.
+    """
+    c = scenario
+    if not c.vehicle.dives:
+        if c.spatial is not None:
+            expected = "stern planes, or a mission without depth"
+            raise ConfigurationError(f"{c.vehicle.name}: sternplanes", "a path with depth", expected)
+        start: Any = c.initial or start_of(c.path)
+        vehicle: Any = SimulatedVehicle(c.vehicle, start, c.sea, c.seed, c.current, c.dt)  # type: ignore[arg-type]
+        names: tuple[str, ...] = (*_COLUMNS, *TRUTH) if c.sea else _COLUMNS
+        return Loop(pilot_of(c), begun, c.path.rows, vehicle, answer, names)
+    path = spatial_path_of(c)
+    start = c.initial or spatial_start_of(path)
+    current = SpatialCurrent(*c.current, *(0.0,) * (3 - len(c.current)))
+    vehicle = SimulatedDiver(c.vehicle, start, c.sea, c.seed, current, c.dt)
+    names = (*_SPATIAL_COLUMNS, *SPATIAL_TRUTH) if c.sea else _SPATIAL_COLUMNS
+    return Loop(spatial_pilot_of(c), spatial_begun, spatial_rows(path), vehicle, spatial_answer, names)
+
+
+def answer(
+    config: Pilot, path: Any, state: Any, seen: Any, at_sea: bool, now: float, dt: float
+) -> tuple[Any, Any, float, bool, tuple[float, ...]]:
+    """Answer one measurement of a planar vehicle; see `Loop`."""
+    navigation, water, _, _, _, motion, rudder, current = seen
+    if at_sea:
+        navigation = navigation._replace(psi=heading_over_the_wire(navigation.psi))
+    measured = Measured(navigation, water, True, False, 0.0, now)
+    state, (estimate, g, _, command) = pilot(config, path, state, measured, dt)
+    # g begins with psi_d, r_d, xe, ye, psi_e, s: see `GuidanceOutput`.
+    row = (*navigation, *water, *command, *g[:6], *estimate, *current, rudder)
+    return state, command, g.s, g.finished, (row + motion[:3] if at_sea else row)
+
+
+def spatial_answer(
+    config: SpatialPilot, path: Any, state: Any, seen: SpatialSeen, at_sea: bool, now: float, dt: float
+) -> tuple[Any, Any, float, bool, tuple[float, ...]]:
+    """Answer one measurement of a vehicle that dives; see `Loop`."""
+    navigation, water, altitude = seen.navigation, seen.water, seen.altitude
+    if at_sea:
+        navigation = navigation._replace(psi=heading_over_the_wire(navigation.psi))
+    measured = SpatialMeasured(navigation, water, True, False, 0.0, now, altitude)
+    state, (estimate, g, _, command) = spatial_pilot(config, path, state, measured, dt)
+    # g begins with psi_d, r_d, theta_d, q_d, xe, ye, ze, psi_e, theta_e, s: see `SpatialOutput`.
+    row: tuple[float, ...] = (
+        *navigation, *water, *command, *g[:10], *estimate, *seen.current, seen.rudder, seen.sternplanes,
+        g.depth, altitude,
+    )  # fmt: skip
+    if at_sea:
+        motion = seen.motion
+        row += (motion.x, motion.y, motion.z, *angles_of(motion))
+    return state, command, g.s, g.finished, row
