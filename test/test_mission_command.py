@@ -214,7 +214,7 @@ def test_a_plan_is_flown_and_leaves_a_mission_file_that_flies_the_same(
     tmp_path: Path, domain: int, capsys: pytest.CaptureFixture[str]
 ) -> None:
     places = [(59.9, 10.6), (59.9002, 10.6)]
-    items = [{"command": 16, "frame": 3, "params": [0, 0, 0, 0, *place, -5]} for place in places]
+    items = [{"command": 16, "frame": 3, "params": [0, 0, 0, 0, *place, 5]} for place in places]
     (tmp_path / "pier.plan").write_text(json.dumps({"fileType": "Plan", "mission": {"items": items}}))
     run = tmp_path / "run"
     asked = [
@@ -229,7 +229,7 @@ def test_a_plan_is_flown_and_leaves_a_mission_file_that_flies_the_same(
     assert main(asked) == 0
     said = capsys.readouterr().out
     assert "notice pier.plan is not a mission file; assumed: straight legs" in said
-    assert "notice pier.plan: altitudes (-5 m) not taken" in said
+    assert "notice pier.plan: altitudes (5 m) not taken" in said
     flown = mission_file.load(str(run / "config" / "mission.yaml"))
     assert flown.path.length == pytest.approx(22.3, abs=0.1)
     assert flown.speed == 1.5

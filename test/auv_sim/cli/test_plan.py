@@ -80,8 +80,8 @@ def test_a_name_is_no_markup(tmp_path, capsys):
 
 
 def test_what_a_waypoint_file_holds_beyond_the_path_gets_a_line_each(tmp_path, capsys):
-    rows = ("0\t1\t0\t16\t0\t0\t0\t0\t59.9\t10.6\t0\t1", "1\t0\t3\t16\t60\t0\t0\t0\t59.9\t10.6\t-5\t1",
-            "2\t0\t3\t16\t0\t0\t0\t0\t59.901\t10.6\t-5\t1",
+    rows = ("0\t1\t0\t16\t0\t0\t0\t0\t59.9\t10.6\t0\t1", "1\t0\t3\t16\t60\t0\t0\t0\t59.9\t10.6\t5\t1",
+            "2\t0\t3\t16\t0\t0\t0\t0\t59.901\t10.6\t5\t1",
             "3\t0\t3\t20\t0\t0\t0\t0\t0\t0\t0\t1")  # fmt: skip
     (tmp_path / "a.waypoints").write_text("\n".join(["QGC WPL 110", *rows]))
     route = "waypoints: {file: a.waypoints, smoothing: {kind: linear}}\n"
@@ -92,7 +92,7 @@ def test_what_a_waypoint_file_holds_beyond_the_path_gets_a_line_each(tmp_path, c
     assert [line[1] for line in lines if line and line[0] == "notice"] == [
         "a.waypoints: hold of 60 s (item 1) not taken",
         "a.waypoints: return to launch (item 3) not taken",
-        "a.waypoints: altitudes (-5 m) not taken: paths are planar",
+        "a.waypoints: altitudes (5 m) not taken: only those below 0 are depths",
         "a.waypoints: home position (item 0) not taken",
     ]
 

@@ -36,8 +36,7 @@ def geofence(site: Site) -> list[Point]:
         name = path.relative_to(site.folder).as_posix()
         if len(content.fences) == 1:
             site.note(f"{name}: its inclusion fence is taken as geofence")
-            corners, _ = site.read(name, "geofence")
-            return corners
+            return site.read(name, "geofence").points
         if content.fences:
             names = ", ".join(repr(fence.name) for fence in content.fences)
             site.note(f"{name}: {len(content.fences)} inclusion fences not taken: name one as `geofence:"

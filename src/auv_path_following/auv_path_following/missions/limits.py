@@ -1,4 +1,4 @@
-"""The limits of a mission: area, distance from the path, duration, speeds. No ROS, no clock."""
+"""The limits of a mission: area, distance from the path, depth, duration, speeds. No ROS, no clock."""
 
 from __future__ import annotations
 
@@ -46,13 +46,18 @@ class LimitsConfig:
         0.0,
         "lowest speed of the virtual point along the path, once it has advanced that far within one window;"
         " 0: any. Below it the vehicle moves, but does not follow",
-        unit="m/s",
-        ge=0.0,
-        live=True,
-    )
+        unit="m/s", ge=0.0, live=True,
+    )  # fmt: skip
     path_speed_window: float = setting(
         60.0, "time over which the speed along the path is averaged", unit="s", ge=2.0, le=3600.0, live=True
     )
+
+    max_depth: float = setting(0.0, "largest depth; 0: any", unit="m", ge=0.0, live=True)
+    min_altitude: float = setting(0.0, "lowest altitude above ground; 0: any", unit="m", ge=0.0, live=True)
+    depth_error: float = setting(
+        0.0, "largest difference of the depth from the path's, once it was within it; 0: any", unit="m",
+        ge=0.0, live=True,
+    )  # fmt: skip
 
     def stricter(self, other: LimitsConfig) -> LimitsConfig:
         """Return the limits where both apply; a window belongs to the higher speed."""
@@ -66,6 +71,9 @@ class LimitsConfig:
             ground_speed_window=ground.ground_speed_window,
             path_speed=along.path_speed,
             path_speed_window=along.path_speed_window,
+            max_depth=_stricter(self.max_depth, other.max_depth),
+            min_altitude=max(self.min_altitude, other.min_altitude),
+            depth_error=_stricter(self.depth_error, other.depth_error),
         )
 
 

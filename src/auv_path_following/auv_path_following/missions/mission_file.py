@@ -17,13 +17,17 @@ from auv_path_following import config_files, vehicle
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.kinds.reverse import reversed_path
 from auv_path_following.curves.segment import Segment
+from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_path_following.missions import bare_file, file_offers
+from auv_path_following.missions.depth_keys import AltitudeSpec
 from auv_path_following.missions.geodesy import Origin
 from auv_path_following.missions.limits import LimitsConfig
 from auv_path_following.missions.mission_spec import ROUTES, MissionSpec, MissionSwitching
-from auv_path_following.missions.route_specs import GeofenceFile, Route
+from auv_path_following.missions.route_specs import GeofenceFile
 from auv_path_following.missions.routes import smoothing
+from auv_path_following.missions.routes.route import Route
 from auv_path_following.missions.site import Point, Site, check_size, within
+from auv_path_following.missions.spatial_mission import ONE_DEPTH, spatial_path
 from auv_path_following.vehicle import Vehicle
 
 #: Gap allowed at the joints of segments that are typed in, m.
@@ -42,7 +46,7 @@ class Mission:
 
     Attributes:
         name, description: of the mission.
-        path: to follow, NED, all repetitions included.
+        path: to follow, NED, all repetitions included; in three dimensions the plan of `spatial`.
         thrust: constant thrust on the way, N, greater than 0.
         source: the mission file, or a bare waypoint file.
         speed: speed through the water that the file asks for, m/s; None where it gives the thrust.
@@ -56,6 +60,9 @@ class Mission:
         files: waypoint files of the mission, in its own folder or below.
         notices: parts of those files that are not flown, one line each.
         assumed: the mission file that was assumed around a bare waypoint file; None where `source` is one.
+        spatial: the path with its depths; None for a planar mission, or one above the bottom.
+        altitude: to hold above the bottom; None otherwise.
+        max_slope: steepest slope that the file allows, rad; 0 for any.
     """
 
     name: str
@@ -74,6 +81,20 @@ class Mission:
     geofence: tuple[Point, ...] = ()
     notices: tuple[str, ...] = ()
     assumed: dict[str, Any] | None = None
+    spatial: SpatialPath | None = None
+    altitude: AltitudeSpec | None = None
+    max_slope: float = 0.0
+
+    def require_planar(self) -> None:
+        """Refuse a mission with depths or an altitude, where only planar ones can be flown.
+
+        Raises:
+            ConfigurationError: it is not planar.
+        """
+        if self.spatial is not None or self.altitude is not None:
+            key, found = ("altitude", "it") if self.altitude is not None else ("depth", "a path with depths")
+            expected = "a planar mission: one with a depth flies in closed loop and campaigns only"
+            raise ConfigurationError(f"{self.source}: {key}", found, expected)
 
     def copy_to(self, directory: Path) -> Path:
         """Write `mission.yaml` and its waypoint files into a directory; return the mission file."""
@@ -110,6 +131,7 @@ def load(name_or_path: str, hull: Vehicle | None = None) -> Mission:
         check_size(spec)
         route = spec.build(site)
         path, once = _path(spec, route)
+        spatial = _spatial(spec, route)
         speed = file_offers.speed(site, spec.thrust, spec.speed)
         geofence = _geofence(spec, site)
     if assumed is not None:
@@ -117,11 +139,14 @@ def load(name_or_path: str, hull: Vehicle | None = None) -> Mission:
     thrust = spec.thrust
     if thrust is None:
         thrust = (hull or vehicle.load(DEFAULT_VEHICLE)).thrust_at(speed or 0.0)
+    if spatial is not None:  # divided where ramps meet
+        path, once = spatial.plan, spatial.n // spec.repeat
     return Mission(
         name=spec.name, path=path, thrust=thrust, source=source, description=spec.description, speed=speed,
         switching=spec.switching, origin=spec.origin, waypoints=tuple(route.waypoints), area=route.area,
         once=once, files=tuple(site.files), limits=spec.limits, geofence=geofence,
         notices=tuple(site.notices), assumed=assumed,
+        spatial=spatial, altitude=spec.altitude, max_slope=math.radians(spec.limits.max_slope_deg),
     )  # fmt: skip
 
 
@@ -163,6 +188,17 @@ def _path(spec: MissionSpec, route: Route) -> tuple[CompositePath, int]:
     if spec.repeat > 1 and segments:
         _check_repeat(segments, spec.repeat, tolerance)
     return CompositePath(segments * spec.repeat, tolerance), once
+
+
+def _spatial(spec: MissionSpec, route: Route) -> SpatialPath | None:
+    """Return the path with its depths."""
+    if spec.altitude is not None:
+        names = ("depth", "depth_profile", route.depth_key)
+        given = (spec.depth is not None, spec.depth_profile is not None, bool(route.depth_key))
+        others = [name for name, is_given in zip(names, given, strict=True) if is_given]
+        if others:
+            raise ConfigurationError("altitude", f"it beside {' and '.join(others)}", ONE_DEPTH)
+    return spatial_path(route, spec.depth, spec.depth_profile, spec.reverse, spec.repeat)
 
 
 def _check_repeat(segments: Sequence[Segment], repeat: int, tolerance: float) -> None:

@@ -8,20 +8,22 @@ import pydantic
 
 from auv_msgs_py.settings.schema import Auto, setting, settings
 from auv_msgs_py.settings.validators import exactly_one, no_boolean, unfit
+from auv_path_following.curves.segment import Segment
+from auv_path_following.curves.spatial.spatial_spline import SpatialSpline
 from auv_path_following.curves.switching_modes import LISTED, SwitchingMode
+from auv_path_following.missions.depth_keys import AltitudeSpec, DepthProfileSpec, LimitsSpec
 from auv_path_following.missions.geodesy import Origin
-from auv_path_following.missions.limits import LimitsConfig
-from auv_path_following.missions.route_specs import (
+from auv_path_following.missions.route_specs import GeofenceFile, SurveySpec, WaypointsSpec
+from auv_path_following.missions.routes.generator_specs import (
     FigureOfEightSpec,
-    GeofenceFile,
+    HelixSpec,
     LoiterSpec,
-    Route,
     SpiralSpec,
-    SurveySpec,
-    WaypointsSpec,
 )
+from auv_path_following.missions.routes.route import Route
 from auv_path_following.missions.segment_specs import SegmentSpec
 from auv_path_following.missions.site import Frame, Point, Site, within
+from auv_path_following.missions.spatial_mission import with_depths
 
 
 @settings
@@ -41,7 +43,7 @@ _Geofence = Annotated[
     pydantic.Discriminator(lambda value: "(file)" if isinstance(value, dict | GeofenceFile) else "(corners)"),
 ]
 #: The keys that hold a route; a mission has one of them.
-ROUTES = ("segments", "waypoints", "survey", "spiral", "figure_of_eight", "loiter")
+ROUTES = ("segments", "waypoints", "survey", "spiral", "figure_of_eight", "loiter", "helix")
 
 
 @settings
@@ -60,18 +62,22 @@ class MissionSpec:
         None, "instead of thrust: speed through the water", unit="m/s", gt=0.0, le=20.0
     )
     switching: MissionSwitching = setting(factory=MissionSwitching, doc="circles of acceptance")
-    limits: LimitsConfig = setting(factory=LimitsConfig, doc="what ends the mission early")
+    limits: LimitsSpec = setting(factory=LimitsSpec, doc="what ends the mission early")
     geofence: _Geofence | None = setting(
         None, "area that must not be left: its corners, or {file, feature} of a waypoint file"
     )
     reverse: bool = setting(False, "follow the path from its end to its start")
     repeat: _Count = setting(1, "number of times that a closed path is followed")
+    depth: float | None = setting(None, "constant depth, positive down in every frame", unit="m", ge=0.0)
+    depth_profile: DepthProfileSpec | None = setting(None, "depth over the horizontal length of the route")
+    altitude: AltitudeSpec | None = setting(None, "instead of a depth: altitude above the bottom")
     segments: tuple[SegmentSpec, ...] | None = setting(None, "the subpaths, in order")
     waypoints: WaypointsSpec | None = setting(None, "points to pass")
     survey: SurveySpec | None = setting(None, "lawnmower pattern over a polygon")
     spiral: SpiralSpec | None = setting(None, "outwards around a point")
     figure_of_eight: FigureOfEightSpec | None = setting(None, "two loops and two lines that cross")
     loiter: LoiterSpec | None = setting(None, "around a circle")
+    helix: HelixSpec | None = setting(None, "around a circle from one depth to another")
 
     @pydantic.model_validator(mode="after")
     def _fits(self) -> MissionSpec:
@@ -94,8 +100,13 @@ class MissionSpec:
             with within(kind):
                 route: Route = getattr(self, kind).build(site)
                 return route
-        segments = []
+        segments: list[Segment | SpatialSpline] = []
         for number, spec in enumerate(self.segments):
             with within(f"segments[{number}]"):
                 segments.append(spec.build(site))
-        return Route(segments, [])
+        subpaths = with_depths(segments)
+        if subpaths:
+            return Route(
+                [one.plan for one in subpaths], [], subpaths=subpaths, depth_key="spline with depths"
+            )
+        return Route([one for one in segments if not isinstance(one, SpatialSpline)], [])

@@ -1,31 +1,26 @@
-"""The waypoints and generators of a mission file, one class for each."""
+"""The routes of a mission file that are made from points: waypoints and survey; the geofence of a file."""
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import Annotated, NamedTuple
+from typing import Literal
 
 import pydantic
 
 from auv_msgs_py.settings.schema import Pair, setting, settings
 from auv_msgs_py.settings.validators import exactly_one, unfit
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_path_following.curves.segment import Segment
-from auv_path_following.missions.routes import generators, survey
-from auv_path_following.missions.routes.smoothing import Smoothing, smooth
-from auv_path_following.missions.segment_specs import Turn
-from auv_path_following.missions.site import Site, within
-
-
-class Route(NamedTuple):
-    """A route: its subpaths, the waypoints they were made from and the area they survey, (north, east), m."""
-
-    segments: list[Segment]
-    waypoints: list[Pair]
-    area: tuple[Pair, ...] = ()
+from auv_path_following.curves.spatial.depth_profile import DepthProfile, RampKind
+from auv_path_following.curves.spatial.spatial_spline import SpatialSpline
+from auv_path_following.missions.depth_keys import Place
+from auv_path_following.missions.routes import survey
+from auv_path_following.missions.routes.route import Route
+from auv_path_following.missions.routes.smoothing import Smoothing, end_courses, smoothed
+from auv_path_following.missions.site import Site
+from auv_path_following.missions.waypoint_files import check_depths
 
 
 @contextmanager
@@ -63,22 +58,49 @@ class GeofenceFile:
 class WaypointsSpec:
     """`waypoints`: points to pass, and how their corners are rounded."""
 
-    points: tuple[Pair, ...] | None = setting(None, "the waypoints")
+    points: tuple[Place, ...] | None = setting(None, "the waypoints, all with a depth or none")
     file: str | None = setting(None, "instead of points: a waypoint file beside the mission file")
     feature: str | None = setting(None, "with file: name of the line or polygon to take")
     smoothing: Smoothing = setting(doc="how corners are rounded")
     closed: bool | None = setting(
         None, "return from the last waypoint to the first (default: only for the outline of a polygon)"
     )
+    depths: Literal["take", "ignore"] = setting("take", "ignore: a planar path, whatever depths points have")
+    depth_ramp: RampKind | None = setting(
+        None, "depth between waypoints: linear or smooth (default: linear for smoothing linear, else smooth)"
+    )
 
     def build(self, site: Site) -> Route:
         """Return the subpaths along the waypoints."""
-        points, outline = site.given(self.points, self.file, self.feature, "points", "waypoints")
+        points, outline, depths = site.given(
+            self.points, self.file, self.feature, "points", "waypoints", self.depths == "take"
+        )
         closed = outline if self.closed is None else self.closed
         if outline and not closed:
             site.note(f"{self.file}: the last side of the outline is not followed (closed: false)")
         with _named_as_in(self.file):
-            return Route(smooth(points, self.smoothing, closed), points)
+            made = smoothed(points, self.smoothing, closed)
+            if depths is None:
+                if self.depth_ramp is not None:
+                    raise ConfigurationError(
+                        "depth_ramp", self.depth_ramp, "it only with points that have a depth"
+                    )
+                return Route(made.segments, points)
+            if self.smoothing.kind == "spline":
+                return self._spline(points, depths)
+        ramp = self.depth_ramp or ("linear" if self.smoothing.kind == "linear" else "smooth")
+        levels = [*depths, depths[0]] if len(made.ways) > len(depths) else depths
+        profile = DepthProfile(list(zip(made.ways, levels, strict=True)), ramp)
+        return Route(made.segments, points, profile=profile, depth_key="waypoints with a depth")
+
+    def _spline(self, points: list[Pair], depths: list[float]) -> Route:
+        if self.depth_ramp is not None:
+            raise ConfigurationError(
+                "depth_ramp", self.depth_ramp, "none: a spline is a cubic in depth as well"
+            )
+        places = [(x, y, z) for (x, y), z in zip(points, depths, strict=True)]
+        spline = SpatialSpline(places, *end_courses(self.smoothing))
+        return Route([spline.plan], points, subpaths=(spline,), depth_key="waypoints with a depth")
 
 
 @settings
@@ -94,6 +116,9 @@ class SurveySpec:
     heading_deg: float = setting(doc="course of the first leg, clockwise from north", unit="deg")
     run_out: float = setting(0.0, "length of the legs beyond the polygon", unit="m", ge=0.0, le=10000.0)
     smoothing: Smoothing = setting(doc="turns between legs; dubins keeps all legs straight to their ends")
+    leg_depths: tuple[float, ...] | None = setting(
+        None, "depth of each leg in its order, with smooth ramps between legs", unit="m"
+    )
 
     @pydantic.model_validator(mode="after")
     def _has_one_spacing(self) -> SurveySpec:
@@ -104,80 +129,31 @@ class SurveySpec:
 
     def build(self, site: Site) -> Route:
         """Return the survey's legs and turns."""
-        polygon, _ = site.given(self.polygon, self.file, self.feature, "polygon", "survey")
+        polygon, _, _ = site.given(self.polygon, self.file, self.feature, "polygon", "survey")
         spacing = self.spacing if self.spacing is not None else (self.swath or 0.0) * (1.0 - self.overlap)
         with _named_as_in(self.file):
             legs = survey.legs(polygon, spacing, math.radians(self.heading_deg), self.run_out)
         try:
-            segments = survey.path(legs, self.smoothing)
+            segments, ways = survey.joined(legs, self.smoothing)
         except ConfigurationError as error:
             if not error.where.startswith("points["):
                 raise
             number = int(error.where[len("points[") : -1])
             found = f"{error.found} (end {number % 2 + 1} of leg {number // 2 + 1})"
             raise ConfigurationError("smoothing", found, "a smaller one, more spacing, or dubins") from None
-        return Route(segments, [point for leg in legs for point in leg], tuple(polygon))
+        points = [point for leg in legs for point in leg]
+        if self.leg_depths is None:
+            return Route(segments, points, tuple(polygon))
+        profile = self._profile(self.leg_depths, len(legs), ways)
+        return Route(segments, points, tuple(polygon), profile, depth_key="leg_depths")
 
-
-@settings
-class SpiralSpec:
-    """`spiral`: outwards around a point with one distance between the turns (Archimedes)."""
-
-    centre: Pair = setting(doc="centre")
-    inner_radius: float = setting(0.0, "distance from the centre at which it starts", unit="m", ge=0.0)
-    spacing: float = setting(doc="distance between neighbouring turns", unit="m", gt=0.0)
-    turns: float = setting(doc="number of turns", gt=0.0, le=1000.0)
-    bearing_deg: float = setting(0.0, "bearing of the start, seen from the centre", unit="deg")
-    turn: Turn = setting(1, "1 to starboard, -1 to port")
-
-    def build(self, site: Site) -> Route:
-        """Return the spiral's turns."""
-        with within("centre"):
-            centre = site.point(self.centre)
-        bearing = math.radians(self.bearing_deg)
-        made = generators.spiral(centre, self.inner_radius, self.spacing, self.turns, bearing, self.turn)
-        return Route(made, [])
-
-
-@settings
-class FigureOfEightSpec:
-    """`figure_of_eight`: two loops and two lines that cross."""
-
-    centre: Pair = setting(doc="where the lines cross")
-    radius: float = setting(doc="of both loops", unit="m", gt=0.0)
-    separation: float = setting(
-        doc="distance between the loops' centres, at least 2 radius", unit="m", gt=0.0
-    )
-    axis_deg: float = setting(0.0, "bearing of the first loop from the crossing", unit="deg")
-
-    @pydantic.model_validator(mode="after")
-    def _is_apart(self) -> FigureOfEightSpec:
-        if self.separation < 2.0 * self.radius:
-            found = f"separation {self.separation:g} m with radius {self.radius:g} m"
-            raise unfit(found, f"a separation of at least {2.0 * self.radius:g} m, twice the radius")
-        return self
-
-    def build(self, site: Site) -> Route:
-        """Return the loops and the lines."""
-        with within("centre"):
-            centre = site.point(self.centre)
-        axis = math.radians(self.axis_deg)
-        return Route(generators.figure_of_eight(centre, self.radius, self.separation, axis), [])
-
-
-@settings
-class LoiterSpec:
-    """`loiter`: around a circle."""
-
-    centre: Pair = setting(doc="centre")
-    radius: float = setting(doc="radius", unit="m", gt=0.0)
-    turns: Annotated[int, pydantic.Field(ge=1, le=1000)] = setting(1, "number of turns")
-    bearing_deg: float = setting(0.0, "bearing of the start, seen from the centre", unit="deg")
-    turn: Turn = setting(1, "1 to starboard, -1 to port")
-
-    def build(self, site: Site) -> Route:
-        """Return the circle, once for each turn."""
-        with within("centre"):
-            centre = site.point(self.centre)
-        made = generators.loiter(centre, self.radius, self.turns, math.radians(self.bearing_deg), self.turn)
-        return Route(made, [])
+    def _profile(self, depths: Sequence[float], legs: int, ways: Sequence[float]) -> DepthProfile:
+        """Return the depth over the survey: constant on each leg."""
+        if len(depths) != legs:
+            raise ConfigurationError(
+                "leg_depths", f"{len(depths)} depths", f"one for each of the {legs} legs"
+            )
+        if not ways:
+            raise ConfigurationError("leg_depths", "smoothing spline", "another one, which has legs")
+        check_depths(depths, lambda k: f"leg_depths[{k}]")
+        return DepthProfile([(way, depths[k // 2]) for k, way in enumerate(ways)], "smooth")

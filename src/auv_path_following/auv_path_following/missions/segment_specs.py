@@ -17,6 +17,8 @@ from auv_path_following.curves.kinds.line import Line
 from auv_path_following.curves.kinds.polynomial import Polynomial
 from auv_path_following.curves.kinds.spline import Spline
 from auv_path_following.curves.segment import Segment
+from auv_path_following.curves.spatial.spatial_spline import SpatialSpline
+from auv_path_following.missions.depth_keys import Place
 from auv_path_following.missions.site import Site, within
 
 Turn = Annotated[Literal[1, -1], pydantic.BeforeValidator(no_boolean)]
@@ -133,7 +135,9 @@ class PolynomialSpec:
 class SplineSpec:
     """`spline`: a cubic spline through points."""
 
-    points: Annotated[tuple[Pair, ...], pydantic.Field(min_length=2)] = setting(doc="points on the way")
+    points: Annotated[tuple[Place, ...], pydantic.Field(min_length=2)] = setting(
+        doc="points on the way, all with a depth or none"
+    )
     start_course_deg: float | None = setting(
         None, "course at the start; without it no curvature there", unit="deg"
     )
@@ -141,14 +145,16 @@ class SplineSpec:
         None, "course at the end; without it no curvature there", unit="deg"
     )
 
-    def build(self, site: Site) -> Segment:
+    def build(self, site: Site) -> Segment | SpatialSpline:
         """Return the segment that it describes."""
         with within("points", joined=""):
-            points = site.points(self.points)
+            points, depths = site.places(self.points)
         start, end = (
             None if c is None else math.radians(c) for c in (self.start_course_deg, self.end_course_deg)
         )
-        return Spline(points, start, end)
+        if depths is None:
+            return Spline(points, start, end)
+        return SpatialSpline([(*at, z) for at, z in zip(points, depths, strict=True)], start, end)
 
 
 _Specs = LineSpec | ArcSpec | FermatSpec | FermatMirroredSpec | ClothoidSpec | PolynomialSpec | SplineSpec
@@ -164,7 +170,7 @@ class SegmentSpec:
     fermat_mirrored: FermatMirroredSpec | None = setting(None, "Fermat's spiral, mirrored")
     clothoid: ClothoidSpec | None = setting(None, "clothoid")
     polynomial: PolynomialSpec | None = setting(None, "polynomial")
-    spline: SplineSpec | None = setting(None, "cubic spline")
+    spline: SplineSpec | None = setting(None, "cubic spline, in the plane or in three dimensions")
 
     @pydantic.model_validator(mode="after")
     def _is_one(self) -> SegmentSpec:
@@ -176,7 +182,7 @@ class SegmentSpec:
         names = tuple(field.name for field in dataclasses.fields(self))
         return exactly_one(self, names, "kinds of segment")
 
-    def build(self, site: Site) -> Segment:
+    def build(self, site: Site) -> Segment | SpatialSpline:
         """Return the segment that it describes."""
         kind = self.kind()
         spec: _Specs = getattr(self, kind)

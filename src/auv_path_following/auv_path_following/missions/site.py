@@ -22,8 +22,6 @@ Frame = Literal["ned", "enu", "wgs84"]
 
 #: Largest number in a mission, m, deg, s or N; a northing of UTM is smaller.
 LARGEST = 1e7
-#: Consecutive points of a file within this distance are one point, m.
-_SAME = 1e-3
 
 
 class Given(NamedTuple):
@@ -32,10 +30,12 @@ class Given(NamedTuple):
     Attributes:
         points: (north, east), m.
         outline: whether they are the outline of a polygon, which is closed.
+        depths: of the points, m, positive down; None where they have none.
     """
 
     points: list[Point]
     outline: bool
+    depths: list[float] | None = None
 
 
 @dataclass(frozen=True)
@@ -72,6 +72,23 @@ class Site:
                 raise ConfigurationError(f"[{number}]", found, "[latitude, longitude] in degrees")
         return self._placed(pairs, lambda k: f"[{k}]")
 
+    def places(self, items: Sequence[Sequence[float]]) -> tuple[list[Point], list[float] | None]:
+        """Convert points of the file to (north, east), m, and their third numbers to depths, m.
+
+        Returns:
+            The points, and their depths; None where no point has one.
+
+        Raises:
+            ConfigurationError: as `points`; a point without a depth beside others, or above the surface.
+        """
+        points = self.points([(item[0], item[1]) for item in items])
+        if all(len(item) == 2 for item in items):
+            return points, None
+        depths = [item[2] if len(item) > 2 else math.nan for item in items]
+        waypoint_files.check_depths(depths, lambda k: f"[{k}]")
+        waypoint_files.kept(points, depths, lambda k: f"[{k}]")
+        return points, depths
+
     def point(self, pair: Point) -> Point:
         """Convert one pair to (north, east), m."""
         try:
@@ -96,8 +113,14 @@ class Site:
                 raise ConfigurationError(place(number), found, expected)
         return placed
 
-    def read(self, name: str, use: Use, feature: str | None = None) -> Given:
+    def read(self, name: str, use: Use, feature: str | None = None, take_depths: bool = True) -> Given:
         """Place the points for `use` of a waypoint file in the mission file's folder.
+
+        Args:
+            name: of the file.
+            use: purpose of the points; only waypoints have depths.
+            feature: name of the shape to take.
+            take_depths: whether depths of the file count.
 
         Raises:
             ConfigurationError: it is elsewhere, missing, not understood, or does not fit; names the feature.
@@ -116,17 +139,18 @@ class Site:
                 self.files[path] = waypoint_files.read(path, name)
             content = self.files[path]
             with within(name, joined=": "):
-                taken = waypoint_files.choose(content, use, feature)
+                taken = waypoint_files.choose(content, use, feature, take_depths)
                 points = taken.points
                 if content.in_degrees:
                     points = self._placed(points, lambda k: f"point {k + 1}")
                 else:
                     _check_metres(points)
-        kept = [at for k, at in enumerate(points) if k == 0 or math.dist(at, points[k - 1]) > _SAME]
-        if len(kept) < len(points):
-            self.note(f"{name}: {len(points) - len(kept)} point(s) at the place of the one before left out")
+                keep = waypoint_files.kept(points, taken.depths)
+        if len(keep) < len(points):
+            self.note(f"{name}: {len(points) - len(keep)} point(s) at the place of the one before left out")
         self.note(*(f"{name}: {notice}" for notice in taken.notices))
-        return Given(kept, taken.outline)
+        depths = None if taken.depths is None else [taken.depths[k] for k in keep]
+        return Given([points[k] for k in keep], taken.outline, depths)
 
     def note(self, *notices: str) -> None:
         """Add notices; each is kept once, as a line that is safe to print."""
@@ -135,24 +159,32 @@ class Site:
                 self.notices.append(notice)
 
     def given(
-        self, pairs: Sequence[Point] | None, file: str | None, feature: str | None, key: str, use: Use
+        self,
+        items: Sequence[Sequence[float]] | None,
+        file: str | None,
+        feature: str | None,
+        key: str,
+        use: Use,
+        take_depths: bool = True,
     ) -> Given:
         """Return the points of a key, or of the file given instead.
 
         Raises:
             ConfigurationError: both are given or neither is; a point is wrong.
         """
-        if (pairs is None) == (file is None):
+        if (items is None) == (file is None):
             found = f"neither {key} nor file" if file is None else f"both {key} and file"
             raise ConfigurationError("", found, "one of them")
         if file is not None:
-            return self.read(file, use, feature)
+            return self.read(file, use, feature, take_depths)
         if feature is not None:
             raise ConfigurationError("feature", f"{feature!r} without file", "both")
+        listed = items or ()
         with within(key, joined=""):
-            if len(pairs or ()) > MOST_POINTS:
-                raise ConfigurationError("", f"{len(pairs or ())} points", f"at most {MOST_POINTS}")
-            return Given(self.points(pairs or ()), False)
+            if len(listed) > MOST_POINTS:
+                raise ConfigurationError("", f"{len(listed)} points", f"at most {MOST_POINTS}")
+            points, depths = self.places(listed if take_depths else [item[:2] for item in listed])
+            return Given(points, False, depths)
 
 
 def check_size(item: Any, place: str = "") -> None:

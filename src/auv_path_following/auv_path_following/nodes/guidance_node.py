@@ -28,6 +28,7 @@ class GuidanceNode(SuiteNode):
         super().__init__(topics.GUIDANCE, GuidanceParameters, **arguments)
         hull = vehicle.load(self.parameters.vehicle)
         self.mission = mission_file.load(self.parameters.mission, hull)
+        self.mission.require_planar()
         agility = agility_of(hull, self.mission.thrust)
         self.keeper = MissionKeeper(self, self.mission, agility, self._begins)
         self._to_go = self.mission.path.length

@@ -39,6 +39,7 @@ def fly(options: Options, loader: Loader) -> int:
     """
     directory = _run_directory(options)
     resolved = mission_plan.make(options, directory)
+    resolved.mission.require_planar()
     domain = launcher.domain_of(resolved)
     console = terminal(options.quiet)
     make_directory(directory, new=True)

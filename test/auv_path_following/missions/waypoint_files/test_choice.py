@@ -32,7 +32,7 @@ PINS = (_feature("Point", [10.0, 63.0], "start"), _feature("Point", [10.1, 63.1]
 
 
 def test_a_multi_line_of_one_part_is_that_line_and_pins_beside_it_are_reported(taken):
-    points, outline, notices = taken("waypoints", *PINS, _feature("MultiLineString", [LEG]))
+    points, outline, notices, _ = taken("waypoints", *PINS, _feature("MultiLineString", [LEG]))
     assert points == [(63.0, 10.0), (63.0, 10.1)]
     assert not outline
     assert notices == ["2 points not taken: 'start', 'end'"]
@@ -50,7 +50,7 @@ def test_one_of_several_lines_is_taken_by_its_name(taken, feature):
     features = [_feature("MultiLineString", [LEG, OTHER], "a")]
     if feature == "b":
         features = [_feature("LineString", LEG, "a"), _feature("LineString", OTHER, "b")]
-    points, _, notices = taken("waypoints", *features, feature=feature)
+    points, _, notices, _ = taken("waypoints", *features, feature=feature)
     assert points[0] == (64.0, 10.0)
     assert notices in (["1 line not taken: 'a'"], ["1 line not taken: 'a (1)'"])
 
@@ -82,7 +82,7 @@ def test_a_hole_does_not_matter_to_the_outline_but_is_reported(taken):
 
 
 def test_an_outline_drawn_as_a_line_is_taken_for_a_survey_with_a_line(taken):
-    points, _, notices = taken("survey", _feature("LineString", RING[:3], "shore"))
+    points, _, notices, _ = taken("survey", _feature("LineString", RING[:3], "shore"))
     assert len(points) == 3
     assert notices == ["the line 'shore' is taken as an outline and closed"]
 
@@ -93,16 +93,23 @@ def test_an_open_line_is_no_geofence(taken):
     assert len(taken("geofence", _feature("LineString", RING)).points) == 4
 
 
-def test_altitudes_are_reported(taken):
-    high = [[10.0, 63.0, -5.0], [10.1, 63.0, -12.5]]
-    assert taken("waypoints", _feature("LineString", high)).notices == [
-        "altitudes (-12.5 to -5 m) not taken: paths are planar"
-    ]
+def test_altitudes_above_the_surface_are_reported(taken):
+    high = [[10.0, 63.0, 5.0], [10.1, 63.0, 12.5]]
+    found = taken("waypoints", _feature("LineString", high))
+    assert found.notices == ["altitudes (5 to 12.5 m) not taken: only those below 0 are depths"]
+    assert found.depths is None
+
+
+def test_an_area_has_no_depth(taken):
+    ring = [[*place, -5.0] for place in RING]
+    found = taken("survey", _feature("Polygon", [ring]))
+    assert found.notices == ["altitudes (-5 m) not taken: an area has no depth"]
+    assert found.depths is None
 
 
 def test_a_line_cut_at_the_antimeridian_is_one_line(taken):
     parts = [[[179.9, 10.0], [180.0, 10.05]], [[-180.0, 10.05], [-179.9, 10.1]]]
-    points, _, notices = taken("waypoints", _feature("MultiLineString", parts))
+    points, _, notices, _ = taken("waypoints", _feature("MultiLineString", parts))
     assert points == [(10.0, 179.9), (10.05, 180.0), (10.1, -179.9)]
     assert notices == []
 
@@ -116,7 +123,7 @@ def test_every_part_of_a_kml_is_found_whatever_holds_it(tmp_path):
         "<Placemark><name>ship</name><Model/></Placemark><NetworkLink><name>more</name></NetworkLink>"
     )
     (tmp_path / "a.kml").write_text(f"<kml><Document>{body}</Document></kml>")
-    points, _, notices = waypoint_files.choose(waypoint_files.read(tmp_path / "a.kml"), "waypoints")
+    points, _, notices, _ = waypoint_files.choose(waypoint_files.read(tmp_path / "a.kml"), "waypoints")
     assert points == [(63.0, 10.0), (63.0, 10.1)]
     assert notices == [
         "1 3D model(s) not taken",

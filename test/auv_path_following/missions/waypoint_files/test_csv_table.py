@@ -40,8 +40,27 @@ def test_delimiters_decimal_commas_and_encodings(text, encoding):
 
 
 def test_columns_that_are_not_taken_are_named():
-    content = csv_table.read(b"Name,lat,lon,depth_m\nA,59.9,10.6,5\n")
-    assert content.notices == ["columns not taken: 'Name', 'depth_m'"]
+    content = csv_table.read(b"Name,lat,lon,alt\nA,59.9,10.6,-5\n")
+    assert content.notices == ["columns not taken: 'Name', 'alt'"]
+
+
+@pytest.mark.parametrize("name", ["depth", "Depth (m)", "depth_m", "DEPTH [metres]"])
+def test_a_depth_is_read_by_its_column(name):
+    content = csv_table.read(f"lat,lon,{name}\n59.9,10.6,5\n59.9,10.7,\n".encode())
+    assert content.shapes[0].heights == (5.0,)
+    assert content.shapes[1].heights == ()
+    assert content.shapes[0].is_down
+    assert content.notices == []
+
+
+def test_two_columns_of_depth_are_refused():
+    with pytest.raises(ConfigurationError, match="2 columns of depth, expected one: delete the others"):
+        csv_table.read(b"lat,lon,depth,depth_m\n59.9,10.6,5,5\n")
+
+
+def test_a_depth_that_is_no_number_is_refused_with_its_point():
+    with pytest.raises(ConfigurationError, match=r"point 2: found '59\.9, 10\.7, deep', expected three"):
+        csv_table.read(b"lat,lon,depth\n59.9,10.6,5\n59.9,10.7,deep\n")
 
 
 @pytest.mark.parametrize(

@@ -41,7 +41,7 @@ def plan(tmp_path):
 
 def test_takeoff_and_return_to_launch_are_left_out_with_a_line_each(plan):
     content = plan(_item(22, A), _item(16, A), _item(16, B), _item(20))
-    points, _, notices = waypoint_files.choose(content, "waypoints")
+    points, _, notices, _ = waypoint_files.choose(content, "waypoints")
     assert points == [A, B]
     assert notices == ["takeoff (item 1) not taken", "return to launch (item 4) not taken"]
 
@@ -136,7 +136,7 @@ def test_several_survey_items_are_chosen_by_name(plan):
 
 
 def test_waypoints_in_the_place_of_a_polygon_are_taken_with_a_line(plan):
-    points, _, notices = waypoint_files.choose(plan(*(_item(16, p) for p in (A, B, C))), "survey")
+    points, _, notices, _ = waypoint_files.choose(plan(*(_item(16, p) for p in (A, B, C))), "survey")
     assert points == [A, B, C]
     assert notices == ["the line 'mission' is taken as an outline and closed"]
 

@@ -14,8 +14,8 @@ from auv_path_following.curves.spatial.spatial_point import Profile, linear_ramp
 #: How the depth goes from knot to knot.
 RampKind = Literal["smooth", "linear"]
 _RAMPS = {"linear": linear_ramp, "smooth": smooth_ramp}
-#: Largest slope and largest rate of the slope of a ramp, in units of D/L and D/L^2.
-_STEEPEST = {"linear": 1.0, "smooth": 1.875}
+#: Largest slope of a ramp, in units of D/L, and its largest rate, in units of D/L^2.
+STEEPEST = {"linear": 1.0, "smooth": 1.875}
 _SHARPEST = {"linear": 0.0, "smooth": 10.0 / math.sqrt(3.0)}
 
 
@@ -81,10 +81,14 @@ class DepthProfile:
         ramp = _RAMPS[self.kind]
         return ramp(before.depth, after.depth, after.way - before.way, way - before.way)
 
+    def reversed(self) -> DepthProfile:
+        """Return the profile of the same path followed from its end to its start."""
+        return DepthProfile([(self.length - way, depth) for way, depth in self.knots[::-1]], self.kind)
+
     def steepest(self) -> tuple[float, int]:
         """Return the largest |slope| and the index of its ramp."""
         slopes = [
-            _STEEPEST[self.kind] * abs(after.depth - before.depth) / (after.way - before.way)
+            STEEPEST[self.kind] * abs(after.depth - before.depth) / (after.way - before.way)
             for before, after in itertools.pairwise(self.knots)
         ]
         return max(slopes), slopes.index(max(slopes))
@@ -105,5 +109,5 @@ class DepthProfile:
             steepest: largest slope allowed.
             radius: least radius allowed of its vertical curvature, m; a linear ramp has none inside.
         """
-        by_slope = _STEEPEST[self.kind] * abs(depth) / steepest
+        by_slope = STEEPEST[self.kind] * abs(depth) / steepest
         return max(by_slope, math.sqrt(_SHARPEST[self.kind] * abs(depth) * radius))

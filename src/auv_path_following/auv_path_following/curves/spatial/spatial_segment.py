@@ -9,6 +9,7 @@ from typing import Any, Final, Protocol
 import numpy as np
 from numpy.polynomial import Polynomial as Series
 
+from auv_path_following.curves.kinds.reverse import Reversed
 from auv_path_following.curves.pieces import fitted_row
 from auv_path_following.curves.rows import FITTED_WIDTH, TERMS
 from auv_path_following.curves.segment import PathPoint, Segment
@@ -47,6 +48,9 @@ class SpatialSegment(Protocol):
     @property
     def knots(self) -> tuple[Knot, ...]:
         """Horizontal length from its start and depth (m) at both ends, and between them where ramps meet."""
+
+    def reversed(self) -> SpatialSegment:
+        """Return the same curve, followed from its end to its start."""
 
 
 class Lifted:
@@ -109,6 +113,12 @@ class Lifted:
         """Horizontal length from its start and depth (m) at both ends."""
         ways = (self.begin, self.begin + self.plan.length)
         return tuple(Knot(way - self.begin, self.profile.at(way, self.ramp)[0]) for way in ways)
+
+    def reversed(self) -> Lifted:
+        """Return the same curve, followed from its end to its start."""
+        ramp = len(self.profile.knots) - 2 - self.ramp
+        begin = self.profile.length - self.begin - self.plan.length
+        return Lifted(Reversed(self.plan), self.profile.reversed(), ramp, begin)
 
 
 def piece(start: float, width: float, depth: Any) -> list[float]:

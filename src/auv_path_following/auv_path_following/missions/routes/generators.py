@@ -1,7 +1,8 @@
-"""Ready-made paths: spiral, figure of eight, loiter circle."""
+"""Ready-made paths: spiral, figure of eight, loiter circle, helix."""
 
 from __future__ import annotations
 
+import itertools
 import math
 
 from auv_msgs_py.values.angles import TWO_PI
@@ -76,3 +77,29 @@ def loiter(centre: Point, radius: float, turns: int, bearing: float, turn: int) 
         turn: 1 to starboard, -1 to port.
     """
     return [Arc(*centre, radius, bearing, bearing + turn * TWO_PI)] * turns
+
+
+def helix(
+    centre: Point, radius: float, bearing: float, sweep: float, run_in: float, run_out: float
+) -> list[Segment]:
+    """Return a circle as seen from above, one subpath for each turn, between two lines that touch it.
+
+    Args:
+        centre: north, east, m.
+        radius: m.
+        bearing: of the circle's start as seen from the centre, rad.
+        sweep: angle around the centre, rad, positive to starboard; not 0.
+        run_in, run_out: lengths of the lines before and after it, m; 0 for none.
+    """
+    side = math.copysign(0.5 * math.pi, sweep)
+    turns, full = math.ceil(abs(sweep) / TWO_PI - 1e-9), math.copysign(TWO_PI, sweep)
+    bearings = [bearing + full * k for k in range(turns)] + [bearing + sweep]
+    segments: list[Segment] = [Arc(*centre, radius, a0, a1) for a0, a1 in itertools.pairwise(bearings)]
+    if run_in > TOLERANCE:
+        start, chi = segments[0].evaluate(0.0), bearing + side
+        x, y = start.x - run_in * math.cos(chi), start.y - run_in * math.sin(chi)
+        segments.insert(0, Line(x, y, run_in, chi))
+    if run_out > TOLERANCE:
+        end = segments[-1].evaluate(1.0)
+        segments.append(Line(end.x, end.y, run_out, bearing + sweep + side))
+    return segments

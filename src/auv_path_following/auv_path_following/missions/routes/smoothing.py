@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Sequence
-from typing import Literal
+from collections.abc import Iterable, Sequence
+from typing import Literal, NamedTuple
 
 from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.values.angles import wrap
@@ -48,8 +49,26 @@ class Smoothing:
     end_course_deg: float | None = setting(None, "course at the last waypoint (dubins, spline)", unit="deg")
 
 
+class Smoothed(NamedTuple):
+    """Subpaths along waypoints.
+
+    Attributes:
+        segments: that meet within `TOLERANCE`.
+        ways: length of path (m) at which each waypoint is passed: of a rounded corner its middle. A closed
+            path ends with its first waypoint again. Empty for a spline.
+    """
+
+    segments: list[Segment]
+    ways: list[float]
+
+
 def smooth(points: Sequence[Point], smoothing: Smoothing, closed: bool = False) -> list[Segment]:
-    """Return the subpaths along waypoints.
+    """Return the subpaths along waypoints: the segments of `smoothed`."""
+    return smoothed(points, smoothing, closed).segments
+
+
+def smoothed(points: Sequence[Point], smoothing: Smoothing, closed: bool = False) -> Smoothed:
+    """Return the subpaths along waypoints, and the lengths of path at which these are passed.
 
     Args:
         points: waypoints (north, east), m.
@@ -57,8 +76,8 @@ def smooth(points: Sequence[Point], smoothing: Smoothing, closed: bool = False) 
         closed: whether to return from the last waypoint to the first, rounding every corner.
 
     Returns:
-        Segments that meet within `TOLERANCE`. Closed and rounded, they begin where the first waypoint's
-        corner has been rounded (dubins and linear: at the first waypoint).
+        The segments. Closed and rounded, they begin where the first waypoint's corner has been rounded
+        (dubins and linear: at the first waypoint); that place counts as the waypoint's.
 
     Raises:
         ConfigurationError: too few points, two in one place, a corner that does not fit (which waypoint,
@@ -75,12 +94,13 @@ def smooth(points: Sequence[Point], smoothing: Smoothing, closed: bool = False) 
         )
     legs = [_leg(way, i) for i in range(len(way) if closed else len(way) - 1)]
     if smoothing.kind == "spline":
-        courses = _end_courses(smoothing)
-        return [Spline(way, *courses)]
+        courses = end_courses(smoothing)
+        return Smoothed([Spline(way, *courses)], [])
     if smoothing.kind == "dubins":
         return _dubins(way, legs, smoothing, closed)
     if smoothing.kind == "linear":
-        return [Line(*way[i], length, chi) for i, (length, chi) in enumerate(legs)]
+        lines: list[Segment] = [Line(*way[i], length, chi) for i, (length, chi) in enumerate(legs)]
+        return Smoothed(lines, _added(length for length, _ in legs))
     return _rounded(way, legs, smoothing, closed)
 
 
@@ -97,7 +117,7 @@ def _check_keys(smoothing: Smoothing, closed: bool) -> None:
         raise ConfigurationError("smoothing", "a radius or distance", f"neither for {kind}")
     if kind == "spline" and closed:
         raise ConfigurationError("closed", "true", "false for spline, which has two ends")
-    if any(course is not None for course in _end_courses(smoothing)):
+    if any(course is not None for course in end_courses(smoothing)):
         if kind not in ("dubins", "spline"):
             found = "start_course_deg or end_course_deg"
             raise ConfigurationError("smoothing", found, "neither, they are for dubins and spline")
@@ -107,7 +127,8 @@ def _check_keys(smoothing: Smoothing, closed: bool) -> None:
             )
 
 
-def _end_courses(smoothing: Smoothing) -> tuple[float | None, float | None]:
+def end_courses(smoothing: Smoothing) -> tuple[float | None, float | None]:
+    """Return the courses at the first and the last waypoint, rad; None where none is given."""
     degrees = (smoothing.start_course_deg, smoothing.end_course_deg)
     first, last = (None if course is None else math.radians(course) for course in degrees)
     return first, last
@@ -134,9 +155,14 @@ def _corner(way: list[Point], legs: list[tuple[float, float]], i: int) -> Waypoi
     return WaypointCorner(*way[i], chi_in, chi_out, turn)
 
 
+def _added(lengths: Iterable[float]) -> list[float]:
+    """Return 0 and the sums of the first lengths, the first two and so on."""
+    return list(itertools.accumulate(lengths, initial=0.0))
+
+
 def _rounded(
     way: list[Point], legs: list[tuple[float, float]], smoothing: Smoothing, closed: bool
-) -> list[Segment]:
+) -> Smoothed:
     shape, n = SHAPES[smoothing.kind], len(way)
     corners = {i: _corner(way, legs, i) for i in (range(n) if closed else range(1, n - 1))}
     distance = [0.0] * n
@@ -149,19 +175,25 @@ def _rounded(
     for i, (length, _) in enumerate(legs):
         _check_room(i, (i + 1) % n, length, distance, smoothing)
     segments: list[Segment] = []
-    opening = 0
+    ways = [0.0]
+    opening, done = 0, 0.0
     for i, (length, chi) in enumerate(legs):
         corner = corners.get(i)
-        if corner is not None:
-            segments += shape.build(corner, distance[i])
-        if i == 0:
+        curve = shape.build(corner, distance[i]) if corner is not None else []
+        segments += curve
+        if i == 0:  # a closed path begins behind its first waypoint's corner, not inside it
             opening = len(segments)
+        else:
+            turning = math.fsum(part.length for part in curve)
+            ways.append(done + 0.5 * turning)
+            done += turning
         straight = length - distance[i] - distance[(i + 1) % n]
         if straight > TOLERANCE:
             x, y = way[i][0] + distance[i] * math.cos(chi), way[i][1] + distance[i] * math.sin(chi)
             segments.append(Line(x, y, straight, chi))
-    # A closed path begins behind its first waypoint's corner, not inside it.
-    return segments[opening:] + segments[:opening]
+            done += straight
+    ways.append(done + math.fsum(part.length for part in segments[:opening]))
+    return Smoothed(segments[opening:] + segments[:opening], ways)
 
 
 def _check_room(i: int, j: int, length: float, distance: list[float], smoothing: Smoothing) -> None:
@@ -185,7 +217,7 @@ def _check_room(i: int, j: int, length: float, distance: list[float], smoothing:
 
 def _dubins(
     way: list[Point], legs: list[tuple[float, float]], smoothing: Smoothing, closed: bool
-) -> list[Segment]:
+) -> Smoothed:
     """Return Dubins paths through all waypoints, with the mean of both legs' courses at each."""
     radius = smoothing.radius or math.nan
     courses = []
@@ -195,11 +227,10 @@ def _dubins(
             courses.append(chi_in + 0.5 * wrap(legs[i][1] - chi_in))
         else:
             courses.append(legs[0][1] if i == 0 else legs[-1][1])
-    for i, course in zip((0, -1), _end_courses(smoothing), strict=True):
+    for i, course in zip((0, -1), end_courses(smoothing), strict=True):
         if course is not None:
             courses[i] = course
     poses = [PlanarPose(x, y, chi) for (x, y), chi in zip(way, courses, strict=True)]
-    segments: list[Segment] = []
-    for i in range(len(legs)):
-        segments += dubins.connect(poses[i], poses[(i + 1) % len(poses)], radius)
-    return segments
+    connections = [dubins.connect(poses[i], poses[(i + 1) % len(poses)], radius) for i in range(len(legs))]
+    lengths = (math.fsum(part.length for part in leg) for leg in connections)
+    return Smoothed([part for leg in connections for part in leg], _added(lengths))

@@ -12,7 +12,7 @@ from auv_path_following.curves import dubins
 from auv_path_following.curves.dubins import PlanarPose
 from auv_path_following.curves.kinds.line import Line
 from auv_path_following.curves.segment import Segment
-from auv_path_following.missions.routes.smoothing import Smoothing, smooth
+from auv_path_following.missions.routes.smoothing import Smoothed, Smoothing, smooth, smoothed
 
 Point = tuple[float, float]
 Leg = tuple[Point, Point]
@@ -90,7 +90,12 @@ def _extents(
 
 
 def path(way: Sequence[Leg], turns: Smoothing) -> list[Segment]:
-    """Return the legs, joined by turns.
+    """Return the legs, joined by turns: the segments of `joined`."""
+    return joined(way, turns).segments
+
+
+def joined(way: Sequence[Leg], turns: Smoothing) -> Smoothed:
+    """Return the legs, joined by turns, and the lengths of path at which each leg begins and ends.
 
     With dubins every leg is flown to its end, straight, and the turn lies outside; the other kinds round
     the corners of the way from leg to leg.
@@ -103,18 +108,24 @@ def path(way: Sequence[Leg], turns: Smoothing) -> list[Segment]:
         ConfigurationError: a turn does not fit, or keys that do not belong to a survey.
     """
     if turns.kind != "dubins":
-        return smooth([point for leg in way for point in leg], turns)
+        return smoothed([point for leg in way for point in leg], turns)
     smooth(way[0], turns)  # for the check of its keys
     if turns.start_course_deg is not None or turns.end_course_deg is not None:
         found = "start_course_deg or end_course_deg"
         raise ConfigurationError("smoothing", found, "neither: with dubins the legs' courses count")
     radius = turns.radius or math.nan
     segments: list[Segment] = []
+    ways: list[float] = []
+    done = 0.0
     before: PlanarPose | None = None
     for (x0, y0), (x1, y1) in way:
         length, chi = math.hypot(x1 - x0, y1 - y0), math.atan2(y1 - y0, x1 - x0)
         if before is not None:
-            segments += dubins.connect(before, PlanarPose(x0, y0, chi), radius)
+            turn = dubins.connect(before, PlanarPose(x0, y0, chi), radius)
+            segments += turn
+            done += math.fsum(part.length for part in turn)
         segments.append(Line(x0, y0, length, chi))
+        ways += [done, done + length]
+        done += length
         before = PlanarPose(x1, y1, chi)
-    return segments
+    return Smoothed(segments, ways)

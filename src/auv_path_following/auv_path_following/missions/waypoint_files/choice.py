@@ -16,6 +16,7 @@ from auv_path_following.missions.waypoint_files.content import (
     listed,
     shown,
 )
+from auv_path_following.missions.waypoint_files.file_depths import depths_of
 
 #: What the shape is for: points to pass, the polygon of a survey, or the area that must not be left.
 Use = Literal["waypoints", "survey", "geofence"]
@@ -40,14 +41,16 @@ class Chosen(NamedTuple):
         points: as in `FileShape`.
         outline: whether they are the outline of a polygon, which is closed.
         notices: parts that are not taken, one line each.
+        depths: of the points, m, positive down; None for a planar path.
     """
 
     points: list[Point]
     outline: bool
     notices: list[str]
+    depths: list[float] | None = None
 
 
-def choose(content: Content, use: Use, feature: str | None = None) -> Chosen:
+def choose(content: Content, use: Use, feature: str | None = None, take_depths: bool = True) -> Chosen:
     """Take the one line or polygon for this use, else all points in their order.
 
     Waypoints prefer a line to a polygon, surveys and geofences a polygon to a line.
@@ -56,6 +59,7 @@ def choose(content: Content, use: Use, feature: str | None = None) -> Chosen:
         content: of the file.
         use: purpose of the shape.
         feature: name of the shape to take; None where the file holds only one.
+        take_depths: whether waypoints have the depths of the file.
 
     Raises:
         ConfigurationError: nothing fits, several do, or what fits must not be taken as it stands.
@@ -79,10 +83,13 @@ def choose(content: Content, use: Use, feature: str | None = None) -> Chosen:
     for k in chosen:
         _refuse(pool[k], use)
     points = [point for k in chosen for point in pool[k].points]
-    notices = [*_about([pool[k] for k in chosen], use), *content.notices]
+    taken = [pool[k] for k in chosen]
+    ignored = "" if take_depths else "the mission file ignores them (depths: ignore)"
+    depths, left_out = depths_of(taken, ignored if use == "waypoints" else "an area has no depth")
+    notices = [*_about(taken, use), *([left_out] if left_out else []), *content.notices]
     if rest := [k for k in range(len(pool)) if k not in set(chosen)]:
         notices.append(_left_out([pool[k] for k in rest], [named[k] for k in rest]))
-    return Chosen(points, kind == "polygon", notices)
+    return Chosen(points, kind == "polygon", notices, depths)
 
 
 def _pool(content: Content, use: Use) -> list[FileShape]:
@@ -118,11 +125,6 @@ def _refuse(shape: FileShape, use: Use) -> None:
 
 def _about(chosen: list[FileShape], use: Use) -> list[str]:
     found = [notice for shape in chosen for notice in shape.notices]
-    heights = [height for shape in chosen if shape.heights for height in shape.heights]
-    if heights:
-        low, high = min(heights), max(heights)
-        span = f"{low:g} m" if low == high else f"{low:g} to {high:g} m"
-        found.append(f"altitudes ({span}) not taken: paths are planar")
     if use == "waypoints" and any(shape.holes for shape in chosen):
         found.append("the polygon's holes are not taken: only its outline is followed")
     if use != "waypoints" and chosen[0].kind == "line":

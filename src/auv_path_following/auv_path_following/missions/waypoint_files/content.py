@@ -32,7 +32,9 @@ class FileShape:
         name: of the feature it belongs to; empty without one.
         points: (latitude, longitude), deg, or (north, east), m; a polygon's outer ring, not closed.
         holes: inner rings of a polygon.
-        heights: smallest and largest height, depth or altitude, m, where any is not 0.
+        heights: of the points, m; NaN where a point has none; empty where none has one.
+        is_down: whether heights are depths, positive down; else they are altitudes.
+        reference: of altitudes that are not above the sea, for messages (`in altitudeMode ...`); else empty.
         notices: what is not taken with this shape, one line each.
         refusal: why the shape must not be flown; None if it can be.
     """
@@ -41,7 +43,9 @@ class FileShape:
     name: str
     points: tuple[Point, ...]
     holes: int = 0
-    heights: tuple[float, float] | None = None
+    heights: tuple[float, ...] = ()
+    is_down: bool = False
+    reference: str = ""
     notices: tuple[str, ...] = ()
     refusal: ConfigurationError | None = None
 
@@ -94,12 +98,22 @@ def bounded(parts: S) -> S:
     return parts
 
 
-def shape(kind: Kind, name: str, places: Sequence[Sequence[float]], holes: int = 0) -> FileShape:
-    """Make a shape from (latitude, longitude[, height]); leave out a ring's repeated end."""
+def shape(
+    kind: Kind, name: str, places: Sequence[Sequence[float]], holes: int = 0, reference: str = ""
+) -> FileShape:
+    """Make a shape from (latitude, longitude[, altitude]); leave out a ring's repeated end."""
     points = [(place[0], place[1]) for place in places]
+    heights = heights_of(place[2] if len(place) > 2 else math.nan for place in places)
     if kind == "polygon" and len(points) > 1 and points[0] == points[-1]:
         points.pop()
-    return FileShape(kind, name, tuple(points), holes, extent(place[2] for place in places if len(place) > 2))
+        heights = heights[:-1]
+    return FileShape(kind, name, tuple(points), holes, heights, reference=reference)
+
+
+def heights_of(values: Iterable[float]) -> tuple[float, ...]:
+    """Return the heights of a shape's points, m; empty where none has one."""
+    heights = tuple(values)
+    return heights if any(map(math.isfinite, heights)) else ()
 
 
 def extent(heights: Iterable[float]) -> tuple[float, float] | None:

@@ -1,8 +1,9 @@
-"""CSV: one point a row, under a header that names the columns."""
+"""CSV: one point a row, under a header that names the columns; a depth is positive down."""
 
 from __future__ import annotations
 
 import csv
+import math
 import re
 from collections.abc import Sequence
 
@@ -10,9 +11,9 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.missions.waypoint_files.content import (
     Content,
     FileShape,
-    Point,
     bounded,
     decimal,
+    heights_of,
     listed,
 )
 
@@ -23,12 +24,13 @@ _NAMES = {
     **dict.fromkeys(("longitude", "lon", "lng", "long"), "longitude"),
     "north": "north",
     "east": "east",
+    "depth": "depth",
 }
 _PAIRS = ((True, "latitude", "longitude"), (False, "north", "east"))
 #: Units that a column's name may carry: `latitude_deg`, `Latitude (DD)`, `north [m]`.
 _UNITS = {
     **dict.fromkeys(("latitude", "longitude"), ("deg", "degree", "degrees", "°", "dd", "decimal", "wgs84")),
-    **dict.fromkeys(("north", "east"), ("m", "metre", "metres", "meter", "meters")),
+    **dict.fromkeys(("north", "east", "depth"), ("m", "metre", "metres", "meter", "meters")),
 }
 _MOST_COLUMNS = 1000
 _WORD = re.compile(r"[^\W_]+|°")
@@ -51,10 +53,14 @@ def read(data: bytes) -> Content:
         head, *rows = csv.reader(lines, delimiter=delimiter, skipinitialspace=True)
     except csv.Error as error:
         raise ConfigurationError("", f"text that is not CSV ({error})", _HEADER) from None
-    in_degrees, first, second = _columns(head, lines[0])
-    points = [_point(row, (first, second), len(head), number) for number, row in enumerate(rows, start=1)]
-    content = Content([FileShape("point", "", (point,)) for point in points], in_degrees)
-    rest = [name.strip() for k, name in enumerate(head) if k not in (first, second) and name.strip()]
+    in_degrees, *columns = _columns(head, lines[0])
+    content = Content(in_degrees=in_degrees)
+    for number, row in enumerate(rows, start=1):
+        first, second, *depth = _numbers(row, columns, len(head), number)
+        content.shapes.append(
+            FileShape("point", "", ((first, second),), heights=heights_of(depth), is_down=True)
+        )
+    rest = [name.strip() for k, name in enumerate(head) if k not in columns and name.strip()]
     if rest:
         content.notices.append(f"columns not taken: {listed(map(repr, rest))}")
     return content
@@ -70,8 +76,8 @@ def _text(data: bytes) -> str:
         return data.decode("cp1252", "replace")
 
 
-def _columns(head: Sequence[str], line: str) -> tuple[bool, int, int]:
-    """Return whether points are in degrees, and the two columns."""
+def _columns(head: Sequence[str], line: str) -> tuple[bool, *tuple[int, ...]]:
+    """Return whether points are in degrees, the two columns, and that of the depth if there is one."""
     at: dict[str, list[int]] = {}
     for k, name in enumerate(head):
         if meaning := _meaning(name):
@@ -83,11 +89,11 @@ def _columns(head: Sequence[str], line: str) -> tuple[bool, int, int]:
     if not pairs:
         raise ConfigurationError("", found, _HEADER)
     (in_degrees, first, second) = pairs[0]
-    for meaning in (first, second):
-        if len(at[meaning]) > 1:
+    for meaning in (first, second, "depth"):
+        if len(at.get(meaning, ())) > 1:
             expected = f"one: delete the others of {listed(repr(head[k].strip()) for k in at[meaning])}"
             raise ConfigurationError("", f"{found} with {len(at[meaning])} columns of {meaning}", expected)
-    return in_degrees, at[first][0], at[second][0]
+    return in_degrees, at[first][0], at[second][0], *at.get("depth", ())
 
 
 def _meaning(name: str) -> str | None:
@@ -97,17 +103,20 @@ def _meaning(name: str) -> str | None:
     return meaning if meaning and all(unit in _UNITS[meaning] for unit in units) else None
 
 
-def _point(row: Sequence[str], columns: tuple[int, int], width: int, number: int) -> Point:
+def _numbers(row: Sequence[str], columns: Sequence[int], width: int, number: int) -> list[float]:
+    """Return the numbers of a row; NaN for a depth that is left empty."""
     if any(cell.strip() for cell in row[width:]):
         found = f"{len(row)} values under {width} headings"
         expected = "as many (decimal commas need semicolons between the columns)"
         raise ConfigurationError(f"point {number}", found, expected)
     try:
-        first, second = (_number(row[column]) for column in columns)
+        place = [_number(row[column]) for column in columns[:2]]
+        depths = [row[column].strip() if column < len(row) else "" for column in columns[2:]]
+        return place + [_number(depth) if depth else math.nan for depth in depths]
     except (IndexError, ValueError):
         found = repr(", ".join(row)[:60])
-        raise ConfigurationError(f"point {number}", found, "two numbers in decimal notation") from None
-    return first, second
+        expected = f"{'two' if len(columns) == 2 else 'three'} numbers in decimal notation"
+        raise ConfigurationError(f"point {number}", found, expected) from None
 
 
 def _number(cell: str) -> float:

@@ -26,6 +26,8 @@ from auv_path_following.missions.waypoint_files.xml_tree import local, parse, te
 _NOT_TAKEN = {"Model": "3D model", "GroundOverlay": "image overlay", "NetworkLink": "network link"}
 #: A file may also be a fragment.
 _ROOTS = ("kml", "Document", "Folder", "Placemark")
+#: Values of altitudeMode in which an altitude below 0 is a depth; files without one are taken as meant so.
+_ABOVE_THE_SEA = ("", "absolute")
 #: Compression methods of KMZ.
 _METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 
@@ -80,19 +82,20 @@ def read_zipped(data: bytes) -> Content:
 
 
 def _shapes(kind: str, name: str, element: Element) -> Iterator[FileShape]:
+    mode = text_of(element, "altitudeMode")
+    reference = "" if mode in _ABOVE_THE_SEA else f"in altitudeMode {shown(mode)}"
     try:
         if kind in ("LineString", "LinearRing"):
-            yield shape("line", name, _places(element))
+            yield shape("line", name, _places(element), 0, reference)
         elif kind == "Track":
-            yield shape(
-                "line", name, [_place(at.text or "", None) for at in bounded(element.findall("{*}coord"))]
-            )
+            places = [_place(at.text or "", None) for at in bounded(element.findall("{*}coord"))]
+            yield shape("line", name, places, 0, reference)
         elif kind == "Point":
-            yield from (shape("point", name, [place]) for place in _places(element))
+            yield from (shape("point", name, [place], 0, reference) for place in _places(element))
         elif kind == "Polygon":
             holes = len(element.findall("{*}innerBoundaryIs/{*}LinearRing"))
             for outer in element.findall("{*}outerBoundaryIs/{*}LinearRing"):
-                yield shape("polygon", name, _places(outer), holes)
+                yield shape("polygon", name, _places(outer), holes, reference)
     except (IndexError, ValueError) as error:
         where = f"placemark {shown(name)}" if name else ""
         found = f"coordinates that cannot be read ({error})"

@@ -12,13 +12,13 @@ from auv_path_following.missions.waypoint_files.content import (
     Content,
     FileShape,
     Point,
-    extent,
+    heights_of,
     listed,
     number,
     shape,
 )
 
-#: MAV_FRAMEs of positions in degrees; they differ in the reference of a height.
+#: MAV_FRAMEs of positions in degrees; they differ in the reference of a height: 10, 11 are over the terrain.
 _GLOBAL_FRAMES = (0, 3, 5, 6, 10, 11)
 #: Commands up to this one move the vehicle; of the later ones only `_MOVING` do.
 _LAST_NAVIGATION = 95
@@ -144,14 +144,16 @@ def follow(items: Iterable[Item], content: Content) -> None:
     if not walk.points and refusal is None:
         content.notices += notices
         return
-    heights = extent(walk.heights)
-    content.add([FileShape("line", "mission", tuple(walk.points), 0, heights, tuple(notices), refusal)])
+    points, heights = tuple(walk.points), heights_of(walk.heights)
+    made = FileShape("line", "mission", points, 0, heights, False, walk.reference, tuple(notices), refusal)
+    content.add([made])
 
 
 @dataclass
 class _Walk:
     points: list[Point] = field(default_factory=list)
     heights: list[float] = field(default_factory=list)
+    reference: str = ""
     corners: list[list[float]] = field(default_factory=list)
     speeds: list[tuple[int, float, str]] = field(default_factory=list)
     left_out: dict[str, list[str]] = field(default_factory=dict)
@@ -191,6 +193,8 @@ class _Walk:
         latitude, longitude, height = _position(item)
         self.points.append((latitude, longitude))
         self.heights.append(height)
+        if item.frame in (10, 11) and height < 0.0:
+            self.reference = self.reference or f"over the terrain (item {item.label})"
         if item.command == _WAYPOINT and item.value(0) > 0.0:
             self._leave_out(f"hold of {item.value(0):g} s", item)
         if _PASSED[item.command]:
@@ -242,4 +246,5 @@ def _position(item: Item) -> list[float]:
     if latitude == 0.0 and longitude == 0.0:
         found = "latitude 0, longitude 0, which autopilots read as `where the vehicle is`"
         raise ConfigurationError(f"item {item.label}", found, "a position, or no such item")
-    return [latitude, longitude, item.value(6) if len(item.params) > 6 else 0.0]
+    has_height = len(item.params) > 6 and item.params[6] is not None
+    return [latitude, longitude, item.value(6) if has_height else math.nan]

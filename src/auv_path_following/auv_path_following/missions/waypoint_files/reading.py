@@ -10,7 +10,7 @@ from pathlib import Path
 from auv_msgs_py.settings import user_files
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.missions.waypoint_files import csv_table, geojson, gpx, kml, qgc_plan, wpl
-from auv_path_following.missions.waypoint_files.content import Content, FileShape, Point, extent, shown
+from auv_path_following.missions.waypoint_files.content import Content, FileShape, Point, heights_of, shown
 
 _READERS: dict[str, Callable[[bytes], Content]] = {
     ".geojson": geojson.read,
@@ -59,12 +59,16 @@ def _joined(shapes: Iterable[FileShape]) -> list[FileShape]:
         last = joined[-1] if joined else shape
         lines = joined and last.kind == shape.kind == "line" and last.name == shape.name
         if lines and last.points and shape.points and _meet(last.points[-1], shape.points[0]):
-            heights = extent([*(last.heights or ()), *(shape.heights or ())])
+            heights = heights_of([*_heights(last), *_heights(shape)[1:]])
             points = last.points + shape.points[1:]
             joined[-1] = dataclasses.replace(last, points=points, heights=heights)
         else:
             joined.append(shape)
     return joined
+
+
+def _heights(shape: FileShape) -> tuple[float, ...]:
+    return shape.heights or (math.nan,) * len(shape.points)
 
 
 def _meet(end: Point, start: Point) -> bool:
