@@ -248,10 +248,14 @@ def test_the_study_of_the_page_flies(tmp_path: Path) -> None:
     assert engine.fly(scenarios).finite.all()
 
 
-def test_the_sea_of_the_page_is_a_sea(tmp_path: Path) -> None:
-    (text,) = listings("docs/sea.md", "yaml")
-    (tmp_path / "late.yaml").write_text(text, encoding="utf-8")
-    assert sea.load(str(tmp_path / "late.yaml")).rudder.dead_time == 0.2
+def test_the_seas_of_the_page_are_seas(tmp_path: Path) -> None:
+    seas = []
+    for text in listings("docs/sea.md", "yaml"):
+        (tmp_path / "mine.yaml").write_text(text, encoding="utf-8")
+        seas.append(sea.load(str(tmp_path / "mine.yaml")))
+    late, turning = seas
+    assert late.rudder.dead_time == 0.2
+    assert turning.current.schedule[1] == (500.0, -0.43, 0.25, 0.1)
 
 
 def test_the_first_mission_of_the_page_is_one(tmp_path: Path) -> None:

@@ -75,3 +75,11 @@ def test_the_tide_runs_round_its_ellipse(minor: float, turns: float) -> None:
 def test_parts_add_up() -> None:
     both = Flow(mean=(0.1, 0.0), jet=Jet(speed=0.2, width=10.0))
     assert tuple(both.at(0.0, 0.0)) == pytest.approx((0.3, 0.0))
+
+
+def test_a_schedule_is_linear_in_time_and_held_before_and_after() -> None:
+    water = Flow(mean=(0.1, 0.0), schedule=((10.0, 0.0, 0.2, 0.0), (20.0, 0.4, 0.2, 0.1)))
+    seen = {time: tuple(water.update(5.0)) for time in (5.0, 10.0, 15.0, 20.0, 25.0)}
+    assert seen[5.0] == seen[10.0] == pytest.approx((0.1, 0.2))
+    assert seen[15.0] == pytest.approx((0.3, 0.2))
+    assert seen[20.0] == seen[25.0] == pytest.approx((0.5, 0.2))

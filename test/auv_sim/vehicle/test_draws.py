@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from auv_sim.vehicle.draws import Draws, draw, slot
+from auv_sim.vehicle.draws import Draws, draw, looked_up, slot
 
 SEED = (7, 1)
 
@@ -67,3 +67,14 @@ def test_the_entries_of_rings_do_not_overlap() -> None:
     places = [slot(ring, k) + i for ring in rings for k in range(ring.size) for i in range(ring.width)]
     assert sorted(places) == list(range(10)) == list(range(len(draws.memory().kept)))
     assert slot(rings[1], 7) == slot(rings[1], 1)
+
+
+@pytest.mark.parametrize("arrays", [False, True])
+def test_a_table_is_linear_between_its_rows_and_held_outside(arrays: bool) -> None:
+    rows = [(0.0, 1.0, 5.0), (10.0, 2.0, 5.0), (30.0, -2.0, 6.0)]
+    table = Draws(0.1, 1, arrays).lookup(rows)
+    at = np.array([-5.0, 0.0, 4.0, 10.0, 15.0, 29.0, 30.0, 99.0])
+    for column in (1, 2):
+        expected = np.interp(at, [row[0] for row in rows], [row[column] for row in rows])
+        assert [looked_up(table, column, x) for x in at] == pytest.approx(expected.tolist())
+    assert looked_up(Draws(0.1, 1, arrays).lookup([]), 1, 3.0) == 0.0

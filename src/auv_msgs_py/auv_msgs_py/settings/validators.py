@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 from pydantic_core import PydanticCustomError
@@ -39,3 +40,15 @@ def no_boolean(value: Any) -> Any:
     if isinstance(value, bool):
         raise PydanticCustomError("int_type", "a whole number")
     return value
+
+
+def increasing(rows: tuple[tuple[float, ...], ...]) -> tuple[tuple[float, ...], ...]:
+    """Return the rows of a table whose first numbers increase.
+
+    Raises:
+        PydanticCustomError: a first number is not greater than the one before.
+    """
+    for before, after in itertools.pairwise(rows):
+        if not after[0] > before[0]:
+            raise unfit(f"{after[0]:g} after {before[0]:g}", "first numbers of the rows that increase")
+    return rows

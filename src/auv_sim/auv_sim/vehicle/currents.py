@@ -1,15 +1,23 @@
-"""Currents: a mean that varies in time, shear and jet in space, and a tidal ellipse."""
+"""Currents: a mean that varies in time, a schedule, shear and jet in space, and a tidal ellipse."""
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
+
+import pydantic
 
 from auv_msgs_py.settings.schema import Pair, setting, settings
+from auv_msgs_py.settings.validators import increasing
 from auv_msgs_py.values.pure import pure, squared
 from auv_msgs_py.values.types import Current
-from auv_sim.vehicle.draws import Draws, RunMemory, Seed
+from auv_sim.vehicle.draws import Draws, Lookup, RunMemory, Seed, looked_up
 from auv_sim.vehicle.noise import GaussMarkov, gauss_markov, gauss_markov_of
+
+#: Rows of [time, north, east, down].
+Schedule = Annotated[tuple[tuple[float, float, float, float], ...], pydantic.AfterValidator(increasing)]
+#: Rows of two numbers, the first of which increases.
+Profile = Annotated[tuple[Pair, ...], pydantic.AfterValidator(increasing)]
 
 
 @settings
@@ -55,6 +63,16 @@ class Tide:
 
 
 @settings
+class Upwelling:
+    """A vertical current, positive upwards; only a vehicle that dives is in it."""
+
+    mean: float = setting(0.0, "mean speed; negative is downwards", unit="m/s", ge=-1.0, le=1.0)
+    deviation: float = setting(0.0, "standard deviation of its variation", unit="m/s", ge=0.0, le=1.0)
+    time: float = setting(120.0, "time constant of its variation", unit="s", gt=0.0)
+    limit: float = setting(0.3, "largest deviation from the mean", unit="m/s", ge=0.0, le=1.0)
+
+
+@settings
 class CurrentConfig:
     """All parts add up; each is off by default."""
 
@@ -63,6 +81,17 @@ class CurrentConfig:
     shear: Shear = setting(factory=Shear, doc="in space: growing across")
     jet: Jet = setting(factory=Jet, doc="in space: a jet")
     tide: Tide = setting(factory=Tide, doc="in time: a tidal ellipse")
+    schedule: Schedule = setting(
+        (),
+        "in time: rows of time (s) and speeds north, east, down (m/s), linear between and held outside; "
+        "down is for a vehicle that dives",
+    )
+    upwelling: Upwelling = setting(factory=Upwelling, doc="vertical current")
+    over_depth: Profile = setting(
+        (),
+        "for a vehicle that dives: rows of depth (m) and the factor of the sea's horizontal current there, "
+        "linear between and held outside; none: 1 everywhere",
+    )
 
 
 class Heading(NamedTuple):
@@ -112,6 +141,7 @@ class Water(NamedTuple):
     shear: ShearFlow
     jet: JetFlow
     tide: TideFlow
+    schedule: Lookup
 
 
 def water_of(config: CurrentConfig, seed: Seed, draws: Draws) -> tuple[Water, float, float]:
@@ -135,7 +165,8 @@ def water_of(config: CurrentConfig, seed: Seed, draws: Draws) -> tuple[Water, fl
     )
     shear = ShearFlow(s.gradient, s.limit, *s.point, _heading(s.course_deg))
     jet = JetFlow(j.speed, j.width, *j.point, _heading(j.course_deg))
-    return Water(Current(*config.mean), north, east, shear, jet, tide), Vx, Vy
+    schedule = draws.lookup(config.schedule)
+    return Water(Current(*config.mean), north, east, shear, jet, tide, schedule), Vx, Vy
 
 
 def _heading(course_deg: float) -> Heading:
@@ -177,6 +208,9 @@ def flow(config: Water, north: float, east: float, x: float, y: float, time: flo
         major, minor = tide.major * math.cos(turn), tide.minor * math.sin(turn)
         Vx, Vy = Vx + major * tide.course.cos, Vy + major * tide.course.sin
         Vx, Vy = Vx + minor * tide.across.cos, Vy + minor * tide.across.sin
+    if config.schedule.rows > 0:
+        Vx += looked_up(config.schedule, 1, time)
+        Vy += looked_up(config.schedule, 2, time)
     return Current(Vx, Vy)
 
 

@@ -58,6 +58,37 @@ class Ring(NamedTuple):
     width: int
 
 
+class Lookup(NamedTuple):
+    """A table that is linear between its rows and constant before the first and after the last.
+
+    Attributes:
+        rows: how many; 0 for an empty table.
+        width: numbers in each row: the argument, which increases, and the values.
+        numbers: one row after the other.
+    """
+
+    rows: int
+    width: int
+    numbers: Any
+
+
+@pure
+def looked_up(table: Lookup, column: int, at: float) -> float:
+    """Return the value of a column for an argument; 0 from an empty table."""
+    rows, width, numbers = table
+    if rows == 0:
+        return 0.0
+    k = 0
+    while k < rows and numbers[k * width] <= at:
+        k += 1
+    if k == 0 or k == rows:
+        return numbers[max(k - 1, 0) * width + column]  # type: ignore[no-any-return]
+    before, after = (k - 1) * width, k * width
+    share = (at - numbers[before]) / (numbers[after] - numbers[before])
+    first, second = numbers[before + column], numbers[after + column]
+    return first + share * (second - first)  # type: ignore[no-any-return]
+
+
 @pure
 def draw(memory: RunMemory, row: DrawnRow) -> float:
     """Return the next random number of a row.
@@ -133,6 +164,14 @@ class Draws:
     def table(self, size: int) -> Any:
         """Return a separate table of zeros."""
         return np.zeros(size) if self._arrays else [0.0] * size
+
+    def lookup(self, rows: Sequence[Sequence[float]]) -> Lookup:
+        """Return a table for `looked_up`; all rows are equally long."""
+        width = len(rows[0]) if rows else 1
+        numbers = self.table(len(rows) * width)
+        for k, value in enumerate(number for row in rows for number in row):
+            numbers[k] = value
+        return Lookup(len(rows), width, numbers)
 
     def memory(self) -> RunMemory:
         """Draw all numbers; return the memory of the run. Call it once, after the layout is complete."""

@@ -45,6 +45,15 @@ class NavigatorConfig:
     blend: float = setting(
         5.0, "time over which a correction is spread, so that the pose never jumps", unit="s", ge=0.0
     )
+    surface_fix: float = setting(
+        1.0, "standard deviation of a satellite fix, north and east", unit="m", gt=0.0
+    )
+    depth_time: float = setting(
+        0.0,
+        "time constant with which depth follows the pressure; in between it follows the velocity down",
+        unit="s",
+        ge=0.0,
+    )
 
 
 class Navigator(NamedTuple):
@@ -130,7 +139,7 @@ def navigate(
     for k in range(measured.first, measured.after):
         at, kept = slot(config.fixes, k), now.memory.kept
         age = config.latency + max(now.time - kept[at], 0.0)
-        state = _weigh(config, state, complex(kept[at + 1], kept[at + 2]), age, now)
+        state = weigh(config, state, complex(kept[at + 1], kept[at + 2]), config.assumed.fix, age, now)
     shown = state.z + state.shown
     return state, Navigation(shown.real, shown.imag, measured.psi, measured.r)
 
@@ -189,12 +198,22 @@ def _carry_on(
 
 
 @pure
-def _weigh(config: Navigator, state: NavigatorState, fix: complex, age: float, now: Now) -> NavigatorState:
-    """Correct by a fix (north + i east, m) of `age` seconds ago, or refuse it."""
+def weigh(
+    config: Navigator, state: NavigatorState, fix: complex, deviation: float, age: float, now: Now
+) -> NavigatorState:
+    """Correct by a fix, or refuse it.
+
+    Args:
+        config, state: of the navigator.
+        fix: north + i east, m.
+        deviation: its standard deviation, m.
+        age: s.
+        now: of the run.
+    """
     c = config.assumed
     z, shown, P_z, P_ze, bottom, P_bottom, water, P_water, on_water, velocity, way, in_a_row, refused = state
     innovation = fix - (z - _way_since(config.track, way, age, now))
-    S = P_z + c.fix * c.fix
+    S = P_z + deviation * deviation
     if squared(modulus(innovation)) > c.gate * c.gate * S:
         refused, in_a_row = refused + 1, in_a_row + 1
         if in_a_row >= c.patience:

@@ -27,6 +27,7 @@ from auv_sim.vehicle.noise import (
 class FixConfig:
     """Acoustic position fixes from outside (USBL), each with its time of measurement."""
 
+    fitted: bool = setting(True, "whether there are such fixes")
     noise: NoiseConfig = setting(factory=NoiseConfig, doc="errors north and east, m")
     rate: float = setting(0.0, "fixes a second; 0: at every step", unit="1/s", ge=0.0)
     latency: float = setting(0.0, "from the measurement to its arrival on board", unit="s", ge=0.0, le=30.0)
@@ -82,7 +83,8 @@ def fixes_of(config: FixConfig, seed: Seed, draws: Draws) -> tuple[Fixes, FixesS
     ring = draws.ring(math.ceil(config.latency / max(period, draws.step)) + 3, 3)
     echo = config.outliers, config.outlier_nearest, config.outlier_farthest
     fixes = Fixes(x, y, gaps, period, config.latency, *echo, echoes, ring)
-    return fixes, FixesState(first, second, False, left, 0.0, 0.0, 0, 0)
+    until = 0.0 if config.fitted else math.inf
+    return fixes, FixesState(first, second, False, left, until, 0.0, 0, 0)
 
 
 @pure

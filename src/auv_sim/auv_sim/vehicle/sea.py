@@ -7,6 +7,7 @@ from auv_msgs_py.settings.schema import setting, settings
 from auv_path_following import config_files
 from auv_sim.vehicle.actuator import RudderFlaws
 from auv_sim.vehicle.currents import CurrentConfig
+from auv_sim.vehicle.diving.bottom import BottomConfig
 from auv_sim.vehicle.navigator import NavigatorConfig
 from auv_sim.vehicle.noise import NoiseConfig
 from auv_sim.vehicle.sensors import SensorsConfig
@@ -14,11 +15,13 @@ from auv_sim.vehicle.sensors import SensorsConfig
 
 @settings
 class Sea:
-    """Water, rudder, propeller, instruments and navigator; keys left out are ideal."""
+    """Water, bottom, fins, propeller, instruments and navigator; keys left out are ideal."""
 
     name: str = setting(doc="display name")
     current: CurrentConfig = setting(factory=CurrentConfig, doc="the sea's own current")
-    rudder: RudderFlaws = setting(factory=RudderFlaws, doc="imperfections of the servo")
+    rudder: RudderFlaws = setting(factory=RudderFlaws, doc="imperfections of the rudder's servo")
+    sternplanes: RudderFlaws = setting(factory=RudderFlaws, doc="imperfections of the stern planes' servo")
+    bottom: BottomConfig = setting(factory=BottomConfig, doc="the bottom below a vehicle that dives")
     thrust: NoiseConfig = setting(factory=NoiseConfig, doc="errors of the thrust, as a share of it")
     sensors: SensorsConfig = setting(factory=SensorsConfig, doc="instruments")
     navigator: NavigatorConfig = setting(factory=NavigatorConfig, doc="its assumptions about the instruments")

@@ -1,14 +1,23 @@
-"""The simulated vehicle's instruments: compass, gyro, two velocity logs, acoustic position fixes."""
+"""The instruments: their settings, and those of a vehicle in the plane.
+
+Compass, gyro, two velocity logs, acoustic position fixes.
+"""
 
 from __future__ import annotations
 
 import math
 from typing import NamedTuple
 
+import pydantic
+
 from auv_msgs_py.settings.schema import setting, settings
+from auv_msgs_py.settings.validators import unfit
 from auv_msgs_py.values.angles import wrap
 from auv_msgs_py.values.pure import pure
 from auv_msgs_py.values.types import WaterVelocity
+from auv_sim.vehicle.diving.altimeter import AltimeterConfig
+from auv_sim.vehicle.diving.depth_sensor import DepthConfig
+from auv_sim.vehicle.diving.surface_fixes import SurfaceFixConfig
 from auv_sim.vehicle.draws import Draws, Now, Seed, slot
 from auv_sim.vehicle.noise import Delay, Noise, NoiseConfig, delay_of, delayed, noise, noise_of
 from auv_sim.vehicle.position_fixes import FixConfig, Fixes, FixesState, fixes_of, measure_position
@@ -33,6 +42,23 @@ class SensorsConfig:
     water_track: VelocityConfig = setting(factory=VelocityConfig, doc="velocity through the water")
     bottom_track: VelocityConfig = setting(factory=VelocityConfig, doc="velocity over ground (DVL)")
     position: FixConfig = setting(factory=FixConfig, doc="position fixes (USBL)")
+    roll: AngleConfig = setting(factory=AngleConfig, doc="of the AHRS, for a vehicle that dives")
+    pitch: AngleConfig = setting(factory=AngleConfig, doc="of the AHRS, for a vehicle that dives")
+    pitch_rate: AngleConfig = setting(factory=AngleConfig, doc="gyro, for a vehicle that dives")
+    depth: DepthConfig = setting(factory=DepthConfig, doc="pressure sensor, for a vehicle that dives")
+    altimeter: AltimeterConfig = setting(factory=AltimeterConfig, doc="altimeter, for a vehicle that dives")
+    surface_fix: SurfaceFixConfig = setting(
+        factory=SurfaceFixConfig, doc="satellite fixes, for a vehicle that dives"
+    )
+
+    @pydantic.model_validator(mode="after")
+    def _water_has_no_height(self) -> SensorsConfig:
+        if self.water_track.highest > 0.0:
+            raise unfit(
+                f"highest: {self.water_track.highest:g} under water_track",
+                "it under bottom_track: a log of the water needs no bottom",
+            )
+        return self
 
 
 class Measurements(NamedTuple):
@@ -63,6 +89,12 @@ class Angle(NamedTuple):
 
     noise: Noise
     delay: Delay
+
+
+def angle_of(config: AngleConfig, seed: Seed, draws: Draws) -> tuple[Angle, float]:
+    """Return the configuration of a compass or gyro, and the first value of its drift."""
+    error, drift = noise_of(config.noise_deg, seed, draws)
+    return Angle(error, delay_of(config.latency, draws)), drift
 
 
 @pure
@@ -104,17 +136,13 @@ def sensors_of(config: SensorsConfig, seed: Seed, draws: Draws) -> tuple[Sensors
         seed: of their generators.
         draws: of the run.
     """
-    heading, compass = noise_of(config.heading.noise_deg, (*seed, 0), draws)
-    yaw_rate, gyro = noise_of(config.yaw_rate.noise_deg, (*seed, 1), draws)
+    heading, compass = angle_of(config.heading, (*seed, 0), draws)
+    yaw_rate, gyro = angle_of(config.yaw_rate, (*seed, 1), draws)
     water, water_state = log_of(config.water_track, (*seed, 2), draws)
     bottom, bottom_state = log_of(config.bottom_track, (*seed, 3), draws)
     fixes, fixes_state = fixes_of(config.position, (*seed, 4), draws)
-    angles = (
-        Angle(heading, delay_of(config.heading.latency, draws)),
-        Angle(yaw_rate, delay_of(config.yaw_rate.latency, draws)),
-    )
     state = SensorsState(compass, gyro, water_state, bottom_state, fixes_state)
-    return Sensors(*angles, water, bottom, fixes), state
+    return Sensors(heading, yaw_rate, water, bottom, fixes), state
 
 
 @pure

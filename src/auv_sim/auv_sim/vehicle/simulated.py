@@ -20,6 +20,7 @@ from auv_msgs_py.values.types import (
 )
 from auv_path_following.vehicle import Vehicle
 from auv_sim.vehicle.at_sea import Seen, VehicleAtSea, at_sea_of, measure_at_sea, step_at_sea
+from auv_sim.vehicle.diving.diver_at_sea import SpatialVehicleAtSea, measure_diver_at_sea, step_diver_at_sea
 from auv_sim.vehicle.diving.ideal_diver import SpatialSeen, measure_ideally, step_ideally
 from auv_sim.vehicle.draws import Draws
 from auv_sim.vehicle.hulls.spatial_plant import SpatialPlant
@@ -59,8 +60,22 @@ def step(config: Plant, state: Afloat, inputs: PlantInputs, dt: float) -> tuple[
 #: The first measurement of a vehicle, and one step of it: (configuration, state, `PlantInputs` with the
 #: constant current, dt) -> (state, `Seen`). Without a sea there is no cost for one. For a vehicle that dives,
 #: `SpatialPlantInputs` and `SpatialSeen`.
-vehicle_measure = dispatched({Plant: measure, VehicleAtSea: measure_at_sea, SpatialPlant: measure_ideally})
-vehicle_step = dispatched({Plant: step, VehicleAtSea: step_at_sea, SpatialPlant: step_ideally})
+vehicle_measure = dispatched(
+    {
+        Plant: measure,
+        VehicleAtSea: measure_at_sea,
+        SpatialPlant: measure_ideally,
+        SpatialVehicleAtSea: measure_diver_at_sea,
+    }
+)
+vehicle_step = dispatched(
+    {
+        Plant: step,
+        VehicleAtSea: step_at_sea,
+        SpatialPlant: step_ideally,
+        SpatialVehicleAtSea: step_diver_at_sea,
+    }
+)
 
 Motion = TypeVar("Motion")
 Order = TypeVar("Order")

@@ -36,6 +36,12 @@ class VelocityConfig:
     latency: float = setting(0.0, "age of its measurements", unit="s", ge=0.0, le=5.0)
     dropouts: DropoutConfig = setting(factory=DropoutConfig, doc="gaps")
     lock: bool = setting(True, "whether bottom or water is within its range")
+    highest: float = setting(
+        0.0,
+        "over ground, for a vehicle that dives above a bottom: largest height with lock; 0: no limit",
+        unit="m",
+        ge=0.0,
+    )
 
 
 class Log(NamedTuple):

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import (
     NO_CURRENT,
     NO_SPATIAL_CURRENT,
@@ -16,8 +13,8 @@ from auv_msgs_py.values.types import (
     SpatialWater,
 )
 from auv_path_following.vehicle import Vehicle
+from auv_sim.vehicle.diving.diver_at_sea import spatial_at_sea_of
 from auv_sim.vehicle.diving.ideal_diver import SpatialSeen
-from auv_sim.vehicle.draws import Draws
 from auv_sim.vehicle.hulls.rigid_body import BodyState, quaternion_of, to_body
 from auv_sim.vehicle.hulls.spatial_plant import (
     spatial_ground_velocity,
@@ -30,12 +27,6 @@ from auv_sim.vehicle.sea import Sea
 from auv_sim.vehicle.simulated import Kind, Simulated, SimulatedVehicle
 
 
-def _at_sea_of(vehicle: Vehicle, initial: BodyState, sea: Sea, seed: int, draws: Draws) -> Any:
-    raise ConfigurationError(
-        f"{vehicle.name}: sea", sea.name, "no sea: a vehicle that dives is simulated without"
-    )
-
-
 class SimulatedDiver(Simulated[BodyState, SpatialCommand, SpatialCurrent, SpatialSeen]):
     """A vehicle that dives; arguments as those of `SimulatedVehicle`.
 
@@ -43,7 +34,7 @@ class SimulatedDiver(Simulated[BodyState, SpatialCommand, SpatialCurrent, Spatia
         ConfigurationError: the vehicle file lacks stern planes or coefficients.
     """
 
-    kind = Kind(SPATIAL_STOP, spatial_plant_of, spatial_plant_at, _at_sea_of)
+    kind = Kind(SPATIAL_STOP, spatial_plant_of, spatial_plant_at, spatial_at_sea_of)
 
     def __init__(
         self,
