@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from auv_msgs_py.contract.frames import FrameIds
 from auv_msgs_py.settings.schema import setting, settings
 from auv_path_following.control.autopilot import AutopilotConfig
+from auv_path_following.control.pitch_plane import pitch_gains
 from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.guidance.switching import with_overrides
 from auv_path_following.missions.limits import LimitsConfig
@@ -93,7 +94,10 @@ class GuidanceParameters(NavigationParameters):
 class AutopilotParameters(NavigationParameters):
     """heading_autopilot."""
 
-    autopilot: AutopilotConfig = setting(factory=AutopilotConfig, doc="controller and gains")
+    autopilot: AutopilotConfig = setting(factory=AutopilotConfig, doc="heading: controller and gains")
+    pitch: AutopilotConfig = setting(
+        factory=pitch_gains, doc="pitch of a vehicle with stern planes: controller and gains"
+    )
     reference_timeout: float = setting(
         0.5, "without guidance for this long: rudder and thrust go to 0", unit="s", ge=0.1, le=10.0, live=True
     )

@@ -92,6 +92,7 @@ class Plan:
             guidance=self.parameters[topics.GUIDANCE].guidance,
             observer=self.parameters[topics.OBSERVER].observer,
             autopilot=self.parameters[topics.AUTOPILOT].autopilot,
+            pitch=self.parameters[topics.AUTOPILOT].pitch,
             controller_vehicle=self.controller_model,
         )
 

@@ -12,7 +12,9 @@ from auv_msgs_py.settings import params_file
 from auv_msgs_py.settings.schema import Pair
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
+from auv_path_following.control import autopilot
 from auv_path_following.control.autopilot import HeadingAutopilot
+from auv_path_following.control.pitch_plane import pitch_plane_of
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.launch.options import Options
@@ -43,6 +45,8 @@ def load(options: Options, file: Path, model: Vehicle, notices: list[str]) -> No
         change(settings, name, lockstep=lockstep, recorded=lockstep)
     try:
         HeadingAutopilot(model, settings[topics.AUTOPILOT].autopilot)
+        if model.dives:
+            autopilot.prepare(settings[topics.AUTOPILOT].pitch, pitch_plane_of(model))
     except ConfigurationError as error:
         place = f"{file}: {topics.AUTOPILOT}: {error.where}"
         raise ConfigurationError(place, error.found, error.expected) from None
