@@ -245,3 +245,43 @@ def test_the_stricter_of_parameters_and_mission_counts():
         path_speed_window=50.0,
     )
     assert one.stricter(other) == other.stricter(one) == expected
+
+
+def deep(z=10.0, depth_error=0.0, altitude=math.inf):
+    return LimitsInputs(0.0, 0.0, z, 0.0, depth_error, altitude, 0.0, False, False)
+
+
+@pytest.mark.parametrize(
+    ("limit", "fits", "breaks", "message"),
+    [
+        ({"max_depth": 30.0}, deep(30.0), deep(30.2), "limit max_depth: 30.2 m, at most 30 m"),
+        (
+            {"min_altitude": 3.0},
+            deep(altitude=3.0),
+            deep(altitude=2.8),
+            "limit min_altitude: 2.8 m above the bottom, at least 3 m",
+        ),
+        (
+            {"depth_error": 2.0},
+            deep(depth_error=-2.0),
+            deep(depth_error=-2.5),
+            "limit depth_error: 2.5 m from the requested depth, at most 2 m",
+        ),
+    ],
+    ids=["too deep", "too near the bottom", "too far from the depth"],
+)
+def test_limits_of_depth(limit, fits, breaks, message):
+    config = prepare(LimitsConfig(**limit))
+    state, reason = limits_step(config, LimitsState(), fits, DT)
+    assert reason == NO_REASON
+    _, reason = limits_step(config, state, breaks, DT)
+    assert words(reason) == message
+    _, reason = limits_step(prepare(LimitsConfig()), state, breaks, DT)
+    assert reason == NO_REASON
+
+
+def test_the_error_of_the_depth_counts_once_the_depth_was_reached():
+    config, state = prepare(LimitsConfig(depth_error=2.0)), LimitsState()
+    for error in (9.0, 5.0, 2.5):
+        state, reason = limits_step(config, state, deep(depth_error=error), DT)
+        assert reason == NO_REASON

@@ -10,9 +10,12 @@ from typing import Any, NamedTuple
 from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.values.pure import dispatched, numbers, numbers_of, pure
 from auv_path_following.missions.mission_state import (
+    DEPTH_ERROR,
     DURATION,
     GEOFENCE,
     GROUND_SPEED,
+    MAX_DEPTH,
+    MIN_ALTITUDE,
     NO_REASON,
     PATH_DISTANCE,
     PATH_SPEED,
@@ -135,6 +138,7 @@ class LimitsState(NamedTuple):
         most_to_go: largest distance to go so far, m.
         has_followed: whether the virtual point has advanced as far as `path_speed` says in one window.
         places, to_go: marks of the position, and of the distance to go.
+        has_been_at_depth: whether the vehicle has been within `depth_error`.
     """
 
     elapsed: float = 0.0
@@ -143,6 +147,7 @@ class LimitsState(NamedTuple):
     has_followed: bool = False
     places: Marks = _NO_MARKS
     to_go: Marks = _NO_MARKS
+    has_been_at_depth: bool = False
 
 
 #: The state at the beginning of a mission.
@@ -197,10 +202,10 @@ def limits(
 ) -> tuple[LimitsState, Reason]:
     """Return the reason why a mission must end, or `NO_REASON`. Constant in time."""
     c = config.values
-    elapsed, has_been_near, most_to_go, has_followed, places, along = state
+    elapsed, has_been_near, most_to_go, has_followed, places, along, has_been_at_depth = state
     elapsed += dt
     reason = NO_REASON
-    x, y, _, off_path, _, _, to_go, holds, rests = inputs
+    x, y, z, off_path, depth_error, altitude, to_go, holds, rests = inputs
     if rests:
         places, along = _NO_MARKS, _NO_MARKS
     if c.duration > 0.0 and elapsed > c.duration:
@@ -211,6 +216,12 @@ def limits(
             reason = Reason(PATH_DISTANCE, off_path, 0.0, c.path_distance)
         elif len(config.geofence) > 0 and not inside(config.geofence, x, y):
             reason = Reason(GEOFENCE, x, y, 0.0)
+        elif c.max_depth > 0.0 and z > c.max_depth:
+            reason = Reason(MAX_DEPTH, z, 0.0, c.max_depth)
+        elif c.min_altitude > 0.0 and altitude < c.min_altitude:
+            reason = Reason(MIN_ALTITUDE, altitude, 0.0, c.min_altitude)
+        elif has_been_at_depth and abs(depth_error) > c.depth_error > 0.0:
+            reason = Reason(DEPTH_ERROR, abs(depth_error), 0.0, c.depth_error)
         else:
             places, reason = _over_ground(c, places, x, y, dt)
             if c.path_speed > 0.0 and not rests:
@@ -220,7 +231,9 @@ def limits(
                 advanced = most_to_go - to_go >= c.path_speed * c.path_speed_window
                 has_followed = has_followed or advanced
         has_been_near = has_been_near or (is_near and c.path_distance > 0.0)
-    return LimitsState(elapsed, has_been_near, most_to_go, has_followed, places, along), reason
+        has_been_at_depth = has_been_at_depth or abs(depth_error) <= c.depth_error
+    state = LimitsState(elapsed, has_been_near, most_to_go, has_followed, places, along, has_been_at_depth)
+    return state, reason
 
 
 @pure

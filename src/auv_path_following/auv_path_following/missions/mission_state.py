@@ -16,8 +16,8 @@ IDLE, RUNNING, HOLDING, COMPLETE, ABORTED = range(len(STATES))
 # Causes of a state, for pure steps.
 (
     WAITS, STARTED, NAVIGATION_BACK, END_OF_PATH, NAVIGATION_LOST, HELD_TOO_LONG, ABORT_CALLED,
-    DURATION, PATH_DISTANCE, GEOFENCE, GROUND_SPEED, PATH_SPEED,
-) = range(12)  # fmt: skip
+    DURATION, PATH_DISTANCE, GEOFENCE, GROUND_SPEED, PATH_SPEED, MAX_DEPTH, MIN_ALTITUDE, DEPTH_ERROR,
+) = range(15)  # fmt: skip
 
 _WORDS = {
     WAITS: "waiting for the start service",
@@ -32,6 +32,9 @@ _WORDS = {
     GEOFENCE: "limit geofence: left at north {found:.1f} m, east {over:.1f} m",
     GROUND_SPEED: "limit ground_speed: {found:.2f} m/s over {over:.1f} s, at least {bound:g} m/s",
     PATH_SPEED: "limit path_speed: {found:.2f} m/s over {over:.1f} s, at least {bound:g} m/s",
+    MAX_DEPTH: "limit max_depth: {found:.1f} m, at most {bound:g} m",
+    MIN_ALTITUDE: "limit min_altitude: {found:.1f} m above the bottom, at least {bound:g} m",
+    DEPTH_ERROR: "limit depth_error: {found:.1f} m from the requested depth, at most {bound:g} m",
 }
 
 
