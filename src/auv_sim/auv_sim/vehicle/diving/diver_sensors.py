@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 from auv_msgs_py.values.angles import wrap
@@ -41,7 +40,7 @@ class SpatialMeasurements(NamedTuple):
         phi, theta, psi, q, r: rad, rad/s.
         depth: the last measurement, m.
         is_depth_new: whether it was measured now.
-        altitude: height above the bottom, m; infinite without an echo, NaN without an altimeter.
+        altitude: range to the bottom along body z, m; infinite without an echo, NaN without an altimeter.
         water: velocity through the water, m/s, FRD; the last measurement.
         water_lock: whether it was measured now.
         ground: u, v, w over ground, m/s, FRD; the last measurement.
@@ -182,7 +181,7 @@ def sense_in_space(
     measured = SpatialMeasurements(
         phi, theta, psi, q, r,
         depth.depth, depth.is_new,
-        altimeter.last * math.cos(phi) * math.cos(theta),
+        altimeter.last,
         SpatialWater(water.plane.u, water.plane.v, water.w), water_lock,
         (ground.plane.u, ground.plane.v, ground.w), lock,
         state.position.first, fixes.first,

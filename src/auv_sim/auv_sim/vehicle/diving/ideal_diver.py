@@ -27,7 +27,8 @@ class SpatialSeen(NamedTuple):
         water: velocity through the water, reported by its log, m/s, FRD.
         water_lock: whether it was measured now; otherwise it is the last measurement.
         u, v, w: measured velocity over ground, m/s, FRD; NaN without bottom lock.
-        altitude: measured height above the bottom, m; infinite without an echo, NaN without an altimeter.
+        altitude: measured range to the bottom along body z, m; infinite without an echo, NaN without an
+            altimeter.
         motion: true pose and velocity through the water.
         rudder, sternplanes: measured angles of the servos, rad.
         current: true current where the vehicle is, m/s, NED.

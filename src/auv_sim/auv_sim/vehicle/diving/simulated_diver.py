@@ -91,7 +91,7 @@ class SimulatedDiver(Simulated[BodyState, SpatialCommand, SpatialCurrent, Spatia
 
     @property
     def altitude(self) -> float:
-        """Measured height above the bottom, m; infinite without an echo, NaN without an altimeter."""
+        """Measured range to the bottom along body z, m; infinite: no echo; NaN: no altimeter."""
         return self.seen.altitude
 
 
