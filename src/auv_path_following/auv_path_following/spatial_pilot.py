@@ -6,15 +6,15 @@ from typing import Any, NamedTuple
 
 from auv_msgs_py.contract.frames import flip_yaw
 from auv_msgs_py.values.pure import pure
-from auv_msgs_py.values.types import Navigation, Reference, SpatialCommand, SpatialCurrent, WaterVelocity
-from auv_path_following.control import autopilot
-from auv_path_following.control.autopilot import Autopilot, AutopilotState, steer
+from auv_msgs_py.values.types import SpatialCommand, SpatialCurrent, SpatialReference, WaterVelocity
+from auv_path_following.control import diving_autopilot
+from auv_path_following.control.diving_autopilot import DivingAutopilot, DivingAutopilotState, steer_both
 from auv_path_following.curves.spatial.spatial_rows import SpatialRows
 from auv_path_following.guidance import guide as guidance
 from auv_path_following.guidance.guide import Guide, GuideState, guide
 from auv_path_following.guidance.measured import SpatialMeasured
 from auv_path_following.guidance.spatial.spatial_follow import SpatialOutput, level_of
-from auv_path_following.guidance.spatial.spatial_laws import Levelled, euler_rates, levelled
+from auv_path_following.guidance.spatial.spatial_laws import levelled
 from auv_path_following.navigation.current_observer import Observer
 from auv_path_following.navigation.spatial_observer import (
     UNOBSERVED,
@@ -30,17 +30,14 @@ class SpatialPilot(NamedTuple):
 
     Attributes:
         observer, guide: of the parts.
-        heading, pitch: the autopilots of the two planes.
-        reversal: below this speed through the water the stern planes rest, m/s.
+        autopilot: of both planes.
         longest_gap: a longer gap between measurements resets the autopilots, s.
         by_wire: whether psi_d is rounded as on the wire.
     """
 
     observer: Observer
     guide: Guide
-    heading: Autopilot
-    pitch: Autopilot
-    reversal: float
+    autopilot: DivingAutopilot
     longest_gap: float
     by_wire: bool
 
@@ -50,18 +47,7 @@ class SpatialPilotState(NamedTuple):
 
     observer: SpatialObserverState
     guide: GuideState
-    heading: AutopilotState
-    pitch: AutopilotState
-
-
-class SpatialReference(NamedTuple):
-    """Reference from guidance: Euler angles (rad), their rates (rad/s), and thrust (N)."""
-
-    psi_d: float
-    r_d: float
-    theta_d: float
-    q_d: float
-    thrust: float
+    autopilot: DivingAutopilotState
 
 
 #: The estimated current (NED, m/s), the result of guidance, the reference for the autopilots, the command.
@@ -74,16 +60,15 @@ def spatial_first_state(config: SpatialPilot, approach: Any) -> SpatialPilotStat
     return SpatialPilotState(
         UNOBSERVED,
         guidance.first_state(config.guide, approach),
-        autopilot.first_state(config.heading),
-        autopilot.first_state(config.pitch),
+        diving_autopilot.first_state(config.autopilot),
     )
 
 
 @pure
 def spatial_begun(config: SpatialPilot, approach: Any) -> SpatialPilotState:
     """Return the state of a pilot whose mission has just been started; `approach` as above."""
-    observer, guiding, heading, pitch = spatial_first_state(config, approach)
-    return SpatialPilotState(observer, guidance.start(config.guide, guiding), heading, pitch)
+    observer, guiding, steering = spatial_first_state(config, approach)
+    return SpatialPilotState(observer, guidance.start(config.guide, guiding), steering)
 
 
 @pure
@@ -100,7 +85,7 @@ def spatial_pilot(
         dt: seconds since the last one (0 on the first one).
     """
     navigation, water, has_water, moved, _, _, _ = measured
-    observer, guiding, heading, pitch = state
+    observer, guiding, steering = state
     level, flow = level_of(navigation), levelled(water, navigation.phi, navigation.theta)
     if moved:
         observer = spatially_relocated(observer)
@@ -113,27 +98,6 @@ def spatial_pilot(
     psi_d = flip_yaw(flip_yaw(output.psi_d)) if config.by_wire else output.psi_d
     reference = SpatialReference(psi_d, output.r_d, output.theta_d, output.q_d, thrust)
     if moved or dt > config.longest_gap:
-        heading, pitch = autopilot.first_state(config.heading), autopilot.first_state(config.pitch)
-    heading, turned, _ = steer(config.heading, heading, level, Reference(psi_d, output.r_d, thrust), dt)
-    pitch, sternplanes = pitched(config, pitch, measured, flow, reference, dt)
-    command = SpatialCommand(turned.rudder, sternplanes, turned.thrust)
-    return SpatialPilotState(observer, guiding, heading, pitch), (current, output, reference, command)
-
-
-@pure
-def pitched(
-    config: SpatialPilot, state: AutopilotState, measured: SpatialMeasured, flow: Levelled,
-    reference: SpatialReference, dt: float,
-) -> tuple[AutopilotState, float]:  # fmt: skip
-    """Return the state of the pitch autopilot and the angle of the stern planes (rad): Eq. (3D-28).
-
-    Below the reversal speed the planes would act in the opposite sense, so they rest.
-    """
-    if flow.Ur < config.reversal:
-        return autopilot.first_state(config.pitch), 0.0
-    navigation = measured.navigation
-    _, rate = euler_rates(navigation.phi, navigation.theta, navigation.q, navigation.r)
-    seen = Navigation(0.0, 0.0, navigation.theta, rate)
-    asked = Reference(reference.theta_d, reference.q_d, reference.thrust)
-    state, tilted, _ = steer(config.pitch, state, seen, asked, dt)
-    return state, tilted.rudder
+        steering = diving_autopilot.first_state(config.autopilot)
+    steering, command = steer_both(config.autopilot, steering, navigation, reference, dt)
+    return SpatialPilotState(observer, guiding, steering), (current, output, reference, command)

@@ -67,12 +67,27 @@ GRAPH_CLAIMS = Topic("/graph_claims", "std_msgs/msg/String", "every launcher and
 #: them at once, so that no step waits for a timer.
 RECORD_REQUEST = Topic("record_request", "std_msgs/msg/UInt64", PLANT, (RECORDER,))
 
+# Of a vehicle with stern planes only; the others neither publish nor subscribe to them.
+STERNPLANE_CMD = Topic("sternplane_cmd", "std_msgs/msg/Float64", AUTOPILOT, (PLANT,))
+STERNPLANE_STATE = Topic("sternplane_state", "std_msgs/msg/Float64", PLANT)
+#: Only with an altimeter.
+ALTITUDE = Topic("altitude", "sensor_msgs/msg/Range", PLANT, (GUIDANCE,))
+DESIRED_PITCH = Topic("desired_pitch", "std_msgs/msg/Float64", GUIDANCE, (AUTOPILOT,))
+DESIRED_PITCH_RATE = Topic("desired_pitch_rate", "std_msgs/msg/Float64", GUIDANCE, (AUTOPILOT,))
+DESIRED_DEPTH = Topic("desired_depth", "std_msgs/msg/Float64", GUIDANCE)
+PATH_ERROR_3D = Topic("path_error_3d", "geometry_msgs/msg/Vector3Stamped", GUIDANCE)
+
 #: Topics with one message per odometry while the mission runs.
 PER_STEP = (
     ODOM, WATER_VELOCITY, RUDDER_STATE, TRUE_CURRENT, CURRENT_ESTIMATE, DESIRED_YAW, DESIRED_YAW_RATE,
     DESIRED_THRUST, VIRTUAL_POINT, PATH_PARAMETER, PATH_ERROR, DISTANCE_TO_GO, RUDDER_CMD, THRUST_CMD,
 )  # fmt: skip
 CONTRACT = (CLOCK, *PER_STEP, TRUE_ODOM, PATH, MISSION_STATE, DIAGNOSTICS)
+#: The same of a vehicle with stern planes, in addition.
+SPATIAL_PER_STEP = (
+    STERNPLANE_CMD, STERNPLANE_STATE, DESIRED_PITCH, DESIRED_PITCH_RATE, DESIRED_DEPTH, PATH_ERROR_3D,
+)  # fmt: skip
+SPATIAL_CONTRACT = (*SPATIAL_PER_STEP, ALTITUDE)
 #: Between the simulator and the recorder in lockstep; not recorded.
 RECORDING = (RECORDED_STEPS, RECORD_REQUEST)
 
@@ -85,10 +100,11 @@ FIRST_STAMP_NS = 1_000_000_000
 
 #: Lockstep: largest lead of the simulator over the recorder, steps. A reader's transport queue holds 512
 #: messages, and a step has at most 16: within this lead no queue overflows, however long the recorder gets no
-#: processor time. (A reliable writer would not help: it keeps only its last 10 messages.)
-RECORDING_LEAD = 30
+#: processor time. (A reliable writer would not help: it keeps only its last 10 messages.) A step of a vehicle
+#: with stern planes has at most 23.
+RECORDING_LEAD, SPATIAL_RECORDING_LEAD = 30, 20
 #: Interval between the recorder's reports, steps.
 RECORDING_REPORT = 8
-#: Interval between the simulator's requests to the recorder, steps: a third of the lead, so that the report
-#: is back before the lead is used up.
+#: Interval between the simulator's requests to the recorder, steps: a third of the lead, or half of it with
+#: stern planes, so that the report is back before the lead is used up.
 RECORDING_REQUEST = 10

@@ -105,5 +105,22 @@ class SpatialCommand(NamedTuple):
     thrust: float
 
 
+class SpatialReference(NamedTuple):
+    """Reference from guidance to the autopilots of a vehicle that dives.
+
+    Attributes:
+        psi_d, r_d: desired heading (rad), and its feed-forward rate (rad/s).
+        theta_d, q_d: desired pitch (rad, bow up) and its feed-forward rate (rad/s).
+        thrust: N; greater than 0 exactly while the mission is running.
+    """
+
+    psi_d: float
+    r_d: float
+    theta_d: float
+    q_d: float
+    thrust: float
+
+
 SPATIAL_STOP = SpatialCommand(0.0, 0.0, 0.0)
 NO_SPATIAL_CURRENT = SpatialCurrent(0.0, 0.0, 0.0)
+NO_SPATIAL_WATER = SpatialWater(0.0, 0.0, 0.0)

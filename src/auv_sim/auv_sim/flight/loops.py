@@ -9,8 +9,7 @@ from typing import Any, NamedTuple
 from auv_msgs_py.contract.frames import heading_over_the_wire
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import SpatialCurrent
-from auv_path_following.control import autopilot
-from auv_path_following.control.pitch_plane import pitch_plane_of
+from auv_path_following.control import autopilot, diving_autopilot
 from auv_path_following.curves.spatial.depth_profile import DepthProfile
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_path_following.curves.spatial.spatial_rows import spatial_rows
@@ -85,9 +84,7 @@ def spatial_pilot_of(scenario: Scenario) -> SpatialPilot:
     return SpatialPilot(
         current_observer.prepare(c.observer, c.dt),
         guiding,
-        autopilot.prepare(c.autopilot, hull),
-        autopilot.prepare(c.pitch, pitch_plane_of(hull)),
-        guiding.follower.steepness.reversal,
+        diving_autopilot.prepare(c.autopilot, c.pitch, hull),
         math.inf,
         c.sea is not None,
     )

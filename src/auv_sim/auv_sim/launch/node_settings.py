@@ -12,9 +12,8 @@ from auv_msgs_py.settings import params_file
 from auv_msgs_py.settings.schema import Pair
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
-from auv_path_following.control import autopilot
+from auv_path_following.control import diving_autopilot
 from auv_path_following.control.autopilot import HeadingAutopilot
-from auv_path_following.control.pitch_plane import pitch_plane_of
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.launch.options import Options
@@ -46,7 +45,8 @@ def load(options: Options, file: Path, model: Vehicle, notices: list[str]) -> No
     try:
         HeadingAutopilot(model, settings[topics.AUTOPILOT].autopilot)
         if model.dives:
-            autopilot.prepare(settings[topics.AUTOPILOT].pitch, pitch_plane_of(model))
+            steering = settings[topics.AUTOPILOT]
+            diving_autopilot.prepare(steering.autopilot, steering.pitch, model)
     except ConfigurationError as error:
         place = f"{file}: {topics.AUTOPILOT}: {error.where}"
         raise ConfigurationError(place, error.found, error.expected) from None

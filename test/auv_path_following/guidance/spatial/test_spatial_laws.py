@@ -9,6 +9,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from auv_msgs_py.values.attitude import euler_rates
 from auv_msgs_py.values.types import Current, Navigation, WaterVelocity
 from auv_path_following.curves.spatial.spatial_point import Tangent
 from auv_path_following.guidance.laws.ailos import AilosConfig, adaptive_offset, ailos
@@ -18,7 +19,6 @@ from auv_path_following.guidance.spatial.spatial_laws import (
     current_along,
     elevation_seen,
     error_rates,
-    euler_rates,
     levelled,
     spatial_errors,
     spatial_speed,

@@ -6,6 +6,7 @@ import math
 from typing import Any, NamedTuple
 
 from auv_msgs_py.values.angles import wrap
+from auv_msgs_py.values.attitude import euler_rates
 from auv_msgs_py.values.pure import bounded, pure
 from auv_msgs_py.values.types import (
     NO_SPATIAL_CURRENT,
@@ -28,7 +29,6 @@ from auv_path_following.guidance.spatial.spatial_laws import (
     VerticalLaw,
     current_along,
     elevation_seen,
-    euler_rates,
     levelled,
     spatial_errors,
     spatial_speed,

@@ -174,20 +174,6 @@ def vertical_ailos(
 
 
 @pure
-def euler_rates(phi: float, theta: float, q: float, r: float) -> tuple[float, float]:
-    """Return psi' and theta', rad/s: Eq. (3D-27). cos(theta) counts as 0.1 at least.
-
-    Args:
-        phi, theta: roll and pitch, rad.
-        q, r: pitch and yaw rate in body axes, rad/s.
-    """
-    level = math.cos(theta)
-    if level < 0.1:
-        level = 0.1
-    return (q * math.sin(phi) + r * math.cos(phi)) / level, q * math.cos(phi) - r * math.sin(phi)
-
-
-@pure
 def error_rates(
     errors: Vector, flow: Levelled, psi: float, tangent: Tangent, turning: tuple[float, float],
     current: Vector, U_P: float,

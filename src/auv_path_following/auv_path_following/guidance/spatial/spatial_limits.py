@@ -22,7 +22,8 @@ class Steepness(NamedTuple):
         largest: at any speed, rad.
         planes: sine of the pitch that the stern planes hold at 1 m/s; infinite where it is not known.
         thrust: pitch down to which the thrust overcomes the buoyancy, rad.
-        reversal: u_rev, below which lowered planes raise the vehicle, m/s; 0 where it is not known.
+        reversal: u_rev, below which lowered planes raise the vehicle, so that no pitch is requested, m/s; 0
+            where it is not known.
     """
 
     largest: float
@@ -33,7 +34,9 @@ class Steepness(NamedTuple):
 
 @pure
 def steepest_at(config: Steepness, Ur: float) -> float:
-    """Return theta_max at a speed through the water (m/s), rad: Eq. (3D-29)."""
+    """Return theta_max at a speed through the water (m/s), rad: Eq. (3D-29); 0 below the reversal speed."""
+    if Ur < config.reversal:
+        return 0.0
     sine = config.planes * Ur * Ur
     bound = math.asin(sine) if sine < 1.0 else 0.5 * math.pi
     return min(config.largest, bound, config.thrust)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from auv_msgs_py.values.attitude import quaternion_of
 from auv_msgs_py.values.types import (
     NO_CURRENT,
     NO_SPATIAL_CURRENT,
@@ -15,7 +16,7 @@ from auv_msgs_py.values.types import (
 from auv_path_following.vehicle import Vehicle
 from auv_sim.vehicle.diving.diver_at_sea import spatial_at_sea_of
 from auv_sim.vehicle.diving.ideal_diver import SpatialSeen
-from auv_sim.vehicle.hulls.rigid_body import BodyState, quaternion_of, to_body
+from auv_sim.vehicle.hulls.rigid_body import BodyState, to_body
 from auv_sim.vehicle.hulls.spatial_plant import (
     spatial_ground_velocity,
     spatial_navigation_of,

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from auv_msgs_py.values.attitude import angles_of_quaternion, quaternion_of
 from auv_msgs_py.values.pure import pure
 
 
@@ -49,29 +50,10 @@ def body_at(x: float, y: float, z: float, phi: float, theta: float, psi: float, 
     return BodyState(x, y, z, *quaternion_of(phi, theta, psi), surge, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
-def quaternion_of(phi: float, theta: float, psi: float) -> tuple[float, float, float, float]:
-    """Return the unit quaternion (w, i, j, k) of Rz(psi) Ry(theta) Rx(phi)."""
-    cx, sx = math.cos(0.5 * phi), math.sin(0.5 * phi)
-    cy, sy = math.cos(0.5 * theta), math.sin(0.5 * theta)
-    cz, sz = math.cos(0.5 * psi), math.sin(0.5 * psi)
-    return (
-        cz * cy * cx + sz * sy * sx,
-        cz * cy * sx - sz * sy * cx,
-        cz * sy * cx + sz * cy * sx,
-        sz * cy * cx - cz * sy * sx,
-    )
-
-
 @pure
 def angles_of(state: BodyState) -> tuple[float, float, float]:
     """Return roll, pitch and heading (phi, theta, psi), rad, each in (-pi, pi]: Eq. (3D-2)."""
-    w, i, j, k = state.qw, state.qi, state.qj, state.qk
-    sine = 2.0 * (w * j - k * i)
-    return (
-        math.atan2(2.0 * (w * i + j * k), 1.0 - 2.0 * (i * i + j * j)),
-        math.asin(1.0 if sine > 1.0 else -1.0 if sine < -1.0 else sine),
-        math.atan2(2.0 * (w * k + i * j), 1.0 - 2.0 * (j * j + k * k)),
-    )
+    return angles_of_quaternion(state.qw, state.qi, state.qj, state.qk)
 
 
 @pure
