@@ -168,6 +168,39 @@ class Renamed(argparse.Action):
         setattr(namespace, self.dest, values)
 
 
+class _Mission(argparse.Action):
+    """The mission as a word or as `--mission`; two that differ are refused."""
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: object,
+        option: str | None = None,
+    ) -> None:
+        given = namespace.mission
+        if given not in (self.const, values):  # const: the default
+            parser.error(f"found two missions, {given} and {values}, expected one")
+        namespace.mission = values
+
+
+def add_mission_option(parser: argparse.ArgumentParser, default: str | None, shipped: str) -> None:
+    """Add the mission, which may be given as a word or as `--mission`.
+
+    Args:
+        parser: the command's.
+        default: its default; None where one must be given.
+        shipped: names of the missions that come with the suite.
+    """
+    parser.add_argument(
+        "--mission", metavar="FILE", action=_Mission, const=default, default=default, help="same as MISSION"
+    )
+    parser.add_argument(
+        "mission", metavar="MISSION", nargs="?", action=_Mission, const=default, default=argparse.SUPPRESS,
+        help=f"file or one of: {shipped}",
+    )  # fmt: skip
+
+
 def to_type(script: str, *words: object, **options: object) -> str:
     """Return a command of `scripts/`, quoted for the shell.
 

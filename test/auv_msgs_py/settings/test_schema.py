@@ -108,8 +108,15 @@ def test_all_wrong_keys_are_named_in_one_line():
     assert str(caught.value) == (
         "f.yaml: mode: found 'of', expected one of 'off' or 'on'; flag: found 'yes', expected true or false;"
         " inner.gain: found -1, expected a number greater than 0;"
-        " inner.gian: found an unknown key, expected only the documented keys (is it misspelt?)"
+        " inner.gian: found an unknown key, expected only the documented keys (did you mean gain?)"
     )
+
+
+def test_a_key_unlike_any_other_is_asked_for():
+    with pytest.raises(
+        ConfigurationError, match=r"inner\.colour: found an unknown key.*\(is it misspelt\?\)"
+    ):
+        validated(Outer, {"inner": {"colour": 2}}, "f.yaml")
 
 
 def test_hundreds_of_wrong_keys_are_counted():

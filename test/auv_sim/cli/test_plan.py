@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from auv_path_following import config_files
+from auv_path_following.missions import mission_file
 from auv_sim.cli import mission as mission_cli
 from auv_sim.cli import plan as plan_command
 
@@ -56,7 +57,34 @@ def test_so_does_the_command(path, tmp_path):
 
 @pytest.mark.parametrize("name", config_files.shipped("missions"))
 def test_every_shipped_mission_is_flyable(name):
-    assert plan_command.main([name, "--quiet"]) == 0
+    vehicle = "remus100" if mission_file.load(name).spatial is None else "remus100_6dof"
+    assert plan_command.main([name, "--quiet", "--vehicle", vehicle]) == 0
+
+
+def test_a_mission_is_a_word_or_an_option_of_both_commands(capsys):
+    assert plan_command.main(["--mission", "loiter", "--quiet"]) == 0
+    for words in (["loiter"], ["--mission", "loiter"], ["loiter", "--mission", "loiter"]):
+        assert mission_cli.parser().parse_args(words).mission == "loiter"
+    assert mission_cli.parser().parse_args([]).mission == "paper_composite"
+    for words in (["loiter", "--mission", "helix"], ["--mission", "helix", "loiter"], []):
+        with pytest.raises(SystemExit):
+            plan_command.main([*words, "--quiet"])
+    assert "found two missions, loiter and helix" in capsys.readouterr().err
+
+
+def test_each_refusal_is_printed_once(tmp_path, capsys):
+    mission = tmp_path / "steep.yaml"
+    profile = "depth_profile: {knots: [[0, 60], [80, 102], [400, 60]]}"
+    line = "segments: [{line: {start: [0, 0], length: 400, course_deg: 0}}]"
+    mission.write_text(f"version: 1\nname: steep\nframe: ned\nthrust: 6.48\n{profile}\n{line}\n")
+    asked = [str(mission), "--vehicle", "remus100_6dof", "--out", str(tmp_path / "plan.png")]
+    assert plan_command.main(asked) == 2
+    out, err = capsys.readouterr()
+    assert "steepest slope 44.5 deg" in out and "refused" not in out and "no fault" not in out
+    assert err.count("\n") == 2
+    assert err.count("a depth of 102.00 m") == err.count("a slope of 44.5 deg") == 1
+    assert plan_command.main([*asked[:3], "--quiet"]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
 
 
 def test_it_tells_draws_and_exports(tmp_path, monkeypatch, capsys):

@@ -190,3 +190,53 @@ def test_both_names_of_the_controller_model_are_refused(capsys):
         mission_command.parser().parse_args(["--believed", "remus100", "--controller-model", "remus100"])
     assert end.value.code == 2
     assert "not allowed with argument --believed" in capsys.readouterr().err
+
+
+DIVER = "remus100_6dof"
+
+
+def _start(**options):
+    """Depth and pitch (rad) of the start in closed loop, and the path's."""
+    scenario = mission_plan.scenario(Options(vehicle=DIVER, **options))
+    run = fly(dataclasses.replace(scenario, time_limit=0.1))
+    return run.z[0], run.theta[0], scenario.spatial.start_pose
+
+
+def test_a_vehicle_that_dives_starts_at_the_paths_first_depth(tmp_path):
+    z, theta, pose = _start(mission="helix")
+    assert (z, theta) == pytest.approx((5.0, 0.0)) and pose.z == 5.0
+    text = (
+        "version: 1\nname: down\nframe: ned\nthrust: 6.48\n"
+        "waypoints: {points: [[0, 0, 8], [100, 0, 28]], smoothing: {kind: linear}}\n"
+    )
+    (tmp_path / "down.yaml").write_text(text)
+    z, theta, _ = _start(mission=str(tmp_path / "down.yaml"))
+    assert (z, theta) == pytest.approx((8.0, -np.arctan(0.2)))
+
+
+def test_it_starts_elsewhere_on_request_and_never_with_its_propeller_in_air():
+    assert _start(mission="helix", depth=12.0)[:2] == pytest.approx((12.0, 0.0))
+    assert _start(mission="mss_course")[0] == 0.5
+    assert _start(mission="mss_course", depth=0.0)[0] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"depth": 3.0}, "--depth: found vehicle REMUS 100 without stern planes"),
+        ({"depth": 300.0, "vehicle": DIVER}, "--depth: found 300 m, expected at most 100 m"),
+        ({"mission": "helix"}, "vehicle REMUS 100: found no stern planes for a mission with a depth"),
+    ],
+)
+def test_depths_that_the_vehicle_cannot_have_are_refused(tmp_path, options, message):
+    with pytest.raises(ConfigurationError, match=message):
+        mission_plan.make(Options(**options), tmp_path)
+
+
+@pytest.mark.parametrize("more", [[], ["--force"]])
+def test_the_launcher_refuses_a_mission_with_a_depth_in_one_line(tmp_path, capsys, more):
+    asked = ["helix", "--vehicle", DIVER, "--out", str(tmp_path / "run"), *more]
+    assert mission_command.main(asked) == 2
+    err = capsys.readouterr().err
+    assert "one with a depth flies in closed loop and campaigns only" in err and err.count("\n") == 1
+    assert not (tmp_path / "run").exists()

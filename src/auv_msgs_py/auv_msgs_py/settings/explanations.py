@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import dataclasses
+import difflib
+import typing
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import pydantic
@@ -30,12 +34,13 @@ _EXPECTED = {
 }
 
 
-def readable(error: pydantic.ValidationError, where: str) -> ConfigurationError:
+def readable(error: pydantic.ValidationError, where: str, cls: Any = None) -> ConfigurationError:
     """Return the error that names all keys at fault.
 
     Args:
         error: of pydantic.
         where: the file.
+        cls: the settings class that was to be built, for the keys that could have been meant.
     """
     errors = error.errors(include_url=False)
     # A misspelt key is missing under one name and unknown under another: first what stands in the file.
@@ -43,7 +48,7 @@ def readable(error: pydantic.ValidationError, where: str) -> ConfigurationError:
     found = []
     for item in errors:
         place = key_path(item["loc"])
-        found.append(ConfigurationError(f"{where}: {place}" if place else where, *_explain(dict(item))))
+        found.append(ConfigurationError(f"{where}: {place}" if place else where, *_explain(dict(item), cls)))
     return joined(found, where)
 
 
@@ -58,15 +63,40 @@ def key_path(location: tuple[int | str, ...]) -> str:
     return text
 
 
-def _explain(item: dict[str, Any]) -> tuple[str, str]:
-    """Return what was found and what was expected."""
+def _meant(location: Sequence[int | str], cls: Any) -> str:
+    """Return a question for the key that was probably meant."""
+    holders = [cls]
+    for part in location[:-1]:
+        if isinstance(part, str) and "[" not in part and "(" not in part:
+            holders = [inner for holder in holders for inner in _classes(_fields(holder).get(part))]
+    key, allowed = str(location[-1]), sorted({name for holder in holders for name in _fields(holder)})
+    close = difflib.get_close_matches(key, allowed, n=1)
+    return f"did you mean {close[0]}?" if close else "is it misspelt?"
+
+
+def _fields(cls: Any) -> dict[str, Any]:
+    """Return the type of each field of a settings class; none of any other."""
+    fields = getattr(cls, "__pydantic_fields__", {})
+    return {name: field.annotation for name, field in fields.items()}
+
+
+def _classes(annotation: Any) -> Iterator[Any]:
+    """Yield the classes with fields that a type consists of."""
+    if isinstance(annotation, type) and dataclasses.is_dataclass(annotation):
+        yield annotation
+    for part in typing.get_args(annotation):
+        yield from _classes(part)
+
+
+def _explain(item: dict[str, Any], cls: Any) -> tuple[str, str]:
+    """Return what was found and what was expected in a file that is read into a class."""
     kind = item["type"]
     context: dict[str, Any] = item.get("ctx", {})
     if kind in _ABSENT:
         is_item = bool(item["loc"]) and isinstance(item["loc"][-1], int)
         return "nothing", "one more item" if is_item else "this key (it has no default)"
     if kind in _UNKNOWN:
-        return "an unknown key", "only the documented keys (is it misspelt?)"
+        return "an unknown key", f"only the documented keys ({_meant(item['loc'], cls)})"
     if kind == "unfit":  # raised by a class's own check of keys that must fit together
         return str(context["found"]), str(context["expected"])
     found = "an empty value" if item.get("input") is None else repr(item["input"])

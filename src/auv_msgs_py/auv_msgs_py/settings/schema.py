@@ -97,7 +97,7 @@ def validated(cls: type[T], data: object, where: str) -> T:
     try:
         return pydantic.TypeAdapter(cls).validate_json(text)
     except pydantic.ValidationError as error:
-        raise readable(error, where) from None
+        raise readable(error, where, cls) from None
 
 
 @dataclasses.dataclass(frozen=True)

@@ -14,8 +14,10 @@ from auv_sim.command_line import (
     Parser,
     Renamed,
     add_flown_option,
+    add_mission_option,
     command,
     finite,
+    not_negative,
     positive,
     ros_domain,
     ros_namespace,
@@ -39,12 +41,7 @@ def parser() -> argparse.ArgumentParser:
 
 def _add_files(p: argparse.ArgumentParser) -> None:
     shipped = {kind: ", ".join(config_files.shipped(kind)) for kind in ("missions", "vehicles", "params")}
-    p.add_argument(
-        "--mission",
-        default=DEFAULT_MISSION,
-        metavar="FILE",
-        help=f"file or one of: {shipped['missions']}",
-    )
+    add_mission_option(p, DEFAULT_MISSION, shipped["missions"])
     p.add_argument(
         "--vehicle",
         default=DEFAULT_VEHICLE,
@@ -74,6 +71,12 @@ def _add_simulation(p: argparse.ArgumentParser) -> None:
         type=finite,
         metavar=("X", "Y", "PSI_DEG"),
         help="start: north, east (m), heading (deg)",
+    )
+    p.add_argument(
+        "--depth",
+        type=not_negative,
+        metavar="M",
+        help="start level at this depth, m (default: the path's first depth, along the path)",
     )
     p.add_argument(
         "--sea",
@@ -153,7 +156,9 @@ def _options(argv: Sequence[str] | None) -> Options:
         parse_address(options.vehicle_address, "--vehicle-address")
     if options.no_sim and options.vehicle_driver is not None:
         raise ConfigurationError("--vehicle-driver", "together with --no-sim", "one of them")
-    conflicts: dict[str, Any] = {"--sea": options.sea, "--seed": options.seed}
+    conflicts: dict[str, Any] = {
+        "--sea": options.sea, "--seed": options.seed, "--depth": options.depth,
+    }  # fmt: skip
     if not options.emulator:
         conflicts |= {"--speed": options.speed, "--initial": options.initial, "--current": options.current}
     if not options.simulator:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from auv_path_following import config_files
 from auv_path_following.curves.switching_modes import MODES
-from auv_sim.command_line import Parser, command, finite, not_default
+from auv_sim.command_line import Parser, add_mission_option, command, finite, not_default
 
 
 def parser() -> argparse.ArgumentParser:
@@ -20,7 +20,7 @@ def parser() -> argparse.ArgumentParser:
         epilog="Exit code 0: it can be flown, perhaps with warnings. 2: it is refused, or a file is wrong.",
         allow_abbrev=False,
     )
-    p.add_argument("mission", metavar="MISSION", help=f"file or one of: {shipped['missions']}")
+    add_mission_option(p, None, shipped["missions"])
     p.add_argument(
         "--vehicle", default="remus100", metavar="FILE", help=f"file or one of: {shipped['vehicles']}"
     )
@@ -47,6 +47,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Plan; return the exit code: 0 flyable, 2 refused or bad input, 130 interrupted."""
     p = parser()
     options = p.parse_args(argv)
+    if options.mission is None:
+        p.error("found no mission, expected MISSION")
     from auv_sim.checks.mission_check.plan_session import plan
 
     return plan(options, not_default(p, options))

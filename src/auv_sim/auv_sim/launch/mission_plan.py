@@ -23,6 +23,7 @@ from auv_sim.launch import node_settings
 from auv_sim.launch.options import DRIVERS, Options
 from auv_sim.launch.vehicle_driver import configure_driver
 from auv_sim.vehicle import sea
+from auv_sim.vehicle.hulls.rigid_body import BodyState, body_at
 
 
 @dataclass(frozen=True)
@@ -84,7 +85,8 @@ class Plan:
             path=self.mission.path,
             vehicle=self.vehicle,
             thrust=self.mission.thrust,
-            initial=plant.initial.state,
+            initial=self._diver_start() if self.vehicle.dives else plant.initial.state,
+            spatial=self.mission.spatial,
             current=plant.current.value,
             sea=sea.load(plant.sea) if plant.sea else None,
             seed=plant.seed,
@@ -95,6 +97,20 @@ class Plan:
             pitch=self.parameters[topics.AUTOPILOT].pitch,
             controller_vehicle=self.controller_model,
         )
+
+    def _diver_start(self) -> BodyState | None:
+        """Return the first state of a vehicle that dives; None for the path's start, along the path.
+
+        Without `--depth` the vehicle starts at the path's first depth, but not above `depth.surface`, where
+        its propeller and planes are out of the water.
+        """
+        options, spatial, surface = self.options, self.mission.spatial, self.vehicle.depth.surface
+        first = surface if spatial is None else spatial.start_pose.z
+        if options.initial is None and options.depth is None and first >= surface:
+            return None
+        initial = self.parameters[topics.PLANT].initial
+        depth = max(first, surface) if options.depth is None else options.depth
+        return body_at(initial.x, initial.y, depth, 0.0, 0.0, initial.psi, initial.surge)
 
     def write(self, directory: Path) -> Path:
         """Write the resolved configuration, ready to be flown again.
@@ -137,12 +153,13 @@ def make(options: Options, directory: Path) -> Plan:
     if "controller_model" in sources:
         model = vehicle.load(str(sources["controller_model"]))
     mission = mission_file.load(str(sources["mission"]), model)
-    if (options.simulator or options.emulator) and hull.hull is None:
+    if (options.simulator or options.emulator) and hull.hull is None and hull.simulated_as is None:
         raise ConfigurationError(
             f"{sources['vehicle']}: hull",
             "nothing",
             "the hull's coefficients, or --no-sim: the simulator needs them",
         )
+    _check_start(options, hull)
     notices: list[str] = []
     settings = node_settings.load(options, sources["params"], model, notices)
     node_settings.set_mission(settings, options, mission, sources, directory)
@@ -186,6 +203,18 @@ def _find_files(options: Options) -> node_settings.Sources:
     if options.controller_model is not None:
         sources["controller_model"] = config_files.find("vehicles", options.controller_model).absolute()
     return sources
+
+
+def _check_start(options: Options, hull: Vehicle) -> None:
+    """Refuse a depth of the start that the vehicle cannot have."""
+    if options.depth is None:
+        return
+    if not hull.dives:
+        expected = "a vehicle with stern planes, such as remus100_6dof"
+        raise ConfigurationError("--depth", f"vehicle {hull.name} without stern planes", expected)
+    if options.depth > hull.depth.max:
+        expected = f"at most {hull.depth.max:g} m, depth.max of {hull.name}"
+        raise ConfigurationError("--depth", f"{options.depth:g} m", expected)
 
 
 def _check(

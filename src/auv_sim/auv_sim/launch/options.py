@@ -27,6 +27,7 @@ class Options:
     params: str = DEFAULT_PARAMS
     current: tuple[float, float] | None = None
     initial: tuple[float, float, float] | None = None
+    depth: float | None = None
     sea: str | None = None
     seed: int | None = None
     switching: str | None = None

@@ -1,4 +1,4 @@
-"""One picture of a planned mission: the path on north-east axes, and its curvature below."""
+"""One picture of a planned mission: the path on north-east axes, below it curvature, depth and slope."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ from matplotlib.figure import Figure
 from auv_msgs_py.values.types import NO_CURRENT, Current
 from auv_path_following.curves.outline import look, polygon
 from auv_path_following.missions.mission_file import Mission
+from auv_path_following.vehicle import Vehicle
+from auv_sim.checks.mission_check.depth_panels import draw_depths
 from auv_sim.checks.mission_check.flyable import Findings
 from auv_sim.views.labels import arrow
 from auv_sim.views.plot_style import AREA, BLUE, GREEN, HALO, INK, MUTED, ORANGE, PATH, RED, save, style
@@ -25,24 +27,34 @@ _ERROR = 0.05
 
 
 def draw(
-    mission: Mission, findings: Findings, vehicle_name: str, png: Path, current: Current = NO_CURRENT
+    mission: Mission, findings: Findings, vehicle: Vehicle, png: Path, current: Current = NO_CURRENT
 ) -> None:
-    """Draw the plan, 1200 x 1300 pixels.
+    """Draw the plan, 1200 x 1300 pixels; with depths 1200 x 1600.
 
     Args:
         mission: what is planned.
         findings: of its check.
-        vehicle_name: whose tightest turn is drawn.
+        vehicle: whose bounds are drawn.
         png: the file to write.
         current: that it was checked in, drawn as an arrow.
     """
-    figure = Figure(figsize=(12.0, 13.0), dpi=100, facecolor="white")
+    is_spatial = mission.spatial is not None
+    figure = Figure(figsize=(12.0, 16.0 if is_spatial else 13.0), dpi=100, facecolor="white")
     FigureCanvasAgg(figure)
-    margins = {"left": 0.08, "right": 0.97, "top": 0.885, "bottom": 0.06}
-    grid = figure.add_gridspec(2, 1, height_ratios=(2.7, 1.0), hspace=0.16, **margins)
-    _headline(figure, mission, findings, vehicle_name)
+    margins = {"left": 0.08, "right": 0.97, "top": 0.91 if is_spatial else 0.885, "bottom": 0.06}
+    heights = (2.7, 0.8, 1.0, 0.8) if is_spatial else (2.7, 1.0)
+    grid = figure.add_gridspec(len(heights), 1, height_ratios=heights, hspace=0.16, **margins)
+    _headline(figure, mission, findings, vehicle.name)
     _map(figure.add_subplot(grid[0]), mission, current)
-    _curvature(figure.add_subplot(grid[1]), mission, findings, vehicle_name)
+    below = figure.add_subplot(grid[1])
+    _curvature(below, mission, findings, vehicle.name)
+    if is_spatial:
+        depth, slope = (figure.add_subplot(grid[k], sharex=below) for k in (2, 3))
+        draw_depths(depth, slope, mission, findings, vehicle)
+        for axes in (below, depth):
+            axes.set_xlabel("")
+            axes.tick_params(labelbottom=False)
+        slope.set_xlabel("horizontal length along the path (m)", color=INK)
     save(figure, png)
 
 
@@ -57,7 +69,8 @@ def _headline(figure: Figure, mission: Mission, findings: Findings, vehicle_name
     )
     figure.text(0.97, 0.965, state, fontsize=14, fontweight="bold", color=color, va="center", ha="right")
     times = mission.path.n // max(mission.once, 1)
-    facts = [f"{path.n} subpaths", f"{path.length:.1f} m", f"{findings.speed:.2f} m/s through the water"]
+    length = path.length if mission.spatial is None else mission.spatial.length
+    facts = [f"{path.n} subpaths", f"{length:.1f} m", f"{findings.speed:.2f} m/s through the water"]
     if times > 1:
         facts.insert(0, f"{times} times round")
     if np.isfinite(findings.duration):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -17,12 +18,14 @@ class Finding:
         where: the place on the path.
         found: what is there.
         expected: what would be better.
+        way: horizontal length from the path's start, m, where the picture of depths marks it; else NaN.
     """
 
     level: Level
     where: str
     found: str
     expected: str
+    way: float = math.nan
 
     def __str__(self) -> str:
         return f"{self.where}: found {self.found}, expected {self.expected}"

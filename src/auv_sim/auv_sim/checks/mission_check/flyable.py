@@ -20,7 +20,8 @@ from auv_path_following.missions.limits import inside
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.mission_check.circles import circles
-from auv_sim.checks.mission_check.crossings import crossings
+from auv_sim.checks.mission_check.crossings import Crossing, crossings
+from auv_sim.checks.mission_check.depths import depths
 from auv_sim.checks.mission_check.finding import Finding, at
 
 Array = npt.NDArray[np.float64]
@@ -77,6 +78,7 @@ def check(
     survey = _Survey(mission, current, speed)
     found = [
         *_thrust(mission, vehicle),
+        *depths(mission, vehicle, switching or SwitchingConfig(), speed),
         *_geofence(mission),
         *survey.way(current),
         *survey.turns(turn, vehicle.name),
@@ -87,7 +89,8 @@ def check(
     refusals, warnings = (
         tuple(finding for finding in found if finding.level == level) for level in ("refused", "warning")
     )
-    return Findings(refusals, warnings, turn, speed, survey.duration, mission.notices)
+    stretch = 1.0 if mission.spatial is None else mission.spatial.length / mission.path.length
+    return Findings(refusals, warnings, turn, speed, survey.duration * stretch, mission.notices)
 
 
 def refusal(mission: Mission, findings: Findings, advice: str) -> ConfigurationError:
@@ -98,11 +101,27 @@ def refusal(mission: Mission, findings: Findings, advice: str) -> ConfigurationE
         findings: with at least one refusal.
         advice: what else can be done.
     """
-    first, *others = findings.refusals
-    more = f" (and {len(others)} more)" if others else ""
-    return ConfigurationError(
-        f"{mission.source}: {first.where}", first.found, f"{first.expected}{more}; {advice}"
-    )
+    more = f" (and {len(findings.refusals) - 1} more)" if len(findings.refusals) > 1 else ""
+    return _as_error(mission, findings.refusals[0], more + _advised(mission, advice))
+
+
+def refusals(mission: Mission, findings: Findings, advice: str) -> list[ConfigurationError]:
+    """Return all refusals as errors of the mission's file, the last one with the advice."""
+    *others, last = findings.refusals
+    return [
+        *(_as_error(mission, one, "") for one in others),
+        _as_error(mission, last, _advised(mission, advice)),
+    ]
+
+
+def _advised(mission: Mission, advice: str) -> str:
+    """Return the advice; none where nothing overrides the refusal of a mission with a depth."""
+    return f"; {advice}" if mission.spatial is None and mission.altitude is None else ""
+
+
+def _as_error(mission: Mission, finding: Finding, more: str) -> ConfigurationError:
+    where = f"{mission.source}: {finding.where}"
+    return ConfigurationError(where, finding.found, f"{finding.expected}{more}")
 
 
 def _thrust(mission: Mission, vehicle: Vehicle) -> Iterator[Finding]:
@@ -227,7 +246,8 @@ def _corners(mission: Mission) -> Iterator[Finding]:
 
 
 def _crossings(mission: Mission) -> Iterator[Finding]:
-    found = crossings(mission.path.segments[: mission.once], _MOST_CROSSINGS)
+    found = [one for one in crossings(mission.path.segments[: mission.once], _MOST_CROSSINGS)
+             if not _above_one_another(mission, one)]  # fmt: skip
     if found:
         first = found[0]
         times = "once" if len(found) == 1 else f"{len(found)} times"
@@ -240,3 +260,13 @@ def _crossings(mission: Mission) -> Iterator[Finding]:
             f"a path that crosses itself {times}",
             "an intentional crossing: subpaths are followed in their order",
         )
+
+
+def _above_one_another(mission: Mission, crossing: Crossing) -> bool:
+    """Return whether the two subpaths of a crossing are at different depths all along."""
+    if mission.spatial is None:
+        return False
+    one, other = (mission.spatial.subpaths[number - 1].knots for number in crossing[:2])
+    one_range, other_range = ([knot.depth for knot in knots] for knots in (one, other))
+    upper, lower = sorted((one_range, other_range), key=lambda depths: (min(depths), max(depths)))
+    return max(upper) <= min(lower) and min(upper) < max(lower)

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from rich import box
 from rich.console import Console
 from rich.markup import escape
@@ -22,14 +23,16 @@ from auv_msgs_py.settings.result_files import NotWritten
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import Current
 from auv_path_following import config_files, vehicle
+from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.guidance.switching import with_overrides
 from auv_path_following.missions import mission_file
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.mission_check import chart, drawing
-from auv_sim.checks.mission_check.flyable import Findings, check, refusal
-from auv_sim.command_line import EXIT_DONE, to_type
+from auv_sim.checks.mission_check.depth_survey import survey_of
+from auv_sim.checks.mission_check.flyable import Findings, check, refusal, refusals
+from auv_sim.command_line import EXIT_BAD_INPUT, EXIT_DONE, say, to_type
 from auv_sim.sim_parameters import SUITE
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, wrote
@@ -37,6 +40,7 @@ from auv_sim.terminal import go_on, wrote
 _ROWS = 40
 
 
+_ALL_THE_SAME = "scripts/mission.py --force would fly it all the same"
 #: Options of this command that `scripts/mission.py` has as well.
 _FLOWN_WITH = ("mission", "vehicle", "params", "current", "switching")
 
@@ -62,22 +66,35 @@ def plan(options: argparse.Namespace, not_default: Mapping[str, Any]) -> int:
     findings = check(mission, hull, current, switching, guidance.lookahead)
     console = terminal(options.quiet, soft_wrap=True, width=None if sys.stdout.isatty() else 110)
     _show(console, mission, hull, findings)
-    png = options.out or (None if options.quiet else Path(f"plan-{mission.source.stem}.png"))
-    if png is not None:
-        try:
-            drawing.draw(mission, findings, hull.name, png, current)
-        except (NotWritten, ValueError) as error:  # ValueError: a suffix that is no picture
-            reason = error.strerror if isinstance(error, NotWritten) else error
-            raise ConfigurationError("--out", f"{png} ({reason})", "a picture that can be written") from None
-        wrote(console, png, "the plan in one picture")
+    _draw(console, options, mission, hull, findings)
     if options.export is not None:
         chart.export(mission, options.export)
         wrote(console, options.export, "the path for a chart")
     if findings.refusals:
-        raise refusal(mission, findings, "scripts/mission.py --force would fly it all the same")
-    same = {name: not_default[name] for name in _FLOWN_WITH if name in not_default}
-    go_on(console, "Fly it", to_type("mission.py", **same))
+        if options.quiet:
+            raise refusal(mission, findings, _ALL_THE_SAME)
+        for one in refusals(mission, findings, _ALL_THE_SAME):
+            say(one, error=True)
+        return EXIT_BAD_INPUT
+    if mission.spatial is None and mission.altitude is None:
+        same = {name: not_default[name] for name in _FLOWN_WITH if name in not_default}
+        go_on(console, "Fly it", to_type("mission.py", **same))
+    else:
+        console.print("A mission with a depth flies in closed loop and campaigns only.")
     return EXIT_DONE
+
+
+def _draw(
+    console: Console, options: argparse.Namespace, mission: Mission, hull: Vehicle, findings: Findings
+) -> None:
+    png = options.out or (None if options.quiet else Path(f"plan-{mission.source.stem}.png"))
+    if png is not None:
+        try:
+            drawing.draw(mission, findings, hull, png, Current(*options.current))
+        except (NotWritten, ValueError) as error:  # ValueError: a suffix that is no picture
+            reason = error.strerror if isinstance(error, NotWritten) else error
+            raise ConfigurationError("--out", f"{png} ({reason})", "a picture that can be written") from None
+        wrote(console, png, "the plan in one picture")
 
 
 def _guidance(options: argparse.Namespace, mission: Mission) -> PathFollowerConfig:
@@ -102,6 +119,8 @@ def _show(console: Console, mission: Mission, hull: Vehicle, findings: Findings)
         f"  path      {path.n} subpaths, {path.length:.2f} m"
         + (f", {times} times round" if times > 1 else "")
     )
+    if mission.spatial is not None:
+        console.print(_depths(mission.spatial, mission.once))
     lasts = f"{findings.duration:.0f} s" if math.isfinite(findings.duration) else "no end"
     console.print(
         f"  duration  {lasts} at {findings.speed:.2f} m/s through the water"
@@ -110,15 +129,21 @@ def _show(console: Console, mission: Mission, hull: Vehicle, findings: Findings)
     turn = f"{findings.turn.radius:.2f} m, {findings.turn.source}"
     console.print(f"  vehicle   {escape(hull.name)}, tightest turn {turn}")
     console.print(_joints(mission))
-    for finding in findings.refusals:
-        console.print(f"[bold red]refused[/bold red]  {escape(str(finding))}")
     for finding in findings.warnings:
         console.print(f"[yellow]warning[/yellow]  {escape(str(finding))}")
     for notice in findings.notices:
         console.print(f"[cyan]notice[/cyan]   {escape(notice)}")
     if not findings.refusals and not findings.warnings:
-        console.print("[green]nothing to say against it[/green]")
+        console.print("[green]no fault found[/green]")
     console.print()
+
+
+def _depths(path: SpatialPath, subpaths: int) -> str:
+    survey = survey_of(path, subpaths)
+    shallowest, deepest = float(survey.z.min()), float(survey.z.max())
+    span = f"{deepest:g} m" if deepest - shallowest < 1e-6 else f"{shallowest:.1f} to {deepest:.1f} m"
+    steepest = math.degrees(float(np.abs(survey.gamma).max()))
+    return f"  depth     {span}, steepest slope {steepest:.1f} deg, {path.length:.2f} m in three dimensions"
 
 
 def _joints(mission: Mission) -> Table | str:
