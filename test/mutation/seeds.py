@@ -31,7 +31,7 @@ description: "of one \\u00e9 text"
 frame: ned
 speed: 1.5
 switching: {mode: g0, radius: 5}
-limits: {path_distance: 50, duration: 900}
+limits: {path_distance: 50, duration: 900, max_depth: 60, max_slope_deg: 30, depth_error: 9}
 geofence: [[-99, -99], [500, -99], [500, 500], [-99, 500]]
 reverse: false
 repeat: 1
@@ -49,6 +49,16 @@ _MORE = (
     "loiter: {centre: [0, 0], radius: 20, turns: 3}",
     "waypoints: {points: &p [[0, 0], [90, 0], [90, 90], [0, 90]], closed: true,"
     " smoothing: {kind: fermat, radius: 9}}",
+    "depth: 12\nwaypoints: {points: [[0, 0], [90, 0]], smoothing: {kind: linear}}",
+    "depth_profile: {kind: smooth, knots: [[0, 5], [60, 9], [120, 5]]}\nreverse: true\n"
+    "waypoints: {points: [[0, 0], [120, 0]], smoothing: {kind: linear}}",
+    "altitude: {above_bottom: 5, min: 2}\nloiter: {centre: [0, 0], radius: 20, turns: 3}",
+    "waypoints: {points: [[0, 0, 5], [90, 0, 9], [90, 90, 7]], depths: take, depth_ramp: linear,"
+    " smoothing: {kind: fermat, radius: 9}}",
+    "waypoints: {points: [[0, 0, 5], [90, 0, 9], [90, 90, 7]], smoothing: {kind: spline}}",
+    "survey: {polygon: [[0, 0], [90, 0], [90, 40], [0, 40]], spacing: 20, heading_deg: 0, leg_depths: [5, 9],"
+    " smoothing: {kind: dubins, radius: 6}}",
+    "helix: {centre: [0, 0], radius: 15, from_depth: 5, to_depth: 40, slope_deg: 10, turn: -1, run_in: 9}",
 )
 
 

@@ -96,6 +96,7 @@ TEXTS: dict[str, tuple[str, ...]] = {
     ),
     "kml": (
         _kml(_placemark(_LINE_KML)),
+        _kml(_placemark(_LINE_KML.replace(",0", ",-6"))),
         _kml(_placemark(f"<MultiGeometry><Polygon><outerBoundaryIs>{_RING_KML}</outerBoundaryIs></Polygon></MultiGeometry>")),
         _kml(f"<Folder>{_placemark(f'<gx:Track>{_TRACK}</gx:Track>')}<NetworkLink/></Folder>"),
     ),
@@ -104,6 +105,7 @@ TEXTS: dict[str, tuple[str, ...]] = {
         "# c\nLatitude (deg);Long_DD;depth\n"
         + "".join(f"{lat};{lon};3\n".replace(".", ",") for lat, lon in _PLACES),
         "north\teast\n0\t0\n50\t0\n50\t50\n",
+        "north,east,depth_m\n0,0,5\n50,0,9\n50,50,7\n",
     ),
     "plan": (json.dumps(_PLAN), json.dumps({"mission": {"items": _POINTS}})),
     "mission": (json.dumps(_OLD_PLAN),),

@@ -233,6 +233,16 @@ def test_depths_that_the_vehicle_cannot_have_are_refused(tmp_path, options, mess
         mission_plan.make(Options(**options), tmp_path)
 
 
+def test_an_altitude_is_held_within_the_limits(tmp_path):
+    text = (
+        "version: 1\nname: low\nframe: ned\nthrust: 6.48\naltitude: {above_bottom: 5, min: 2}\n"
+        "limits: {min_altitude: 3, max_depth: 60}\nloiter: {centre: [0, 0], radius: 30}\n"
+    )
+    (tmp_path / "low.yaml").write_text(text)
+    mode = mission_plan.scenario(Options(mission=str(tmp_path / "low.yaml"), vehicle=DIVER)).mode
+    assert (mode.above, mode.least, mode.surface, mode.deepest) == (5.0, 3.0, 0.5, 60.0)
+
+
 @pytest.mark.parametrize("more", [[], ["--force"]])
 def test_the_launcher_refuses_a_mission_with_a_depth_in_one_line(tmp_path, capsys, more):
     asked = ["helix", "--vehicle", DIVER, "--out", str(tmp_path / "run"), *more]

@@ -14,6 +14,12 @@ from auv_msgs_py.settings.schema import Pair
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import NO_CURRENT, Current
 from auv_path_following import config_files, vehicle
+from auv_path_following.guidance.spatial.vertical_modes import (
+    FOLLOW_PATH,
+    AltitudeConfig,
+    AltitudeHold,
+    PathDepth,
+)
 from auv_path_following.missions import mission_file
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
@@ -87,6 +93,7 @@ class Plan:
             thrust=self.mission.thrust,
             initial=self._diver_start() if self.vehicle.dives else plant.initial.state,
             spatial=self.mission.spatial,
+            mode=self._vertical_mode(),
             current=plant.current.value,
             sea=sea.load(plant.sea) if plant.sea else None,
             seed=plant.seed,
@@ -97,6 +104,16 @@ class Plan:
             pitch=self.parameters[topics.AUTOPILOT].pitch,
             controller_vehicle=self.controller_model,
         )
+
+    def _vertical_mode(self) -> PathDepth | AltitudeHold:
+        """Return what the vertical plane follows: the path's depth, or the mission's altitude."""
+        altitude, limits, allowed = self.mission.altitude, self.mission.limits, self.vehicle.depth
+        if altitude is None:
+            return FOLLOW_PATH
+        least = max(altitude.min, limits.min_altitude)
+        deepest = min(allowed.max, limits.max_depth or allowed.max)
+        filters = dataclasses.astuple(AltitudeConfig())
+        return AltitudeHold(altitude.above_bottom, least, allowed.surface, deepest, *filters)
 
     def _diver_start(self) -> BodyState | None:
         """Return the first state of a vehicle that dives; None for the path's start, along the path.

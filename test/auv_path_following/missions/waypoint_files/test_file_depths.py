@@ -101,7 +101,7 @@ def test_depths_are_left_out_on_request_with_a_line(taken, suffix):
 
 @pytest.mark.parametrize("suffix", FORMATS)
 def test_a_point_above_the_surface_beside_depths_is_refused(taken, suffix):
-    with pytest.raises(ConfigurationError, match="point 2: found a depth of -3 m, expected 0 m or more"):
+    with pytest.raises(ConfigurationError, match="point 2: found a depth of -3 m, expected 0 to 12000 m"):
         taken(suffix, FORMATS[suffix]((-5.0, 3.0, -7.0)))
 
 

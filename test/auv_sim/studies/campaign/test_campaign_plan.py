@@ -169,3 +169,8 @@ def test_a_wrong_study_gets_one_line(file: Path) -> None:
     message = str(error.value)
     assert "\n" not in message and file.name in message
     assert expectation(file) in message, message
+
+
+def test_a_mission_with_a_depth_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ConfigurationError, match="mission: found a path with depths, expected a planar one"):
+        study(tmp_path, "mission: helix\nvehicle: remus100_6dof\nruns: 2\n")

@@ -11,10 +11,12 @@ from auv_path_following.missions.waypoint_files.content import FileShape, Point,
 #: Consecutive points within this distance are one point, m.
 _SAME = 1e-3
 _IGNORE = "`depths: ignore`"
+#: Largest depth of a point, m; no sea is deeper.
+DEEPEST = 12e3
 
 
 def check_depths(depths: Sequence[float], place: Callable[[int], str]) -> None:
-    """Refuse depths of some points only, and depths above the surface.
+    """Refuse depths of some points only, above the surface, or below `DEEPEST`.
 
     Args:
         depths: m, positive down; NaN where a point has none.
@@ -29,8 +31,8 @@ def check_depths(depths: Sequence[float], place: Callable[[int], str]) -> None:
         if missing[k]:
             expected = f"one: {place(first)} has a depth (give all points one, or none)"
             raise ConfigurationError(place(k), "no depth", expected)
-        if not 0.0 <= depth < math.inf:
-            expected = f"0 m or more: depths are positive down ({_IGNORE} leaves them out)"
+        if not 0.0 <= depth <= DEEPEST:
+            expected = f"0 to {DEEPEST:g} m: depths are positive down ({_IGNORE} leaves them out)"
             raise ConfigurationError(place(k), f"a depth of {depth:g} m", expected)
 
 

@@ -21,6 +21,7 @@ from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.mission_check.circles import circles
 from auv_sim.checks.mission_check.crossings import Crossing, crossings
+from auv_sim.checks.mission_check.curvature_steps import curvature_steps
 from auv_sim.checks.mission_check.depths import depths
 from auv_sim.checks.mission_check.finding import Finding, at
 
@@ -83,6 +84,7 @@ def check(
         *survey.way(current),
         *survey.turns(turn, vehicle.name),
         *_corners(mission),
+        *curvature_steps(mission, vehicle, speed),
         *circles(mission, vehicle, switching or SwitchingConfig(), lookahead, speed, current),
         *_crossings(mission),
     ]

@@ -19,8 +19,11 @@ def flight_of(scenario: Scenario) -> FlightConfig:
     """Return the configuration of a flight, without its path, its start and its current.
 
     Raises:
-        ConfigurationError: no hull, or no thrust.
+        ConfigurationError: no hull, no thrust, or a path with depths.
     """
+    if scenario.spatial is not None:
+        expected = "a planar one: the compiled engine has no depth yet"
+        raise ConfigurationError("mission", "a path with depths", expected)
     if not scenario.thrust > 0.0:
         raise ConfigurationError("thrust", f"{scenario.thrust:g}", "a number greater than 0")
     return FlightConfig(

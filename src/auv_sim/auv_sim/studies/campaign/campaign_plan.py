@@ -111,6 +111,7 @@ class StudyPlan:
             autopilot=configs["autopilot"],
             controller_vehicle=self.files.hull(study.controller_model) if study.controller_model else hull,
             time_limit=study.time_limit,
+            spatial=mission.spatial,
         )
 
     def _configs(self, values: dict[str, Value], mission: Mission, hull: Vehicle) -> dict[str, Any]:
