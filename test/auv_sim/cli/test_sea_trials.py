@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shlex
 import shutil
 import subprocess
@@ -164,3 +165,23 @@ def test_the_seas_own_current_counts_in_the_check(tmp_path: Path) -> None:
     strong.write_text("name: strong\ncurrent: {mean: [2.0, 0.0]}\n", encoding="utf-8")
     with pytest.raises(ConfigurationError, match=r"a current of 2\.50 m/s"):
         mission_plan.make(Options(sea=str(strong), current=(0.5, 0.0)), tmp_path)
+
+
+def test_a_vehicle_that_dives_keeps_its_depth_in_the_rough_sea() -> None:
+    """One of the seeds of docs/sea.md, in full."""
+    trial = sea_trials_session.fly(
+        sea_trials_session.TrialJob("paper_ramps", "remus100_6dof", "rough", "rough", 3)
+    )
+    assert trial.completed
+    assert trial.largest_depth_error <= 0.5
+    assert trial.largest_distance <= 2.5
+    assert 0.5 < trial.planes_travel < 2.0
+
+
+def test_a_mission_above_the_bottom_is_not_judged(tmp_path: Path) -> None:
+    mission = tmp_path / "above.yaml"
+    text = (config_files.find("missions", "paper_at_depth")).read_text(encoding="utf-8")
+    mission.write_text(re.sub(r"(?m)^depth: .*$", "altitude: {above_bottom: 5}", text), encoding="utf-8")
+    job = sea_trials_session.TrialJob(str(mission), "remus100_6dof", "rough", "rough", 3)
+    with pytest.raises(ConfigurationError, match=r"altitude: found it, expected a mission with depths"):
+        sea_trials_session.fly(job)

@@ -53,6 +53,32 @@ def test_only_a_flight_that_flew_the_path_to_its_end_within_the_limit_counts() -
     assert (robust.flown_share, rough.flown_share) == (0.94, 0.97)
 
 
+def test_depth_is_judged_after_joining_and_away_from_corners() -> None:
+    path = CompositePath([Line(0.0, 0.0, 200.0, 0.0), Line(200.0, 0.0, 200.0, math.pi / 2.0)])
+    t = np.arange(0.0, 200.0, 0.1)
+    x, y = np.minimum(2.0 * t, 200.0), np.maximum(2.0 * t - 200.0, 0.0)
+    off = np.full(t.size, 0.2)
+    off[t < 29.0] = 3.0  # still joining
+    off[np.abs(t - 100.0) < 14.0] = -2.0  # within 30 m of the corner
+    off[1500] = -0.4
+    columns = {
+        "t": t, "x": x, "y": y, "psi": 0.0 * t, "thrust_cmd": 6.0 + 0.0 * t, "x_true": x,
+        "s": np.minimum(t / 99.5, 2.0),
+        "y_true": y, "z": 10.0 + 0.0 * t, "depth_d": 10.0 + 0.0 * t, "z_true": 10.0 + off, "rudder": 0.0 * t,
+        "sternplanes": np.radians(2.0) * ((np.arange(t.size) // 2) % 2),
+    }  # fmt: skip
+    trial = judge(Run.from_columns(columns), path, "robust", 7)
+    assert trial.largest_depth_error == pytest.approx(0.4)
+    assert trial.planes_travel == pytest.approx(5.0, rel=0.01)
+    kept = [together([trial], 2.5, 0.9, limit)[0].within for limit in (0.39, 0.41)]
+    assert kept == [0, 1]
+
+
+def test_a_vehicle_in_the_plane_has_no_depth_to_judge() -> None:
+    assert math.isnan(GOOD.largest_depth_error)
+    assert together([GOOD], 2.5, 0.9, 1e-9)[0].within == 1
+
+
 def test_a_flight_that_never_came_to_a_corner_does_not_hide_the_others() -> None:
     trials = [
         dataclasses.replace(GOOD, seed=0, largest_at_corners=1.0),

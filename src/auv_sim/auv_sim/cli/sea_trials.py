@@ -24,6 +24,10 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument(
         "--limit", type=positive, default=2.5, metavar="M", help="largest true distance to the path (2.5 m)"
     )
+    p.add_argument(
+        "--depth-limit", type=positive, default=0.5, metavar="M",
+        help="for a vehicle that dives: largest difference of true and requested depth (0.5 m)",
+    )  # fmt: skip
     add_flown_option(p, LEAST_SHARE_AT_SEA)
     p.add_argument(
         "--study", choices=("noise",),

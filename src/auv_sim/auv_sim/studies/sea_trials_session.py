@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import json
+import math
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
@@ -14,23 +15,31 @@ from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
 
+from auv_msgs_py.contract import topics
+from auv_msgs_py.settings import params_file
 from auv_msgs_py.settings.result_files import write_text
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following import config_files, vehicle
+from auv_path_following.missions import mission_file
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, make_directory, to_type
+from auv_sim.flight import closed_loop
 from auv_sim.flight.batch import engine
 from auv_sim.flight.flown_share import percent
 from auv_sim.flight.metrics import without_nan
+from auv_sim.flight.scenario import Scenario
 from auv_sim.launch import mission_plan
-from auv_sim.launch.mission_plan import Plan
 from auv_sim.launch.options import Options
+from auv_sim.sim_parameters import SUITE
 from auv_sim.studies import noise_study
 from auv_sim.studies.pool import tracked
 from auv_sim.studies.trials import Together, Trial, judge, together
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, headed_table, progress_bar, wrote
+from auv_sim.vehicle import sea
 from auv_sim.views import doc_pages
 
-#: Name of the table's part of the page.
-PART = "trials"
+#: Names of the table's parts of the page: of vehicles in the plane, and of those that dive.
+PART, SPATIAL_PART = "trials", "spatial trials"
 
 
 class TrialJob(NamedTuple):
@@ -49,7 +58,8 @@ def run(options: argparse.Namespace) -> int:
     make_directory(options.out)
     noise = options.study == "noise"
     if options.page is not None:
-        doc_pages.check(options.page, noise_study.PART if noise else PART)  # before the flights, not after
+        part = SPATIAL_PART if vehicle.load(options.vehicle).dives else PART
+        doc_pages.check(options.page, noise_study.PART if noise else part)  # before the flights, not after
     return _noise(options, console) if noise else _trials(options, console)
 
 
@@ -74,8 +84,38 @@ def fly(job: TrialJob) -> Trial:
     Raises:
         ConfigurationError: a file that cannot be used.
     """
-    scenario = _plan(job).scenario()
-    return judge(engine.track(scenario), scenario.path, job.params, job.seed)
+    scenario = _scenario(job)
+    run = closed_loop.fly(scenario) if scenario.vehicle.dives else engine.track(scenario)
+    return judge(run, scenario.path, job.params, job.seed)
+
+
+def _scenario(job: TrialJob) -> Scenario:
+    """Return the flight of a job: as over ROS, or in three dimensions for a vehicle that dives.
+
+    Raises:
+        ConfigurationError: a file that cannot be used.
+    """
+    hull = vehicle.load(job.vehicle)
+    if not hull.dives:
+        return mission_plan.make(Options(**job._asdict()), Path()).scenario()
+    mission = mission_file.load(job.mission, hull)
+    if mission.altitude is not None:
+        expected = "a mission with depths, which the trials judge"
+        raise ConfigurationError(f"{mission.source}: altitude", "it", expected)
+    loaded = params_file.load(config_files.find("params", job.params), SUITE)
+    steering = loaded[topics.AUTOPILOT]
+    return Scenario(
+        path=mission.path,
+        spatial=mission.spatial,
+        vehicle=hull,
+        thrust=mission.thrust,
+        sea=sea.load(job.sea),
+        seed=job.seed,
+        guidance=loaded[topics.GUIDANCE].with_mission_overrides(mission).guidance,
+        observer=loaded[topics.OBSERVER].observer,
+        autopilot=steering.autopilot,
+        pitch=steering.pitch,
+    )
 
 
 def _flown(
@@ -88,10 +128,6 @@ def _flown(
     return tracked(bar, workers, what, work, items)
 
 
-def _plan(job: TrialJob) -> Plan:
-    return mission_plan.make(Options(**job._asdict()), Path())
-
-
 def _trials(options: argparse.Namespace, console: Console) -> int:
     seeds = range(options.first, options.first + options.seeds)
     jobs = [
@@ -99,17 +135,20 @@ def _trials(options: argparse.Namespace, console: Console) -> int:
         for seed in seeds
         for params in options.params
     ]
-    for job in jobs[: len(options.params)]:  # report a mistake before the pool starts
-        _plan(job)
+    # A mistake is reported before the pool starts.
+    scenarios = [_scenario(job) for job in jobs[: len(options.params)]]
+    dives = scenarios[0].vehicle.dives
     with progress_bar(console) as bar:
-        trials = _flown(bar, options.workers, "flying", fly, jobs)
-    rows = together(trials, options.limit, options.flown)
+        fly_all = tracked if dives else _flown
+        trials = fly_all(bar, options.workers, "flying", fly, jobs)
+    rows = together(trials, options.limit, options.flown, options.depth_limit)
     record = {
         "mission": options.mission,
         "vehicle": options.vehicle,
         "sea": options.sea,
         "seeds": [seeds.start, seeds.stop - 1],
         "limit_m": options.limit,
+        "depth_limit_m": options.depth_limit if dives else None,
         "least_flown_share": options.flown,
         "together": [dataclasses.asdict(row) for row in rows],
         "trials": [dataclasses.asdict(trial) for trial in trials],
@@ -117,13 +156,14 @@ def _trials(options: argparse.Namespace, console: Console) -> int:
     target = options.out / f"{Path(options.sea).stem}.json"
     _write(target, record)
     if options.page is not None:
-        doc_pages.renew(options.page, PART, _markdown(rows))
+        doc_pages.renew(options.page, SPATIAL_PART if dives else PART, _markdown(rows))
     console.print(_table(rows, options))
     worst = max(trials, key=lambda trial: (not trial.completed, trial.largest_distance))
     wrote(console, target, "every flight")
-    files = {"mission": options.mission, "vehicle": options.vehicle, "params": worst.params}
-    again = to_type("mission.py", **files, sea=options.sea, seed=worst.seed)
-    go_on(console, "The worst one over ROS", again)
+    if not dives:
+        files = {"mission": options.mission, "vehicle": options.vehicle, "params": worst.params}
+        again = to_type("mission.py", **files, sea=options.sea, seed=worst.seed)
+        go_on(console, "The worst one over ROS", again)
     return EXIT_DONE if all(row.within == row.flights for row in rows) else EXIT_FAILED
 
 
@@ -138,24 +178,35 @@ _COLUMNS: tuple[tuple[str, Callable[[Together], str]], ...] = (
     ("rudder (°/m): median", lambda row: f"{row.median['rudder_travel']:.2f}"),
     ("rms rate (°/s)", lambda row: f"{row.median['rudder_rate']:.1f}"),
 )
-_HEADS = [heading for heading, _ in _COLUMNS]
+#: Further columns for a vehicle that dives.
+_IN_DEPTH: tuple[tuple[str, Callable[[Together], str]], ...] = (
+    ("depth off (m): median", lambda row: f"{row.median['largest_depth_error']:.2f}"),
+    ("depth off: worst", lambda row: f"{row.worst['largest_depth_error']:.2f}"),
+    ("planes (°/m): median", lambda row: f"{row.median['planes_travel']:.2f}"),
+)
+
+
+def _columns(rows: Sequence[Together]) -> tuple[tuple[str, Callable[[Together], str]], ...]:
+    return _COLUMNS + _IN_DEPTH if math.isfinite(rows[0].worst["largest_depth_error"]) else _COLUMNS
 
 
 def _table(rows: Sequence[Together], options: argparse.Namespace) -> Table:
     mission, water = Path(options.mission).stem, Path(options.sea).stem
     title = f"{mission} in {water}: true distances, limit {options.limit:g} m, flown {percent(options.flown)}"
-    table = headed_table(title, ("gains",), _HEADS, min_width=len("50 of 50"))
+    columns = _columns(rows)
+    table = headed_table(title, ("gains",), [heading for heading, _ in columns], min_width=len("50 of 50"))
     for row in rows:
         color = "green" if row.within == row.flights else "red"
-        table.add_row(f"[{color}]{row.params}[/]", *(cell(row) for _, cell in _COLUMNS))
+        table.add_row(f"[{color}]{row.params}[/]", *(cell(row) for _, cell in columns))
     return table
 
 
 def _markdown(rows: Sequence[Together]) -> str:
+    columns = _columns(rows)
     lines = [
-        [f"`{row.params.removesuffix('.yaml')}.yaml`", *(cell(row) for _, cell in _COLUMNS)] for row in rows
+        [f"`{row.params.removesuffix('.yaml')}.yaml`", *(cell(row) for _, cell in columns)] for row in rows
     ]
-    return doc_pages.markdown_table(["gains", *_HEADS], lines)
+    return doc_pages.markdown_table(["gains", *(heading for heading, _ in columns)], lines)
 
 
 def _write(file: Path, record: Any) -> None:

@@ -10,8 +10,12 @@ from typing import Any
 import numpy as np
 
 from auv_path_following.curves.composite import CompositePath
+from auv_sim.flight.flown_share import CORNER_RADIUS
 from auv_sim.flight.metrics import summarise, under_way
-from auv_sim.flight.run_record import Column, Run
+from auv_sim.flight.run_record import Column, Run, SpatialRun
+
+#: Time in which a vehicle joins the path and learns the current; its depth is judged afterwards, s.
+JOINING_TIME = 30.0
 
 
 @dataclass(frozen=True)
@@ -30,6 +34,9 @@ class Trial:
         navigation_error: largest distance of the odometry from the truth, m.
         rudder_travel: for each metre covered, deg/m.
         rudder_rate: rms, deg/s.
+        largest_depth_error: true depth against the requested one, from `JOINING_TIME` on and away from G0
+            corners, m; NaN for a vehicle in the plane.
+        planes_travel: of the stern planes for each metre covered, deg/m; NaN for a vehicle in the plane.
     """
 
     params: str
@@ -43,6 +50,8 @@ class Trial:
     navigation_error: float
     rudder_travel: float
     rudder_rate: float
+    largest_depth_error: float = math.nan
+    planes_travel: float = math.nan
 
 
 def judge(run: Run, path: CompositePath, params: str, seed: int) -> Trial:
@@ -57,6 +66,7 @@ def judge(run: Run, path: CompositePath, params: str, seed: int) -> Trial:
     flown = under_way(run, path.n)
     rate = np.degrees(np.diff(flown.rudder)) / np.diff(flown.t)
     corners = [corner.largest_distance for corner in summary.corners]
+    depth_error, planes = _in_depth(flown, path) if isinstance(flown, SpatialRun) else (math.nan, math.nan)
     return Trial(
         params=params,
         seed=seed,
@@ -69,7 +79,22 @@ def judge(run: Run, path: CompositePath, params: str, seed: int) -> Trial:
         navigation_error=summary.navigation_error,
         rudder_travel=summary.rudder_travel_per_metre,
         rudder_rate=float(np.sqrt(np.mean(rate**2))) if rate.size else math.nan,
+        largest_depth_error=depth_error,
+        planes_travel=planes,
     )
+
+
+def _in_depth(flown: SpatialRun, path: CompositePath) -> tuple[float, float]:
+    """Return the largest depth error (m) and the travel of the stern planes for each metre (deg/m)."""
+    x, y = flown.track
+    judged = flown.t - flown.t[:1] >= JOINING_TIME
+    for joint in path.joints:
+        if joint.geometric == "G0":
+            judged &= np.hypot(x - joint.x, y - joint.y) > CORNER_RADIUS
+    error = np.abs(np.where(np.isfinite(flown.z_true), flown.z_true, flown.z) - flown.depth_d)[judged]
+    covered = float(np.hypot(np.diff(x), np.diff(y)).sum())
+    travel = float(np.degrees(np.abs(np.diff(flown.sternplanes))).sum())
+    return _of_known(np.max, error), travel / covered if covered > 0.0 else math.nan
 
 
 @dataclass(frozen=True)
@@ -95,7 +120,7 @@ class Together:
 
 FIGURES = (
     "duration", "largest_distance", "largest_at_corners", "rms_distance", "navigation_error", "rudder_travel",
-    "rudder_rate",
+    "rudder_rate", "largest_depth_error", "planes_travel",
 )  # fmt: skip
 
 
@@ -105,17 +130,21 @@ def _of_known(figure: Callable[[Column], Any], column: Column) -> float:
     return float(figure(known)) if known.size else math.nan
 
 
-def _kept(trial: Trial, limit: float, least_share: float) -> bool:
-    return trial.completed and trial.largest_distance <= limit and trial.flown_share >= least_share
+def _kept(trial: Trial, limit: float, least_share: float, depth_limit: float) -> bool:
+    is_near = trial.largest_distance <= limit and not trial.largest_depth_error > depth_limit
+    return trial.completed and is_near and trial.flown_share >= least_share
 
 
-def together(trials: Sequence[Trial], limit: float, least_share: float) -> list[Together]:
+def together(
+    trials: Sequence[Trial], limit: float, least_share: float, depth_limit: float = math.inf
+) -> list[Together]:
     """Return a row for each set of gains, in order of appearance.
 
     Args:
         trials: the flights.
         limit: for `largest_distance`, m.
         least_share: for `flown_share`.
+        depth_limit: for `largest_depth_error`, m.
     """
     rows = []
     for params in dict.fromkeys(trial.params for trial in trials):
@@ -126,7 +155,7 @@ def together(trials: Sequence[Trial], limit: float, least_share: float) -> list[
                 params=params,
                 flights=len(mine),
                 completed=sum(trial.completed for trial in mine),
-                within=sum(_kept(trial, limit, least_share) for trial in mine),
+                within=sum(_kept(trial, limit, least_share, depth_limit) for trial in mine),
                 flown_share=min(trial.flown_share for trial in mine),
                 median={name: _of_known(np.median, column) for name, column in columns.items()},
                 worst={name: _of_known(np.max, column) for name, column in columns.items()},

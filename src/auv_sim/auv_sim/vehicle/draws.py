@@ -78,9 +78,13 @@ def looked_up(table: Lookup, column: int, at: float) -> float:
     rows, width, numbers = table
     if rows == 0:
         return 0.0
-    k = 0
-    while k < rows and numbers[k * width] <= at:
-        k += 1
+    k, end = 0, rows  # the first row behind `at` is from k to end
+    while k < end:
+        middle = (k + end) // 2
+        if numbers[middle * width] <= at:
+            k = middle + 1
+        else:
+            end = middle
     if k == 0 or k == rows:
         return numbers[max(k - 1, 0) * width + column]  # type: ignore[no-any-return]
     before, after = (k - 1) * width, k * width
