@@ -98,6 +98,17 @@ def accelerations(model: SwayYaw, ur: float, vr: float, r: float) -> tuple[float
     return model.inv_vv * SY + model.inv_vr * SN, model.inv_rv * SY + model.inv_rr * SN
 
 
+def slopes(model: SwayYaw, ur: float, vr: float, r: float) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return the derivatives of (dvr/dt, dr/dt) by vr (first of each pair) and by r, rudder held."""
+    h = model.hull
+    Yv, Yr = 2.0 * h.Yvv * abs(vr) + h.Yuv * ur, 2.0 * h.Yrr * abs(r) + (h.Yur - h.m) * ur
+    Nv, Nr = 2.0 * h.Nvv * abs(vr) + h.Nuv * ur, 2.0 * h.Nrr * abs(r) + h.Nur * ur
+    return (
+        (model.inv_vv * Yv + model.inv_vr * Nv, model.inv_vv * Yr + model.inv_vr * Nr),
+        (model.inv_rv * Yv + model.inv_rr * Nv, model.inv_rv * Yr + model.inv_rr * Nr),
+    )
+
+
 @pure
 def rudder_gain(model: SwayYaw, ur: float) -> tuple[float, float]:
     """Return (dvr/dt, dr/dt) for each radian of rudder, m/s^2 and 1/s^2."""
@@ -154,18 +165,38 @@ class HullModel:
     def steady_turn(self, thrust: float) -> SteadyTurn:
         """Return the turn under full rudder in which all forces of Eq. (19) balance, sway and drag included.
 
-        With n = vr/ur and p = r/ur the sway row gives the drift n for any p, the yaw row then p, and the
-        surge row the speed.
-
         Args:
             thrust: N, greater than 0.
 
         Raises:
             ConfigurationError: there is no such balance.
         """
+        n, p, drag = self._balance(self.vehicle.rudder.max_angle)
+        speed = math.sqrt(thrust / drag) * math.hypot(1.0, n)
+        return SteadyTurn(math.hypot(1.0, n) / p, speed, "found from the hull")
+
+    def steady_motion(self, thrust: float, angle: float) -> tuple[float, float, float]:
+        """Return ur, vr (m/s) and r (rad/s) in a steady turn to starboard.
+
+        Args:
+            thrust: N, greater than 0.
+            angle: of the rudder, rad, greater than 0.
+
+        Raises:
+            ConfigurationError: as `steady_turn`.
+        """
+        n, p, drag = self._balance(angle)
+        ur = math.sqrt(thrust / drag)
+        return ur, n * ur, p * ur
+
+    def _balance(self, angle: float) -> tuple[float, float, float]:
+        """Return n = vr/ur, p = r/ur (rad/m) and thrust/ur^2 (kg/m) in a steady turn.
+
+        The sway row gives the drift n for any p, the yaw row then p, and the surge row the speed.
+        """
         h = self.hull
-        p = _first_root(lambda p: self._unbalanced(p)[1])
-        n = self._unbalanced(p)[0]
+        p = _first_root(lambda p: self._unbalanced(p, angle)[1])
+        n = self._unbalanced(p, angle)[0]
         drag = -h.Xuu - self.Xvr * n * p - h.Xrr * p * p
         if not drag > 0.0:  # NaN is no balance either
             raise ConfigurationError(
@@ -173,12 +204,11 @@ class HullModel:
                 "no steady turn with full rudder",
                 "a measured radius: turning: {radius: ...}",
             )
-        speed = math.sqrt(thrust / drag) * math.hypot(1.0, n)
-        return SteadyTurn(math.hypot(1.0, n) / p, speed, "found from the hull")
+        return n, p, drag
 
-    def _unbalanced(self, p: float) -> tuple[float, float]:
+    def _unbalanced(self, p: float, angle: float) -> tuple[float, float]:
         """Drift n = vr/ur in a turn to starboard with p = r/ur (rad/m), and SN/ur^2 that is left (kg)."""
-        h, rudder = self.hull, -self.vehicle.rudder.max_angle
+        h, rudder = self.hull, -angle
         SY = h.Yrr * p * p + (h.Yur - h.m) * p + h.Yuud * rudder
         # Of the roots of Yvv n|n| + Yuv n + SY = 0 the outer one is where drag brakes the drift.
         size = (h.Yuv + math.sqrt(h.Yuv * h.Yuv - 4.0 * h.Yvv * abs(SY))) / (-2.0 * h.Yvv)

@@ -10,7 +10,7 @@ from auv_msgs_py.values.pure import pure
 from auv_msgs_py.values.types import NO_CURRENT, Current
 from auv_path_following.control.hull_model import measured_effect, tightest_turn
 from auv_path_following.control.nism import NismConfig, kp_of
-from auv_path_following.control.reference_model import ReferenceConfig, limits_of
+from auv_path_following.control.reference_model import ReferenceConfig, ReferenceLimits, limits_of
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.rows import CHI_IN, CHI_OUT, WIDEST
 from auv_path_following.vehicle import Vehicle
@@ -54,7 +54,12 @@ def cornering_of(vehicle: Vehicle) -> Cornering:
     if vehicle.hull is None and measured_effect(vehicle) is None:
         return Cornering(vehicle.top_speed / tightest_turn(vehicle).radius, _USUAL_LEAD)
     rudder_rate = kp_of(NismConfig(kp_from_rudder=True), vehicle)
-    rate, acceleration, jerk = limits_of(ReferenceConfig(), vehicle, rudder_rate)
+    return cornering_within(limits_of(ReferenceConfig(), vehicle, rudder_rate))
+
+
+def cornering_within(limits: ReferenceLimits) -> Cornering:
+    """Return the turning ability of a vehicle whose heading reference has these limits."""
+    rate, acceleration, jerk = limits
     return Cornering(rate, 0.5 * rate / acceleration + 0.5 * acceleration / jerk + _LAG)
 
 

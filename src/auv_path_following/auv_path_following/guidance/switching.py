@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from typing import Any, NamedTuple
 
@@ -37,14 +38,32 @@ class SwitchingConfig:
         le=1000.0,
         live=True,
     )
+    turn_rate: float = setting(
+        0.0,
+        "yaw rate of turns, for a computed radius: the limit of the autopilot's reference; 0: from the hull",
+        unit="rad/s",
+        ge=0.0,
+        le=10.0,
+        live=True,
+    )
+    lead: float = setting(
+        1.0,
+        "time by which turns of this rate begin earlier, for its limits of acceleration and jerk",
+        unit="s",
+        ge=0.0,
+        le=60.0,
+        live=True,
+    )
 
 
 def with_overrides(
     config: SwitchingConfig, mode: SwitchingMode | None, radius: float | None
 ) -> SwitchingConfig:
     """Return `config` with a mission's values; None leaves a value as it is."""
-    return SwitchingConfig(
-        mode=config.mode if mode is None else mode, radius=config.radius if radius is None else radius
+    return dataclasses.replace(
+        config,
+        mode=config.mode if mode is None else mode,
+        radius=config.radius if radius is None else radius,
     )
 
 
@@ -71,9 +90,11 @@ def circles_of(config: SwitchingConfig, cornering: Cornering | None, lookahead: 
 
     Args:
         config: joints and Rk.
-        cornering: turning ability, for an Rk of 0; None: an Rk of 0 is no circle.
+        cornering: turning ability, for an Rk of 0 where `config` has no rate; None: an Rk of 0 is no circle.
         lookahead: Delta, m.
     """
+    if cornering is not None and config.turn_rate > 0.0:
+        cornering = Cornering(float(config.turn_rate), float(config.lead))
     mode = MODES.index(config.mode)
     computed = cornering is not None and not config.radius > 0.0
     return Circles(mode, float(config.radius), computed, cornering or _NO_CORNERING, lookahead)

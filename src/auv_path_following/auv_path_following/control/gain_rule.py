@@ -1,0 +1,153 @@
+"""Gains for a hull without shipped ones: a rule from a few numbers of its response and the delay.
+
+docs/tuning.md derives the rule and has its measured limits.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from auv_path_following.control.autopilot import AutopilotConfig
+from auv_path_following.control.fin_response import FinResponse, response_of
+from auv_path_following.control.nism import NismConfig
+from auv_path_following.control.pitch_plane import pitch_plane_of
+from auv_path_following.control.reference_model import JERK_SHARE, ReferenceConfig
+from auv_path_following.vehicle import Rudder, Vehicle
+
+#: Least delay that the rule allows for, s.
+LEAST_DELAY = 0.1
+#: w_c^2 tau: `INSTABILITY` p of an unstable hull, at least `STEADINESS`, 1/s.
+INSTABILITY, STEADINESS = 1.7, 3.0
+#: Largest kp, rad/s: a faster servo adds nothing but gain.
+LARGEST_KP = 1.0
+#: The reference's acceleration: share of the full fin, and time in which its jerk builds it up, s.
+FIN_SHARE, BUILD_UP = 0.3, 0.5
+#: A fin counts as at most this many full angles a second fast, 1/s.
+FASTEST = 2.5
+#: w_r over w_c, and at most over jerk/acceleration; in pitch it is `PITCH_SHARE` times as much.
+REFERENCE_SHARE, REFERENCE_LAG, PITCH_SHARE = 0.1, 0.28, 1.5
+#: b rate/p^2 below which a fin is slow for its unstable hull, rad/s: the deviation that it can still catch.
+FULL_AUTHORITY = 0.13
+#: Share of the steady turn that the reference may use.
+RATE_SHARE = 0.9
+#: a = k1 k2 and c = k3 k4 over w_c; k1 over the reference's rate, k3 over its acceleration.
+A_SHARE, C_SHARE, K1_SHARE, K3_SHARE = 0.19, 0.05, 0.9, 1.0
+#: Delta = `LOOKAHEADS` u0/w_r + `DRIFTS` u0 T_v; in pitch the drift counts `PITCH_SHARE` times less.
+LOOKAHEADS, DRIFTS = 2.0, 3.5
+#: Product of divergence and delay, and authority (rad/s), up to and from which limit cycles were absent.
+LARGEST_PRODUCT, LEAST_AUTHORITY = 0.4, 0.1
+
+
+class PlaneGains(NamedTuple):
+    """Gains of one plane.
+
+    Attributes:
+        autopilot: controller and reference.
+        lookahead: Delta, m.
+        crossover: w_c of the inner loop, 1/s.
+        product: p tau, the divergence times the delay; 0 of a stable hull.
+        authority: b rate/p^2, rad/s; very large of a stable hull.
+    """
+
+    autopilot: AutopilotConfig
+    lookahead: float
+    crossover: float
+    product: float
+    authority: float
+
+
+class Gains(NamedTuple):
+    """Gains of a vehicle.
+
+    Attributes:
+        heading: of the horizontal plane.
+        pitch: of the vertical plane; None of a planar vehicle.
+        notices: a line for each condition of the rule that the vehicle or the delay does not meet.
+    """
+
+    heading: PlaneGains
+    pitch: PlaneGains | None
+    notices: tuple[str, ...]
+
+
+def gains_for(vehicle: Vehicle, delay: float = 0.0, step: float = 0.05) -> Gains:
+    """Return gains for a vehicle.
+
+    Args:
+        vehicle: with a hull, or with what was measured.
+        delay: from a measurement to the arrival of its command, s; the fin's own dead time is added.
+        step: between two odometries, s.
+
+    Raises:
+        ConfigurationError: no turn of the hull is steady, and none was measured.
+    """
+    heading = plane_gains(response_of(vehicle), vehicle.rudder, delay, step)
+    pitch = None
+    if vehicle.sternplanes is not None:
+        side = response_of(pitch_plane_of(vehicle))
+        pitch = plane_gains(side, vehicle.sternplanes, delay, step, PITCH_SHARE)
+    named = (("rudder", heading), ("stern planes", pitch))
+    notices = [
+        line for name, plane in named if plane is not None for line in _notices(vehicle.name, name, plane)
+    ]
+    return Gains(heading, pitch, tuple(notices))
+
+
+def plane_gains(
+    response: FinResponse, fin: Rudder, delay: float, step: float, quickness: float = 1.0
+) -> PlaneGains:
+    """Return the gains of one plane.
+
+    Args:
+        response: of the hull to the fin.
+        fin: its limits and dead time.
+        delay, step: as in `gains_for`.
+        quickness: factor of the reference's bandwidth, divisor of the drift in the look-ahead.
+    """
+    b, p, speed = response.effect, max(response.divergence, 1e-6), response.speed
+    tau = max(delay + fin.dead_time + 0.5 * step, LEAST_DELAY)
+    crossover = _crossover(response, tau)
+    kp = min(fin.max_rate, LARGEST_KP)
+    k5 = 1.0 / (kp * abs(response.gain(crossover)))
+    jerk = JERK_SHARE * b * min(fin.max_rate, FASTEST * fin.max_angle)
+    acceleration = min(FIN_SHARE * b * fin.max_angle, BUILD_UP * jerk)
+    authority = b * fin.max_rate / (p * p)
+    slowest = REFERENCE_LAG * jerk / acceleration * min(1.0, authority / FULL_AUTHORITY)
+    bandwidth = quickness * min(REFERENCE_SHARE * crossover, slowest)
+    rate = min(RATE_SHARE * response.turn, acceleration / bandwidth)
+    k1, k3 = K1_SHARE * rate, K3_SHARE * acceleration
+    nism = NismConfig(
+        k1=k1, k2=A_SHARE * crossover / k1, k3=k3, k4=C_SHARE * crossover / k3, k5=k5, kp=kp, ks=0.0
+    )
+    reference = ReferenceConfig(
+        enabled=True, bandwidth=bandwidth, max_rate=rate, max_acceleration=acceleration, max_jerk=jerk
+    )
+    lookahead = speed * (LOOKAHEADS / bandwidth + DRIFTS / quickness * response.drift_time)
+    return PlaneGains(
+        AutopilotConfig(nism=nism, reference=reference), lookahead, crossover, p * tau, authority
+    )
+
+
+def _crossover(response: FinResponse, tau: float) -> float:
+    """Return w_c = sqrt(max(1.7 p, 3 1/s)/tau'), where sideslip that makes the hull late adds to tau."""
+    strength = max(INSTABILITY * response.divergence, STEADINESS)
+    crossover = math.sqrt(strength / tau)
+    for _ in range(6):
+        crossover = math.sqrt(strength / (tau + response.lag(crossover)))
+    return crossover
+
+
+def _notices(name: str, fin: str, plane: PlaneGains) -> list[str]:
+    found = []
+    if plane.product > LARGEST_PRODUCT:
+        found.append(
+            f"{name}: {fin}: divergence times delay is {plane.product:.2f}, above {LARGEST_PRODUCT:g}: "
+            "too much delay for this hull, expect a limit cycle"
+        )
+    if plane.authority < LEAST_AUTHORITY:
+        found.append(
+            f"{name}: {fin}: effect times rate over divergence^2 is {plane.authority:.3f} rad/s, below "
+            f"{LEAST_AUTHORITY:g}: too slow a fin for this hull, expect limit cycles after large deviations"
+        )
+    return found

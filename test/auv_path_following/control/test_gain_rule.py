@@ -1,0 +1,108 @@
+"""The rule for gains: what it derives from what, and where it says that it does not hold."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from auv_path_following import vehicle
+from auv_path_following.control.fin_response import FinResponse, response_of
+from auv_path_following.control.gain_rule import Gains, gains_for, plane_gains
+from auv_path_following.control.hull_model import tightest_turn
+from auv_path_following.vehicle import Rudder
+from hulls import DIVER, REMUS, STABLE, drawn
+
+PEER = vehicle.load("mss_remus100")
+_response = st.builds(
+    lambda speed, effect, divergence, turn, drift: FinResponse(
+        speed, effect, divergence, turn, drift, -1.0, -1.0
+    ),
+    st.floats(0.5, 4.0), st.floats(0.3, 12.0), st.floats(-3.0, 3.5), st.floats(0.05, 1.2),
+    st.floats(0.05, 3.0),
+)  # fmt: skip
+_fin = st.builds(
+    lambda angle, rate, dead_time: Rudder(max_angle_deg=angle, max_rate_deg_s=rate, dead_time=dead_time),
+    st.floats(8.0, 40.0), st.floats(3.0, 900.0), st.floats(0.0, 0.5),
+)  # fmt: skip
+
+
+def with_rudder(**changes: float) -> vehicle.Vehicle:
+    return dataclasses.replace(REMUS, rudder=dataclasses.replace(REMUS.rudder, **changes))
+
+
+@given(_response, _fin, st.floats(0.0, 0.5), st.sampled_from([0.02, 0.05, 0.1]))
+def test_any_hull_gets_gains_within_their_bounds(response, fin, delay, step) -> None:
+    """The settings classes refuse what is out of range, and the reference stays within the fin's power."""
+    plane = plane_gains(response, fin, delay, step)
+    nism, reference = plane.autopilot.nism, plane.autopilot.reference
+    assert nism.kp <= fin.max_rate + 1e-12
+    assert reference.max_acceleration <= response.effect * fin.max_angle / 3.0
+    assert reference.max_rate <= response.turn
+    assert reference.max_rate * reference.bandwidth <= reference.max_acceleration * (1.0 + 1e-9)
+    assert plane.lookahead > response.speed / reference.bandwidth
+    loop = nism.kp * nism.k5 * abs(response.gain(plane.crossover))
+    assert loop == pytest.approx(1.0)  # w_c is where the inner loop has the gain 1
+    assert plane.crossover * max(delay + fin.dead_time + 0.5 * step, 0.1) < 3.2
+
+
+def test_more_delay_makes_everything_slower() -> None:
+    quick, slow = gains_for(REMUS, 0.05, 0.05).heading, gains_for(REMUS, 0.15, 0.05).heading
+    assert slow.crossover < quick.crossover
+    assert slow.autopilot.reference.bandwidth < quick.autopilot.reference.bandwidth
+    assert slow.lookahead > quick.lookahead
+    assert gains_for(with_rudder(dead_time=0.1), 0.05, 0.05).heading.autopilot == slow.autopilot
+    assert gains_for(REMUS, 0.15, 0.1).heading.crossover < slow.crossover
+
+
+def test_the_rudders_power_leaves_the_crossover_alone() -> None:
+    """A fast servo must not raise the loop's gain: that was the limit cycle of the stable hull."""
+    plane, fast = (gains_for(with_rudder(max_rate_deg_s=rate)).heading for rate in (15.0, 300.0))
+    assert fast.crossover == plane.crossover
+    assert fast.autopilot.nism.kp == 1.0
+    product = plane.autopilot.nism.kp * plane.autopilot.nism.k5
+    assert fast.autopilot.nism.kp * fast.autopilot.nism.k5 == pytest.approx(product)
+
+
+def test_a_hull_that_drifts_looks_further_ahead() -> None:
+    drifting = gains_for(STABLE).heading
+    share = drifting.lookahead * drifting.autopilot.reference.bandwidth / STABLE.top_speed
+    own = gains_for(REMUS).heading
+    assert share > own.lookahead * own.autopilot.reference.bandwidth / REMUS.top_speed + 0.3
+
+
+def test_the_turn_is_the_true_one() -> None:
+    """Sway and lost speed make the stable hull turn at 0.21 rad/s, two thirds of speed over radius."""
+    assert gains_for(STABLE).heading.autopilot.reference.max_rate <= 0.9 * tightest_turn(STABLE).rate
+    assert response_of(STABLE).turn == pytest.approx(0.208, abs=1e-3)
+
+
+def test_a_vehicle_that_dives_has_pitch_gains_that_are_quicker() -> None:
+    gains = gains_for(DIVER)
+    assert gains.pitch is not None
+    assert gains.pitch.autopilot.reference.bandwidth > 1.3 * gains.heading.autopilot.reference.bandwidth
+    assert gains_for(REMUS).pitch is None
+    assert gains_for(REMUS).heading == gains.heading
+
+
+def test_measured_numbers_are_enough() -> None:
+    gains = gains_for(PEER)
+    assert gains.notices == ()
+    assert gains.pitch is not None
+    nism = gains.heading.autopilot.nism
+    power = PEER.turning.effect / math.hypot(gains.heading.crossover, PEER.turning.divergence)
+    assert nism.kp * nism.k5 == pytest.approx(1.0 / power)
+
+
+def test_it_says_where_it_does_not_hold() -> None:
+    def lines(gains: Gains) -> str:
+        return "\n".join(gains.notices)
+
+    assert gains_for(REMUS, 0.15, 0.1).notices == ()
+    assert "rudder: divergence times delay is 0.80, above 0.4" in lines(gains_for(REMUS, 0.55, 0.1))
+    weak = lines(gains_for(with_rudder(max_rate_deg_s=3.0)))
+    assert "effect times rate over divergence^2 is 0.084 rad/s, below 0.1" in weak
+    assert gains_for(drawn(5), 0.5, 0.1).notices == ()  # hardly unstable
