@@ -6,7 +6,7 @@ import dataclasses
 
 import pytest
 
-from auv_path_following.control.gain_rule import gains_for
+from auv_path_following.control.rule.gain_rule import gains_for
 from auv_path_following.guidance.approach import agility_of
 from auv_path_following.guidance.path_follower import PathFollowerConfig, prepare
 from auv_path_following.guidance.ruled_guidance import with_gains

@@ -12,7 +12,7 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.settings import params_file
 from auv_path_following import config_files, vehicle
 from auv_path_following.control.autopilot import AutopilotConfig
-from auv_path_following.control.gain_rule import gains_for
+from auv_path_following.control.rule.gain_rule import gains_for
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.kinds.line import Line
 from auv_path_following.guidance.approach import ApproachConfig

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 
-from auv_path_following.control.gain_rule import Gains
 from auv_path_following.control.reference_model import ReferenceLimits
+from auv_path_following.control.rule.gain_rule import RuledGains
 from auv_path_following.guidance.acceptance import cornering_within
 from auv_path_following.guidance.laws.registered import LAWS
 from auv_path_following.guidance.path_follower import PathFollowerConfig
 
 
-def with_gains(config: PathFollowerConfig, gains: Gains) -> PathFollowerConfig:
+def with_gains(config: PathFollowerConfig, gains: RuledGains) -> PathFollowerConfig:
     """Return guidance with the look-aheads of the rule, and a radius computed for each corner.
 
     Args:

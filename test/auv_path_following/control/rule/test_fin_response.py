@@ -10,8 +10,8 @@ import pytest
 
 from auv_path_following import vehicle
 from auv_path_following.abilities import Cruise, Turning
-from auv_path_following.control.fin_response import response_of
 from auv_path_following.control.hull_model import HullModel, accelerations, rudder_gain, slopes
+from auv_path_following.control.rule.fin_response import response_of
 from auv_path_following.vehicle import Vehicle
 from hulls import REMUS, STABLE, drawn
 

@@ -10,9 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from auv_path_following import vehicle
-from auv_path_following.control.fin_response import FinResponse, response_of
-from auv_path_following.control.gain_rule import Gains, gains_for, plane_gains
 from auv_path_following.control.hull_model import tightest_turn
+from auv_path_following.control.rule.fin_response import FinResponse, response_of
+from auv_path_following.control.rule.gain_rule import RuledGains, gains_for, plane_gains
 from auv_path_following.vehicle import Rudder
 from hulls import DIVER, REMUS, STABLE, drawn
 
@@ -98,7 +98,7 @@ def test_measured_numbers_are_enough() -> None:
 
 
 def test_it_says_where_it_does_not_hold() -> None:
-    def lines(gains: Gains) -> str:
+    def lines(gains: RuledGains) -> str:
         return "\n".join(gains.notices)
 
     assert gains_for(REMUS, 0.15, 0.1).notices == ()

@@ -1,4 +1,4 @@
-"""Gains for a hull without shipped ones: a rule from a few numbers of its response and the delay.
+"""RuledGains for a hull without shipped ones: a rule from a few numbers of its response and the delay.
 
 docs/tuning.md derives the rule and has its measured limits.
 """
@@ -9,10 +9,10 @@ import math
 from typing import NamedTuple
 
 from auv_path_following.control.autopilot import AutopilotConfig
-from auv_path_following.control.fin_response import FinResponse, response_of
 from auv_path_following.control.nism import NismConfig
 from auv_path_following.control.pitch_plane import pitch_plane_of
 from auv_path_following.control.reference_model import JERK_SHARE, ReferenceConfig
+from auv_path_following.control.rule.fin_response import FinResponse, response_of
 from auv_path_following.vehicle import Rudder, Vehicle
 
 #: Least delay that the rule allows for, s.
@@ -40,7 +40,7 @@ LARGEST_PRODUCT, LEAST_AUTHORITY = 0.4, 0.1
 
 
 class PlaneGains(NamedTuple):
-    """Gains of one plane.
+    """RuledGains of one plane.
 
     Attributes:
         autopilot: controller and reference.
@@ -57,8 +57,8 @@ class PlaneGains(NamedTuple):
     authority: float
 
 
-class Gains(NamedTuple):
-    """Gains of a vehicle.
+class RuledGains(NamedTuple):
+    """RuledGains of a vehicle.
 
     Attributes:
         heading: of the horizontal plane.
@@ -71,7 +71,7 @@ class Gains(NamedTuple):
     notices: tuple[str, ...]
 
 
-def gains_for(vehicle: Vehicle, delay: float = 0.0, step: float = 0.05) -> Gains:
+def gains_for(vehicle: Vehicle, delay: float = 0.0, step: float = 0.05) -> RuledGains:
     """Return gains for a vehicle.
 
     Args:
@@ -91,7 +91,7 @@ def gains_for(vehicle: Vehicle, delay: float = 0.0, step: float = 0.05) -> Gains
     notices = [
         line for name, plane in named if plane is not None for line in _notices(vehicle.name, name, plane)
     ]
-    return Gains(heading, pitch, tuple(notices))
+    return RuledGains(heading, pitch, tuple(notices))
 
 
 def plane_gains(

@@ -1,0 +1,1 @@
+"""Gains by rule, for a hull without shipped ones."""
