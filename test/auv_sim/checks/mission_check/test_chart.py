@@ -51,6 +51,25 @@ def test_a_path_over_the_antimeridian_is_cut_there_and_read_back_as_one(tmp_path
     assert float(np.hypot(np.diff(x), np.diff(y)).sum()) == pytest.approx(mission.path.length, abs=0.01)
 
 
+@pytest.mark.parametrize("suffix", [".geojson", ".kml"])
+@pytest.mark.parametrize("kind", ["linear", "fermat, radius: 12", "spline"])
+def test_depths_come_back_as_depths(tmp_path, suffix, kind):
+    origin = "origin: {latitude_deg: 63.0, longitude_deg: 10.0}"
+    route = f"waypoints: {{points: [[0, 0, 5], [200, 0, 30], [250, 90, 8]], smoothing: {{kind: {kind}}}}}"
+    (tmp_path / "m.yaml").write_text(f"version: 1\nname: deep\nframe: ned\nspeed: 1\n{origin}\n{route}\n")
+    mission = mission_file.load(str(tmp_path / "m.yaml"))
+    chart.export(mission, tmp_path / f"path{suffix}")
+    line = waypoint_files.choose(waypoint_files.read(tmp_path / f"path{suffix}"), "waypoints")
+    x, y = to_ned(mission.origin, *zip(*line.points, strict=True))
+    path = mission.spatial
+    for i in range(path.n):
+        for point in (path.evaluate(i, 0.0), path.evaluate(i, 1.0)):
+            k = int(np.argmin(np.hypot(x - point.x, y - point.y)))
+            assert line.depths[k] == pytest.approx(point.z, abs=2e-3)
+    chords = np.sqrt(np.diff(x) ** 2 + np.diff(y) ** 2 + np.diff(line.depths) ** 2)
+    assert chords.sum() == pytest.approx(path.length, rel=2e-3)
+
+
 def test_waypoints_and_joints_have_names(tmp_path):
     mission = mission_file.load("survey_wgs84")
     chart.export(mission, tmp_path / "path.geojson")

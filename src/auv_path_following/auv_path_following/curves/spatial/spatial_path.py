@@ -103,7 +103,8 @@ class SpatialPath:
         lengths = [subpath.length for subpath in self.subpaths]
         #: Length in three dimensions, m.
         self.length: Final = math.fsum(lengths)
-        self._after: Final = tuple(itertools.accumulate(reversed(lengths[1:]), initial=0.0))[::-1]
+        #: Length of path after each subpath, m.
+        self.after: Final = tuple(itertools.accumulate(reversed(lengths[1:]), initial=0.0))[::-1]
 
     def evaluate(self, i: int, t: float) -> SpatialPoint:
         """Return the point at t in [0, 1] of subpath i (from 0)."""
@@ -115,7 +116,7 @@ class SpatialPath:
 
     def distance_to_go(self, i: int, t: float) -> float:
         """Return the length of path from t of subpath i (from 0) to the end of the path, m."""
-        return self.subpaths[i].length_to_go(t) + self._after[i]
+        return self.subpaths[i].length_to_go(t) + self.after[i]
 
     @property
     def start_pose(self) -> SpatialPose:

@@ -6,7 +6,6 @@ an arc is such a polynomial itself.
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
 from auv_msgs_py.values.pure import pure
@@ -77,17 +76,20 @@ def spatial_rows(path: SpatialPath) -> SpatialRows:
     planar = path.plan.rows
     depth: list[tuple[float, ...]] = []
     pieces: list[float] = []
-    lengths = [subpath.length for subpath in path.subpaths]
+    # A path that repeats itself holds one subpath many times; its pieces are kept once.
+    known: dict[int, tuple[float, float]] = {}
     subpaths = []
-    for i in range(path.n):
+    for i, subpath in enumerate(path.subpaths):
         row = list(planar.subpath[i])
-        row[LENGTH], row[AFTER] = lengths[i], math.fsum(lengths[i + 1 :])
+        row[LENGTH], row[AFTER] = subpath.length, path.after[i]
         row[SPEED] = tangent_of(path.evaluate(i, 0.0)).speed
         if i < len(path.joints):
             row[JOINT] = CORNER if path.joints[i].is_corner else SMOOTH
             row[JOINT_Z] = path.joints[i].z
         subpaths.append(tuple(row))
-        own = path.subpaths[i].depth_pieces
-        depth.append((float(len(pieces)), float(len(own) // DEPTH_WIDTH)))
-        pieces += own
+        if id(subpath) not in known:
+            own = subpath.depth_pieces
+            known[id(subpath)] = float(len(pieces)), float(len(own) // DEPTH_WIDTH)
+            pieces += own
+        depth.append(known[id(subpath)])
     return SpatialRows(PathRows(path.n, tuple(subpaths), planar.piece), tuple(depth), pieces)

@@ -1,4 +1,4 @@
-"""Writes the path for a chart: GeoJSON and KML, in degrees."""
+"""Writes the path for a chart: GeoJSON and KML, in degrees; depths are altitudes below 0."""
 
 from __future__ import annotations
 
@@ -19,6 +19,8 @@ from auv_path_following.missions.mission_file import Mission
 
 #: Largest distance of the drawn line from the path, m.
 _ERROR = 0.05
+#: Largest distance of places on a ramp, m.
+_SPACING = 5.0
 #: 1e-8 degrees are a millimetre.
 _DIGITS = 8
 _KML = "http://www.opengis.net/kml/2.2"
@@ -50,29 +52,46 @@ def export(mission: Mission, target: Path) -> None:
         ) from None
 
 
-def _places(mission: Mission, north: Any, east: Any) -> list[Place]:
-    """Return [longitude, latitude] (deg) of points (m), as both formats have it."""
+def _places(mission: Mission, north: Any, east: Any, depth: Any = None) -> list[Place]:
+    """Return [longitude, latitude] (deg), with a depth [..., altitude] (m), of points (m)."""
     if mission.origin is None or not len(north):
         return []
     latitude, longitude = to_geodetic(mission.origin, north, east)
     places: list[Place] = np.column_stack((longitude, latitude)).round(_DIGITS).tolist()
-    return places
+    if depth is None:
+        return places
+    heights = (0.0 - np.asarray(depth, float)).round(3).tolist()
+    return [[*place, height] for place, height in zip(places, heights, strict=True)]
+
+
+def _pieces(mission: Mission) -> list[tuple[Any, ...]]:
+    """Return north, east and, of a path in three dimensions, depth of one lap, subpath by subpath."""
+    if mission.spatial is None:
+        return [polygon(segment, _ERROR) for segment in mission.path.segments[: mission.once]]
+    pieces = []
+    for i in range(mission.once):
+        subpath = mission.spatial.subpaths[i]
+        shape = len(polygon(subpath.plan, _ERROR)[0])
+        is_straight = subpath.knots[0].depth == subpath.knots[-1].depth and len(subpath.knots) == 2
+        count = shape if is_straight else max(shape, 1 + math.ceil(subpath.length / _SPACING))
+        pieces.append(tuple(mission.spatial.sampled(i, np.linspace(0.0, 1.0, count))[:3]))
+    return pieces
 
 
 def _line(mission: Mission) -> list[list[Place]]:
     """Return the path in parts that end at the antimeridian (RFC 7946, section 3.1.9)."""
-    pieces = [polygon(segment, _ERROR) for segment in mission.path.segments[: mission.once]]
-    kept = [(x[:-1], y[:-1]) for x, y in pieces[:-1]] + [pieces[-1]]
-    north, east = (np.concatenate(axis) for axis in zip(*kept, strict=True))
-    places = _places(mission, north, east)
+    pieces = _pieces(mission)
+    kept = [*(tuple(axis[:-1] for axis in piece) for piece in pieces[:-1]), pieces[-1]]
+    north, east, *depth = (np.concatenate(axis) for axis in zip(*kept, strict=True))
+    places = _places(mission, north, east, *depth)
     parts = [places[:1]]
     for k in range(1, len(places)):
-        (before, _), (after, _) = places[k - 1 : k + 1]
+        before, after = places[k - 1][0], places[k][0]
         if abs(after - before) > 180.0:
             edge = math.copysign(180.0, before)
             latitude = _crossing(mission, north[k - 1 : k + 1], east[k - 1 : k + 1])
-            parts[-1].append([edge, latitude])
-            parts.append([[-edge, latitude]])
+            parts[-1].append([edge, latitude, *places[k][2:]])
+            parts.append([[-edge, latitude, *places[k][2:]]])
         parts[-1].append(places[k])
     # A point on the antimeridian itself is there twice, and alone in its part at an end of the path.
     distinct = [[place for place, _ in itertools.groupby(part)] for part in parts]
@@ -86,7 +105,7 @@ def _crossing(mission: Mission, north: Any, east: Any) -> float:
     for _ in range(40):
         middle = 0.5 * (low + high)
         x, y = (axis[:1] + middle * (axis[1:] - axis[:1]) for axis in (north, east))
-        longitude, latitude = _places(mission, x, y)[0]
+        longitude, latitude, *_ = _places(mission, x, y)[0]
         low, high = (middle, high) if (longitude > 0.0) == begins_east else (low, middle)
     return latitude
 
@@ -127,7 +146,9 @@ def _kml(mission: Mission) -> str:
         holder = mark if len(parts) == 1 else ElementTree.SubElement(mark, f"{{{_KML}}}MultiGeometry")
         for places in parts:
             shape = ElementTree.SubElement(holder, f"{{{_KML}}}{kind}")
-            text = " ".join(f"{longitude},{latitude}" for longitude, latitude in places)
+            if len(places[0]) > 2:
+                ElementTree.SubElement(shape, f"{{{_KML}}}altitudeMode").text = "absolute"
+            text = " ".join(",".join(map(str, place)) for place in places)
             ElementTree.SubElement(shape, f"{{{_KML}}}coordinates").text = text
 
     ElementTree.SubElement(document, f"{{{_KML}}}name").text = mission.name
