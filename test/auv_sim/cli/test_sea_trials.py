@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 import shlex
 import shutil
 import subprocess
@@ -176,12 +175,3 @@ def test_a_vehicle_that_dives_keeps_its_depth_in_the_rough_sea() -> None:
     assert trial.largest_depth_error <= 0.5
     assert trial.largest_distance <= 2.5
     assert 0.5 < trial.planes_travel < 2.0
-
-
-def test_a_mission_above_the_bottom_is_not_judged(tmp_path: Path) -> None:
-    mission = tmp_path / "above.yaml"
-    text = (config_files.find("missions", "paper_at_depth")).read_text(encoding="utf-8")
-    mission.write_text(re.sub(r"(?m)^depth: .*$", "altitude: {above_bottom: 5}", text), encoding="utf-8")
-    job = sea_trials_session.TrialJob(str(mission), "remus100_6dof", "rough", "rough", 3)
-    with pytest.raises(ConfigurationError, match=r"altitude: found it, expected a mission with depths"):
-        sea_trials_session.fly(job)

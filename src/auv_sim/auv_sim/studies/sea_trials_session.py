@@ -15,12 +15,8 @@ from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
 
-from auv_msgs_py.contract import topics
-from auv_msgs_py.settings import params_file
 from auv_msgs_py.settings.result_files import write_text
-from auv_msgs_py.values.errors import ConfigurationError
-from auv_path_following import config_files, vehicle
-from auv_path_following.missions import mission_file
+from auv_path_following import vehicle
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, make_directory, to_type
 from auv_sim.flight import closed_loop
 from auv_sim.flight.batch import engine
@@ -29,13 +25,11 @@ from auv_sim.flight.metrics import without_nan
 from auv_sim.flight.scenario import Scenario
 from auv_sim.launch import mission_plan
 from auv_sim.launch.options import Options
-from auv_sim.sim_parameters import SUITE
 from auv_sim.studies import noise_study
 from auv_sim.studies.pool import tracked
 from auv_sim.studies.trials import Together, Trial, judge, together
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, headed_table, progress_bar, wrote
-from auv_sim.vehicle import sea
 from auv_sim.views import doc_pages
 
 #: Names of the table's parts of the page: of vehicles in the plane, and of those that dive.
@@ -90,32 +84,12 @@ def fly(job: TrialJob) -> Trial:
 
 
 def _scenario(job: TrialJob) -> Scenario:
-    """Return the flight of a job: as over ROS, or in three dimensions for a vehicle that dives.
+    """Return the flight of a job.
 
     Raises:
         ConfigurationError: a file that cannot be used.
     """
-    hull = vehicle.load(job.vehicle)
-    if not hull.dives:
-        return mission_plan.make(Options(**job._asdict()), Path()).scenario()
-    mission = mission_file.load(job.mission, hull)
-    if mission.altitude is not None:
-        expected = "a mission with depths, which the trials judge"
-        raise ConfigurationError(f"{mission.source}: altitude", "it", expected)
-    loaded = params_file.load(config_files.find("params", job.params), SUITE)
-    steering = loaded[topics.AUTOPILOT]
-    return Scenario(
-        path=mission.path,
-        spatial=mission.spatial,
-        vehicle=hull,
-        thrust=mission.thrust,
-        sea=sea.load(job.sea),
-        seed=job.seed,
-        guidance=loaded[topics.GUIDANCE].with_mission_overrides(mission).guidance,
-        observer=loaded[topics.OBSERVER].observer,
-        autopilot=steering.autopilot,
-        pitch=steering.pitch,
-    )
+    return mission_plan.make(Options(**job._asdict()), Path()).scenario()
 
 
 def _flown(
