@@ -21,7 +21,7 @@ ROOMS = (
         "auv_path_following",
         (
             "config_files", "registry", "abilities", "vertical_hull", "vehicle", "curves", "navigation",
-            "missions", "control", "guidance", "parameters", "pilot", "spatial_pilot", "nodes",
+            "missions", "control", "guidance", "parameters", "pilot", "spatial_pilot", "comparators", "nodes",
         ),
     ),
 )  # fmt: skip

@@ -1,4 +1,4 @@
-"""RuledGains for a hull without shipped ones: a rule from a few numbers of its response and the delay.
+"""Gains for a hull without shipped ones: a rule from a few numbers of its response and the delay.
 
 docs/tuning.md derives the rule and has its measured limits.
 """
@@ -40,7 +40,7 @@ LARGEST_PRODUCT, LEAST_AUTHORITY = 0.4, 0.1
 
 
 class PlaneGains(NamedTuple):
-    """RuledGains of one plane.
+    """Gains of one plane.
 
     Attributes:
         autopilot: controller and reference.
@@ -58,7 +58,7 @@ class PlaneGains(NamedTuple):
 
 
 class RuledGains(NamedTuple):
-    """RuledGains of a vehicle.
+    """Gains of a vehicle.
 
     Attributes:
         heading: of the horizontal plane.
