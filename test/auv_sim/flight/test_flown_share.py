@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.kinds.arc import Arc
 from auv_path_following.curves.kinds.line import Line
-from auv_sim.flight.flown_share import SPACING, Stretch, cells_of, flown_share, listed, percent
+from auv_sim.flight.flown_share import Stretch, flown_share, listed, percent
+from auv_sim.flight.path_cells import SPACING, cells_of
 from auv_sim.flight.run_record import Run
 
 NORTH, EAST, SOUTH = 0.0, math.pi / 2.0, math.pi

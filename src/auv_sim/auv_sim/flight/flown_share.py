@@ -1,7 +1,7 @@
 """The share of the path that was flown, and the stretches that were missed.
 
-The path counts as equal cells of at most `SPACING` of path length. A cell is flown when, between two
-consecutive rows of the run under way,
+The path counts as equal cells of at most `SPACING` of path length, see `path_cells`. A cell is flown when,
+between two consecutive rows of the run under way,
 
 - the vehicle's true track, taken as straight between the rows, passes the cell's middle within its reach:
   `REACH`, or `REACH_AT_CORNERS` within `CORNER_RADIUS` of a G0 joint on the two subpaths that it joins,
@@ -16,6 +16,9 @@ virtual point to the joint while the vehicle still approaches it.
 The share is the flown length over the length from where the mission began to the end of the path. Cells that
 were not flown because guidance rejoined the path ahead after a hold count in neither. What a recording lacks
 was not flown.
+
+A path in three dimensions is measured the same way: lengths, distances and tangents have a third component,
+and a joint at which only the elevation jumps is a corner as well.
 """
 
 from __future__ import annotations
@@ -28,47 +31,32 @@ import numpy as np
 import numpy.typing as npt
 
 from auv_path_following.curves.composite import CompositePath
-from auv_sim.flight.run_record import Run
+from auv_path_following.curves.spatial.spatial_path import SpatialPath
+from auv_sim.flight.path_cells import (
+    CELL_DOWN,
+    CELL_REACH,
+    CELL_X,
+    CELL_Y,
+    CELL_Z,
+    KNOT_METRES,
+    KNOT_S,
+    REACH_AT_CORNERS,
+    Cells,
+    cells_of,
+    middles_of,
+)
+from auv_sim.flight.run_record import Run, SpatialRun
 
 Array = npt.NDArray[np.float64]
 Flags = npt.NDArray[np.bool_]
 
-#: A corner is the path within this distance of a G0 joint, on the two subpaths that it joins, m.
-CORNER_RADIUS: Final = 30.0
-#: Longest cell of path, m.
-SPACING: Final = 0.5
-#: Largest distance of the track from a flown cell, away from corners and at them, m.
-REACH: Final = 1.0
-REACH_AT_CORNERS: Final = 3.0
 #: How far ahead of the virtual point and how far behind it a cell can be flown, m of path.
 AHEAD: Final = 10.0
 BEHIND: Final = 30.0
 #: Least advance along the path per metre of track: a track across the path or against it flies nothing of it.
 LEAST_ADVANCE: Final = 0.1
-#: Longest step of the table that leads from s to metres of path, m.
-_KNOT_SPACING = 2.0
 _CHUNK = 2048
 _LISTED = 6
-
-
-#: Columns of `Cells.knots` and of `Cells.cells`.
-KNOT_S, KNOT_METRES = range(2)
-CELL_X, CELL_Y, CELL_NORTH, CELL_EAST, CELL_REACH = range(5)
-
-
-class Cells(NamedTuple):
-    """A path divided into cells of equal length, as plain arrays that compiled code reads, too.
-
-    Attributes:
-        spacing: length of a cell, m.
-        knots: shape (m, 2), KNOT_S: s of Eq. (1); KNOT_METRES: the metres of path before it.
-        cells: shape (n, 5), CELL_X, CELL_Y: the middles, NED, m; CELL_NORTH, CELL_EAST: the unit tangent;
-            CELL_REACH: the reach, m.
-    """
-
-    spacing: float
-    knots: Array
-    cells: Array
 
 
 class Stretch(NamedTuple):
@@ -108,82 +96,30 @@ def percent(share: float) -> str:
     return "-" if math.isnan(share) else f"{math.floor(1e4 * share) / 100.0:.2f} %"
 
 
-def cells_of(path: CompositePath) -> Cells:
-    """Divide a path into cells."""
-    knots = _knots(path)
-    n = max(1, math.ceil(path.length / SPACING))
-    spacing = path.length / n
-    s = np.interp((np.arange(n) + 0.5) * spacing, knots[:, KNOT_METRES], knots[:, KNOT_S])
-    subpath = np.minimum(s.astype(np.int64), path.n - 1)
-    cells = np.empty((n, 5))
-    for i, rows in _groups(subpath):
-        p: Any = path.evaluate(i, s[rows] - i)
-        cells[rows, CELL_X], cells[rows, CELL_Y] = p.x, p.y
-        cells[rows, CELL_NORTH], cells[rows, CELL_EAST] = p.dx, p.dy
-    tangent = cells[:, CELL_NORTH : CELL_EAST + 1]
-    tangent /= np.hypot(cells[:, CELL_NORTH], cells[:, CELL_EAST])[:, None]
-    cells[:, CELL_REACH] = np.where(_at_corners(path, subpath, cells), REACH_AT_CORNERS, REACH)
-    return Cells(spacing, knots, cells)
-
-
-def _knots(path: CompositePath) -> Array:
-    """Return metres of path over s: exact at the joints, by the midpoint rule between them."""
-    s, metres = [np.zeros(1)], [np.zeros(1)]
-    for i, segment in enumerate(path.segments):
-        n = max(1, math.ceil(segment.length / _KNOT_SPACING))
-        steps = np.full(1, segment.length)
-        if n > 1:
-            p: Any = segment.evaluate((np.arange(n) + 0.5) / n)
-            steps = np.hypot(p.dx, p.dy)
-            steps *= segment.length / steps.sum()
-        s.append(i + np.arange(1, n + 1) / n)
-        metres.append(steps)
-    return np.column_stack([np.concatenate(s), np.cumsum(np.concatenate(metres))])
-
-
-def _groups(subpath: npt.NDArray[np.int64]) -> list[tuple[int, slice]]:
-    """Return the rows of each subpath that has any; `subpath` is sorted."""
-    first = np.flatnonzero(np.diff(subpath, prepend=-1))
-    ends = [*first[1:].tolist(), len(subpath)]
-    return [(int(subpath[a]), slice(a, b)) for a, b in zip(first.tolist(), ends, strict=True)]
-
-
-def _at_corners(path: CompositePath, subpath: npt.NDArray[np.int64], cells: Array) -> Flags:
-    near = np.zeros(len(cells), bool)
-    for joint in path.joints:
-        if joint.geometric == "G0":
-            first, end = np.searchsorted(subpath, (joint.index - 1, joint.index + 1))
-            x, y = cells[first:end, CELL_X], cells[first:end, CELL_Y]
-            near[first:end] |= np.hypot(x - joint.x, y - joint.y) <= CORNER_RADIUS
-    return near
-
-
-def middles_of(cells: Cells) -> Array:
-    """Return the middles of the cells, shape (n,), m of path."""
-    middles: Array = (np.arange(len(cells.cells), dtype=np.float64) + 0.5) * cells.spacing
-    return middles
-
-
-def flown_share(run: Run, path: CompositePath, begin: float = 0.0) -> FlownShare:
+def flown_share(run: Run, path: CompositePath | SpatialPath, begin: float = 0.0) -> FlownShare:
     """Return the share of the path that a run flew.
 
     Args:
-        run: its rows under way, as `metrics.under_way` selects them.
+        run: its rows under way, as `metrics.under_way` selects them; for a path in three dimensions a
+            `SpatialRun`.
         path: what it followed, NED.
         begin: s of Eq. (1) at which the mission began.
     """
     cells = cells_of(path)
     metres = np.interp(run.s, cells.knots[:, KNOT_S], cells.knots[:, KNOT_METRES])
-    return share_of(cells, _flown(cells, metres, *run.track), _skipped(cells, metres, run.held > 0.0), begin)
+    z = run.depth if isinstance(path, SpatialPath) and isinstance(run, SpatialRun) else None
+    return share_of(
+        cells, _flown(cells, metres, *run.track, z), _skipped(cells, metres, run.held > 0.0), begin
+    )
 
 
-def _flown(cells: Cells, metres: Array, x: Array, y: Array) -> Flags:
+def _flown(cells: Cells, metres: Array, x: Array, y: Array, z: Array | None = None) -> Flags:
     """Return which cells a track passes.
 
     Args:
         cells: the path, n cells.
         metres: shape (k,), where the virtual point is at each row, m of path.
-        x, y: shape (k,), the track, NED, m.
+        x, y, z: shape (k,), the track, NED, m; without z in the plane.
 
     Returns:
         shape (n,).
@@ -200,21 +136,28 @@ def _flown(cells: Cells, metres: Array, x: Array, y: Array) -> Flags:
         near = (cx[cell] - x[rows, None]) ** 2 + (cy[cell] - y[rows, None]) ** 2 <= longest[rows, None] ** 2
         row, offset = np.nonzero(near)
         candidates = cell[row, offset]
-        flags[candidates[_passed(cells.cells[candidates], x, y, rows[row])]] = True
+        flags[candidates[_passed(cells.cells[candidates], x, y, z, rows[row])]] = True
     return flags
 
 
-def _passed(cell: Array, x: Array, y: Array, k: npt.NDArray[np.int64]) -> Flags:
-    """Return whether the track passes each cell, shape (m, 5), between rows k and k + 1."""
-    cx, cy, north, east, reach = cell.T
+def _passed(cell: Array, x: Array, y: Array, z: Array | None, k: npt.NDArray[np.int64]) -> Flags:
+    """Return whether the track passes each cell, shape (m, 5) or (m, 7), between rows k and k + 1."""
+    cx, cy, north, east, reach = cell.T[: CELL_REACH + 1]
     x0, y0 = x[k], y[k]
     dx, dy = x[k + 1] - x0, y[k + 1] - y0
-    squared = dx * dx + dy * dy
+    squared, ahead, along = dx * dx + dy * dy, (cx - x0) * dx + (cy - y0) * dy, north * dx + east * dy
+    if z is not None:
+        cz, z0 = cell[:, CELL_Z], z[k]
+        dz = z[k + 1] - z0
+        squared, ahead, along = squared + dz * dz, ahead + (cz - z0) * dz, along + cell[:, CELL_DOWN] * dz
     with np.errstate(divide="ignore", invalid="ignore"):
-        u = np.clip(((cx - x0) * dx + (cy - y0) * dy) / squared, 0.0, 1.0)
+        u = np.clip(ahead / squared, 0.0, 1.0)
     off_x, off_y = x0 + u * dx - cx, y0 + u * dy - cy
-    advances = (squared > 0.0) & (north * dx + east * dy >= LEAST_ADVANCE * np.sqrt(squared))
-    passed: Flags = advances & (off_x * off_x + off_y * off_y <= reach * reach)
+    off = off_x * off_x + off_y * off_y
+    if z is not None:
+        off += (z0 + u * dz - cz) ** 2
+    advances = (squared > 0.0) & (along >= LEAST_ADVANCE * np.sqrt(squared))
+    passed: Flags = advances & (off <= reach * reach)
     return passed
 
 

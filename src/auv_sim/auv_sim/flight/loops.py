@@ -10,6 +10,7 @@ from auv_msgs_py.contract.frames import heading_over_the_wire
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import SpatialCurrent
 from auv_path_following.control import autopilot, diving_autopilot
+from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.spatial.depth_profile import DepthProfile
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_path_following.curves.spatial.spatial_rows import spatial_rows
@@ -90,17 +91,49 @@ def spatial_pilot_of(scenario: Scenario) -> SpatialPilot:
     )
 
 
+def followed_path(scenario: Scenario) -> CompositePath | SpatialPath:
+    """Return the path that a scenario's vehicle follows, in its own kind of space.
+
+    Raises:
+        ConfigurationError: a vehicle in the plane and a path with depths; otherwise as `spatial_path_of`.
+    """
+    check_kind(scenario)
+    return spatial_path_of(scenario) if scenario.vehicle.dives else scenario.path
+
+
+def check_kind(scenario: Scenario) -> None:
+    """Check that a vehicle has stern planes where its path has depths.
+
+    Raises:
+        ConfigurationError: it has none.
+    """
+    if scenario.spatial is not None and not scenario.vehicle.dives:
+        expected = "stern planes, or a mission without depth"
+        raise ConfigurationError(f"{scenario.vehicle.name}: sternplanes", "a path with depth", expected)
+
+
 def spatial_path_of(scenario: Scenario) -> SpatialPath:
     """Return the path in three dimensions; a planar one at the vehicle's surface depth.
 
     Raises:
         ConfigurationError: the path leaves the vehicle's range of depth, or the thrust is too low for it.
     """
-    path, vehicle = scenario.spatial, scenario.vehicle
-    allowed = vehicle.depth
+    path, allowed = scenario.spatial, scenario.vehicle.depth
     if path is None:
         length = math.fsum(segment.length for segment in scenario.path.segments)
         path = SpatialPath(scenario.path.segments, DepthProfile.constant(allowed.surface, length))
+    check_depths(scenario, path)
+    return path
+
+
+def check_depths(scenario: Scenario, path: SpatialPath) -> None:
+    """Check that a scenario's vehicle can hold the depths of a path.
+
+    Raises:
+        ConfigurationError: as `spatial_path_of`.
+    """
+    vehicle = scenario.vehicle
+    allowed = vehicle.depth
     for number, (way, depth) in enumerate(path.knots):
         least = 0.0 if number in (0, len(path.knots) - 1) else allowed.surface
         if not least <= depth <= allowed.max:
@@ -111,7 +144,6 @@ def spatial_path_of(scenario: Scenario) -> SpatialPath:
         found = f"{scenario.thrust:g} N, {speed:.2f} m/s"
         expected = f"at least {allowed.minimum_speed:g} m/s, below which the planes hold no depth"
         raise ConfigurationError(f"{vehicle.name}: thrust", found, expected)
-    return path
 
 
 def loop_of(scenario: Scenario) -> Loop:
@@ -121,15 +153,12 @@ def loop_of(scenario: Scenario) -> Loop:
         ConfigurationError: what the path or the gains need is not in the vehicle's file.
     """
     c = scenario
-    if not c.vehicle.dives:
-        if c.spatial is not None:
-            expected = "stern planes, or a mission without depth"
-            raise ConfigurationError(f"{c.vehicle.name}: sternplanes", "a path with depth", expected)
+    path = followed_path(c)
+    if not isinstance(path, SpatialPath):
         start: Any = c.initial or start_of(c.path)
         vehicle: Any = SimulatedVehicle(c.vehicle, start, c.sea, c.seed, c.current, c.dt)  # type: ignore[arg-type]
         names: tuple[str, ...] = (*_COLUMNS, *TRUTH) if c.sea else _COLUMNS
-        return Loop(pilot_of(c), begun, c.path.rows, vehicle, answer, names)
-    path = spatial_path_of(c)
+        return Loop(pilot_of(c), begun, path.rows, vehicle, answer, names)
     start = c.initial or spatial_start_of(path)
     current = SpatialCurrent(*c.current, *(0.0,) * (3 - len(c.current)))
     vehicle = SimulatedDiver(c.vehicle, start, c.sea, c.seed, current, c.dt)

@@ -10,13 +10,14 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from auv_path_following.curves.composite import CompositePath
-from auv_path_following.curves.joints import Joint
-from auv_sim.flight.flown_share import CORNER_RADIUS, Stretch, flown_share, listed, percent
+from auv_path_following.curves.spatial.spatial_path import SpatialPath
+from auv_sim.flight.flown_rows import FlownRows, largest_of
+from auv_sim.flight.flown_share import Stretch, flown_share, listed, percent
 from auv_sim.flight.least_share import LEAST_SHARE
-from auv_sim.flight.run_record import Column, Run
+from auv_sim.flight.path_cells import apart
+from auv_sim.flight.run_record import Column, Run, SpatialRun
 
 #: Time after the start from which the current estimate is judged, s.
 OBSERVER_SETTLING_TIME = 15.0
@@ -138,23 +139,64 @@ class MissionSummary:
         return "; ".join(parts)
 
 
-def summarise(run: Run, path: CompositePath, begin: float = 0.0) -> MissionSummary:
+@dataclass(frozen=True)
+class SpatialSubpathSummary(SubpathSummary):
+    """One subpath in three dimensions: distances have a vertical part.
+
+    Attributes:
+        rms_depth_error, largest_depth_error: depth less that of the closest point of the path, m.
+        sternplane_travel, sternplane_travel_per_metre: of the stern planes, deg, deg/m.
+        largest_pitch: absolute, deg.
+    """
+
+    rms_depth_error: float
+    largest_depth_error: float
+    sternplane_travel: float
+    sternplane_travel_per_metre: float
+    largest_pitch: float
+
+
+@dataclass(frozen=True)
+class SpatialMissionSummary(MissionSummary):
+    """The whole mission in three dimensions.
+
+    Attributes:
+        rms_depth_error, largest_depth_error: m.
+        sternplane_travel, sternplane_travel_per_metre: deg, deg/m.
+        largest_pitch: absolute, deg.
+    """
+
+    rms_depth_error: float
+    largest_depth_error: float
+    sternplane_travel: float
+    sternplane_travel_per_metre: float
+    largest_pitch: float
+
+
+def summarise(run: Run, path: CompositePath | SpatialPath, begin: float = 0.0) -> MissionSummary:
     """Judge a run against the path it followed, by the true positions where they are known.
 
     Only the rows under way count (see `under_way`). Averages are over rows. What happens between two
     rows belongs to the subpath of the earlier one.
 
     Args:
-        run: the flown mission.
-        path: the path of that mission, NED.
+        run: the flown mission; for a path in three dimensions a `SpatialRun`.
+        path: the path of that mission, NED. That of one in three dimensions, or its plan.
         begin: s of Eq. (1) at which the mission began.
+
+    Returns:
+        The figures; of a path in three dimensions a `SpatialMissionSummary`.
     """
     flown = under_way(run, path.n)
     part = flown_share(flown, path, begin)
-    rows = _Rows(flown, path)
+    rows = FlownRows(flown, path)
     whole = rows.figures(np.ones(flown.steps, bool))
     corners, free = rows.corners(path)
-    return MissionSummary(
+    of_mission: type[MissionSummary] = MissionSummary
+    of_subpath: type[SubpathSummary] = SubpathSummary
+    if isinstance(path, SpatialPath):
+        of_mission, of_subpath = SpatialMissionSummary, SpatialSubpathSummary
+    return of_mission(
         completed=bool((run.s >= path.n).any()),
         flown_share=part.share,
         missed=part.missed,
@@ -164,50 +206,25 @@ def summarise(run: Run, path: CompositePath, begin: float = 0.0) -> MissionSumma
         mean_speed=whole["distance_covered"] / whole["duration"] if whole["duration"] > 0.0 else math.nan,
         current_estimate_error=_current_estimate_error(flown),
         subpaths=tuple(
-            SubpathSummary(number=k + 1, kind=segment.kind, **rows.figures(rows.subpath == k))
-            for k, segment in enumerate(path.segments)
+            of_subpath(number=k + 1, kind=kind, **rows.figures(rows.subpath == k))
+            for k, kind in enumerate(_kinds(path))
         ),
-        corners=corners,
-        largest_distance_off_corners=_largest(rows.distance[free]),
-        navigation_error=_largest(np.hypot(flown.x_true - flown.x, flown.y_true - flown.y)),
+        corners=tuple(CornerSummary(corner.number, corner.x, corner.y, off) for corner, off in corners),
+        largest_distance_off_corners=largest_of(rows.distance[free]),
+        navigation_error=largest_of(_navigation_errors(flown)),
         **whole,
     )
 
 
-class _Rows:
-    """The rows of a run under way, with their distances to the path and the steps between them."""
+def _kinds(path: CompositePath | SpatialPath) -> list[str]:
+    if isinstance(path, SpatialPath):
+        return [subpath.plan.kind for subpath in path.subpaths]
+    return [segment.kind for segment in path.segments]
 
-    def __init__(self, flown: Run, path: CompositePath) -> None:
-        self.subpath = flown.subpath(path.n)
-        self.x, self.y = flown.track
-        self.distance = path.distance(self.x, self.y, self.subpath)
-        self._covered = np.hypot(np.diff(self.x), np.diff(self.y))
-        self._moved = np.degrees(np.abs(np.diff(flown.rudder)))
-        self._elapsed = np.diff(flown.t)
-        self._heading_error = np.degrees(flown.psi_e)
 
-    def figures(self, rows: NDArray[np.bool_]) -> dict[str, Any]:
-        """Return the figures of some rows, shape (n,), by the names of `SubpathSummary`."""
-        steps = rows[:-1]
-        travel, metres = _sum(self._moved[steps]), _sum(self._covered[steps])
-        return {
-            "duration": _sum(self._elapsed[steps]),
-            "rms_distance": _rms(self.distance[rows]),
-            "largest_distance": _largest(self.distance[rows]),
-            "rms_heading_error": _rms(self._heading_error[rows]),
-            "rudder_travel": travel,
-            "rudder_travel_per_metre": travel / metres if metres > 0.0 else math.nan,
-            "distance_covered": metres,
-        }
-
-    def corners(self, path: CompositePath) -> tuple[tuple[CornerSummary, ...], NDArray[np.bool_]]:
-        """Return the figures of each G0 joint, and the rows that are near none of them."""
-        corners, free = [], np.ones(len(self.x), bool)
-        for joint in (joint for joint in path.joints if joint.geometric == "G0"):
-            near = _near(joint, self.x, self.y, self.subpath)
-            corners.append(CornerSummary(joint.index, joint.x, joint.y, _largest(self.distance[near])))
-            free &= ~near
-        return tuple(corners), free
+def _navigation_errors(flown: Run) -> Column:
+    dx, dy = flown.x_true - flown.x, flown.y_true - flown.y
+    return apart(dx, dy, flown.z_true - flown.z if isinstance(flown, SpatialRun) else None)
 
 
 def farthest(parts: Sequence[Part], most: int) -> list[Part]:
@@ -219,13 +236,6 @@ def farthest(parts: Sequence[Part], most: int) -> list[Part]:
     """
     ranked = sorted(range(len(parts)), key=lambda k: -np.nan_to_num(parts[k].largest_distance, nan=-1.0))
     return [parts[k] for k in sorted(ranked[:most])]
-
-
-def _near(joint: Joint, x: Column, y: Column, i: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Return the rows around a joint, on the two subpaths that meet; the path may pass there again later."""
-    near: NDArray[np.bool_] = np.hypot(x - joint.x, y - joint.y) <= CORNER_RADIUS
-    near &= (i == joint.index - 1) | (i == joint.index)
-    return near
 
 
 def under_way(run: Run, n: int) -> Run:
@@ -254,22 +264,8 @@ def _current_estimate_error(flown: Run) -> float:
     if not flown.steps:
         return math.nan
     settled = flown.t - flown.t[0] >= OBSERVER_SETTLING_TIME
-    return _largest(np.hypot(flown.Vx_est - flown.Vx_true, flown.Vy_est - flown.Vy_true)[settled])
-
-
-def _rms(values: Column) -> float:
-    known = values[np.isfinite(values)]
-    return float(np.sqrt(np.mean(known**2))) if known.size else math.nan
-
-
-def _largest(values: Column) -> float:
-    known = values[np.isfinite(values)]
-    return float(known.max()) if known.size else math.nan
-
-
-def _sum(values: Column) -> float:
-    known = values[np.isfinite(values)]
-    return float(known.sum()) if known.size else math.nan
+    down = flown.Vz_est - flown.Vz_true if isinstance(flown, SpatialRun) else None
+    return largest_of(apart(flown.Vx_est - flown.Vx_true, flown.Vy_est - flown.Vy_true, down)[settled])
 
 
 def without_nan(value: Any) -> Any:

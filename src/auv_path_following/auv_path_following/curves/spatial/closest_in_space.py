@@ -1,4 +1,4 @@
-"""Exact distance of points from one subpath in three dimensions, to measure a track."""
+"""Exact distance of points from one subpath in three dimensions, and the depth of the closest point there."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ def points_of(segment: SpatialSegment, t: Array) -> SpatialPoint:
     return SpatialPoint(x, y, z, dx, dy, dz, ddx, ddy, ddz)
 
 
-def closest_in_space(segment: SpatialSegment, x: Array, y: Array, z: Array) -> Array:
-    """Return the distance of each point to a subpath, its ends included.
+def closest_in_space(segment: SpatialSegment, x: Array, y: Array, z: Array) -> tuple[Array, Array]:
+    """Return the distance of each point to a subpath, its ends included, and the depth of the closest point.
 
     Newton's method, safeguarded by bisection, refines every minimum of a coarse sampling, as in the plane.
 
@@ -35,19 +35,24 @@ def closest_in_space(segment: SpatialSegment, x: Array, y: Array, z: Array) -> A
         x, y, z: shape (n,), NED, m.
 
     Returns:
-        shape (n,), m, not negative; NaN for a point that is not finite.
+        both of shape (n,), m; the distance is not negative; NaN for a point that is not finite.
     """
-    t = np.linspace(0.0, 1.0, 2 * samples(segment.plan) + 1)
+    t = coarse_places(segment)
     places = np.column_stack((x, y, z))
-    result = np.full(len(x), np.nan)
+    distance, depth = np.full(len(x), np.nan), np.full(len(x), np.nan)
     finite = np.flatnonzero(np.isfinite(places).all(axis=1))
     for start in range(0, len(finite), _CHUNK):
         part = finite[start : start + _CHUNK]
-        result[part] = _of_chunk(segment, t, places[part])
-    return result
+        distance[part], depth[part] = _of_chunk(segment, t, places[part])
+    return distance, depth
 
 
-def _of_chunk(segment: SpatialSegment, t: Array, places: Array) -> Array:
+def coarse_places(segment: SpatialSegment) -> Array:
+    """Return the t of a sampling that is dense enough to resolve every minimum of the distance."""
+    return np.linspace(0.0, 1.0, 2 * samples(segment.plan) + 1)
+
+
+def _of_chunk(segment: SpatialSegment, t: Array, places: Array) -> tuple[Array, Array]:
     coarse = _axes(points_of(segment, t), 0)
     squared = np.full((len(places), len(t) + 2), np.inf)
     squared[:, 1:-1] = ((coarse[None] - places[:, None]) ** 2).sum(axis=2)
@@ -56,10 +61,12 @@ def _of_chunk(segment: SpatialSegment, t: Array, places: Array) -> Array:
     last = len(t) - 1
     low, high = t[np.maximum(sample - 1, 0)], t[np.minimum(sample + 1, last)]
     best = _descend(segment, places[owner], t[sample], low, high)
-    result = np.full(len(places), np.inf)
-    offsets = _axes(points_of(segment, best), 0) - places[owner]
-    np.minimum.at(result, owner, np.sqrt((offsets**2).sum(axis=1)))
-    return result
+    found = _axes(points_of(segment, best), 0)
+    distances = np.sqrt(((found - places[owner]) ** 2).sum(axis=1))
+    # The first of each owner is its closest; every owner has one.
+    order = np.lexsort((distances, owner))
+    closest = order[np.searchsorted(owner[order], np.arange(len(places)))]
+    return distances[closest], found[closest, 2]
 
 
 def _axes(point: Any, derivative: int) -> Array:

@@ -126,26 +126,33 @@ class SpatialPath:
         return SpatialPose(start.x, start.y, start.z, along.gamma, along.chi)
 
     def distance(self, x: Array, y: Array, z: Array, i: npt.NDArray[Any]) -> Array:
-        """Return the distance of a track from the path, near the subpath followed.
+        """Return the distance of a track from the path, as `closest` does without the depth."""
+        return self.closest(x, y, z, i)[0]
+
+    def closest(self, x: Array, y: Array, z: Array, i: npt.NDArray[Any]) -> tuple[Array, Array]:
+        """Return the distance of a track from the path near the subpath followed, and the path's depth there.
 
         Args:
             x, y, z: shape (n,), NED, m.
             i: shape (n,), subpath followed at each sample, from 0; it and its neighbours are searched.
 
         Returns:
-            closest distance, shape (n,), m, not negative; NaN where x, y or z is not finite.
+            closest distance, not negative, and depth of the closest point, both of shape (n,), m; NaN where
+            x, y or z is not finite.
         """
         followed = np.asarray(i)
         order = np.argsort(followed, kind="stable")
         in_order = followed[order]
-        result = np.full(len(x), np.inf)
+        distance, depth = np.full(len(x), np.inf), np.full(len(x), np.nan)
         for j in np.unique(np.concatenate([in_order + step for step in (-1, 0, 1)])):
             if 0 <= j < self.n:
                 first, last = np.searchsorted(in_order, (j - 1, j + 2))
                 near = order[first:last]
-                found = closest_in_space(self.subpaths[j], x[near], y[near], z[near])
-                result[near] = np.minimum(result[near], found)
-        return result
+                found, at = closest_in_space(self.subpaths[j], x[near], y[near], z[near])
+                is_closer = ~(found >= distance[near])
+                distance[near] = np.where(is_closer, found, distance[near])
+                depth[near] = np.where(is_closer, at, depth[near])
+        return distance, depth
 
 
 def _knots_of(subpaths: Sequence[SpatialSegment]) -> list[Knot]:

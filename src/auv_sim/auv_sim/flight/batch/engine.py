@@ -17,10 +17,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from auv_msgs_py.contract import topics
-from auv_msgs_py.values.types import Current
 from auv_path_following import vehicle
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.kinds.line import Line
+from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_sim.flight import closed_loop
 from auv_sim.flight.batch import tally, track_row
 from auv_sim.flight.batch.compiled import COMPILED
@@ -31,19 +31,29 @@ from auv_sim.flight.batch.compiled_flight import (
     fly_one,
     scratch_of,
 )
-from auv_sim.flight.batch.distance import outlines_of, rows_of
-from auv_sim.flight.batch.flight_figures import Flights, figures_of
+from auv_sim.flight.batch.flight_figures import Flights, figures_of, spatial_figures_of
 from auv_sim.flight.batch.judge import judged
-from auv_sim.flight.batch.scenarios import Preparation, flight_of
-from auv_sim.flight.flown_share import cells_of
+from auv_sim.flight.batch.kinds.chosen import start_from
+from auv_sim.flight.batch.kinds.spatial_tally import (
+    SPATIAL_ENDS,
+    SPATIAL_FLIGHT_TALLIES,
+    SPATIAL_SUBPATH_TALLIES,
+)
+from auv_sim.flight.batch.scenarios import (
+    Courses,
+    Preparation,
+    current_row,
+    flight_of,
+    rings_of,
+    start_row,
+)
 from auv_sim.flight.run_record import Run
-from auv_sim.flight.scenario import Scenario, start_of
-from auv_sim.flight.signals import TRUTH
-from auv_sim.vehicle.actuator import ring_size, servo_begin, servo_of
-from auv_sim.vehicle.at_sea import at_sea_of
+from auv_sim.flight.scenario import Scenario
+from auv_sim.flight.signals import SPATIAL_TRUTH, TRUTH
+from auv_sim.vehicle.diving.simulated_diver import SimulatedDiver
 from auv_sim.vehicle.draws import Draws
-from auv_sim.vehicle.remus import Afloat, PlantState
 from auv_sim.vehicle.sea import Sea
+from auv_sim.vehicle.simulated import SimulatedVehicle
 
 #: Flights of one compiled call.
 _CHUNK = 64
@@ -88,12 +98,13 @@ class _Chunk(NamedTuple):
     Attributes:
         places: among the scenarios.
         example: a flight of their layout; at sea, the flight.
-        course: the path.
+        path, course: what they follow, and as compiled code reads it.
         configs, which: rows of numbers, and the row of each flight; not used at sea.
     """
 
     places: Sequence[int]
     example: FlightConfig
+    path: CompositePath | SpatialPath
     course: Course
     configs: Any
     which: Any
@@ -102,58 +113,68 @@ class _Chunk(NamedTuple):
         """Return the figures by the names of `Flights`, one row for each flight."""
         flown = [scenarios[place] for place in self.places]
         if flown[0].sea is not None:
-            return _at_sea(flown[0], self.course, self.example)
-        n, m = len(flown), self.course.path.n
-        starts = np.array([scenario.initial or start_of(scenario.path) for scenario in flown], np.float64)
-        currents = np.array([scenario.current for scenario in flown], np.float64)
-        whole, ends = np.empty((n, tally.FLIGHT_TALLIES)), np.empty((n, tally.ENDS))
-        subpaths = np.empty((n, m, tally.SUBPATH_TALLIES))
-        ring = max(ring_size(servo_of(scenario.vehicle.rudder)) for scenario in flown)
+            return _at_sea(flown[0], self.path, self.course, self.example)
+        starts = np.array([start_row(scenario, self.path) for scenario in flown])
+        currents = np.array([current_row(scenario) for scenario in flown])
+        whole, subpaths, ends = _tallies(len(flown), self.path)
+        ring = max(rings_of(scenario) for scenario in flown)
         with np.errstate(all="ignore"):  # a state that runs away is a result
             fly_many(
                 self.example, self.configs, self.which, starts, currents, self.course,
                 scratch_of(self.course, ring), whole, subpaths, ends,
             )  # fmt: skip
         dt = np.array([scenario.dt for scenario in flown])
-        return figures_of(ends, whole, subpaths, dt)
+        return _figures(self.path)(ends, whole, subpaths, dt)
+
+
+def _tallies(n: int, path: CompositePath | SpatialPath) -> tuple[Any, Any, Any]:
+    """Return the tallies of n flights of a path, of their subpaths, and their ends: not yet reset."""
+    if isinstance(path, SpatialPath):
+        sizes = SPATIAL_FLIGHT_TALLIES, SPATIAL_SUBPATH_TALLIES, SPATIAL_ENDS
+    else:
+        sizes = tally.FLIGHT_TALLIES, tally.SUBPATH_TALLIES, tally.ENDS
+    return np.empty((n, sizes[0])), np.empty((n, path.n, sizes[1])), np.empty((n, sizes[2]))
+
+
+def _figures(path: CompositePath | SpatialPath) -> Callable[..., dict[str, Any]]:
+    return spatial_figures_of if isinstance(path, SpatialPath) else figures_of
 
 
 def _chunks(scenarios: Sequence[Scenario], largest: int) -> list[_Chunk]:
     """Divide scenarios by course and layout; each shared part is turned into numbers once."""
-    preparation = Preparation()
+    preparation, courses = Preparation(), Courses()
     groups: dict[Any, list[tuple[int, int]]] = {}
     for place, scenario in enumerate(scenarios):
         row, layout = preparation.row_of(scenario)
-        key = (layout, id(scenario.path)) if scenario.sea is None else place
+        course, _ = courses.of(scenario)
+        key = (layout, id(course)) if scenario.sea is None else place
         groups.setdefault(key, []).append((place, row))
-    courses: dict[int, Course] = {}
     chunks = []
     size = max(1, min(largest, _CHUNK))
     for members in groups.values():
         scenario = scenarios[members[0][0]]
-        path = scenario.path
-        if id(path) not in courses:
-            courses[id(path)] = course_of(path)
-        course = courses[id(path)]
+        course, path = courses.of(scenario)
         example = preparation.flights[members[0][1]]
         different = sorted({row for _, row in members})
         configs = preparation.rows(different) if scenario.sea is None else None
         which = np.searchsorted(different, [row for _, row in members])
         for first in range(0, len(members), size):
             places = [place for place, _ in members[first : first + size]]
-            chunks.append(_Chunk(places, example, course, configs, which[first : first + size]))
+            chunks.append(_Chunk(places, example, path, course, configs, which[first : first + size]))
     return chunks
 
 
-def compile_once(at_sea: bool = False) -> None:
+def compile_once(at_sea: bool = False, dives: bool = False) -> None:
     """Compile now what the first flight would, for the processes of a pool.
 
     Args:
         at_sea: whether for flights at sea; else for those without one.
+        dives: whether for vehicles that dive.
     """
     line = CompositePath([Line(0.0, 0.0, 10.0, 0.0)])
     water = Sea(name="still") if at_sea else None
-    fly([Scenario(path=line, vehicle=vehicle.load("remus100"), thrust=1.0, time_limit=0.1, sea=water)])
+    hull = vehicle.load("remus100_6dof" if dives else "remus100")
+    fly([Scenario(path=line, vehicle=hull, thrust=6.48, time_limit=0.1, sea=water)])
 
 
 def track(scenario: Scenario, every: int = 1) -> Run:
@@ -171,38 +192,46 @@ def track(scenario: Scenario, every: int = 1) -> Run:
     """
     if scenario.sea is not None and not COMPILED:
         return closed_loop.fly(scenario).select(slice(None, None, every))
-    *_, rows = _flown(scenario, course_of(scenario.path), flight_of(scenario), every)
+    course, path = Courses().of(scenario)
+    *_, rows = _flown(scenario, path, course, flight_of(scenario), every)
     t = [(topics.FIRST_STAMP_NS + int(k) * scenario.step_ns) * 1e-9 for k in rows[:, track_row.NUMBER]]
-    names = track_row.TRACK if scenario.sea is None else (*track_row.TRACK, *TRUTH)
-    return Run.from_columns({"t": t} | {name: rows[:, j] for j, name in enumerate(names, 1)})
+    names: tuple[str, ...] = track_row.TRACK
+    truth: tuple[str, ...] = TRUTH
+    if scenario.vehicle.dives:
+        names, truth = track_row.SPATIAL_TRACK, SPATIAL_TRUTH
+    kept = names if scenario.sea is None else (*names, *truth)
+    return Run.from_columns({"t": t} | {name: rows[:, j] for j, name in enumerate(kept, 1)})
 
 
-def _at_sea(scenario: Scenario, course: Course, flight: FlightConfig) -> dict[str, Any]:
+def _at_sea(
+    scenario: Scenario, path: CompositePath | SpatialPath, course: Course, flight: FlightConfig
+) -> dict[str, Any]:
     """Return the figures of one flight at sea, one row of each."""
     if not COMPILED:
         return {
             name: np.array([value]) for name, value in judged(closed_loop.fly(scenario), scenario).items()
         }
-    whole, subpaths, end, _ = _flown(scenario, course, flight, 0)
-    return figures_of(end[None], whole[None], subpaths[None], np.array([scenario.dt]))
+    whole, subpaths, end, _ = _flown(scenario, path, course, flight, 0)
+    return _figures(path)(end[None], whole[None], subpaths[None], np.array([scenario.dt]))
 
 
-def _flown(scenario: Scenario, course: Course, flight: FlightConfig, every: int) -> tuple[Any, Any, Any, Any]:
+def _flown(
+    scenario: Scenario, path: CompositePath | SpatialPath, course: Course, flight: FlightConfig, every: int
+) -> tuple[Any, Any, Any, Any]:
     """Fly one scenario; return its tallies, those of its subpaths, its end, and every `every`-th row."""
-    start = PlantState(*map(float, scenario.initial or start_of(scenario.path)))
-    constant = Current(*map(float, scenario.current))
-    whole, end = np.empty(tally.FLIGHT_TALLIES), np.empty(tally.ENDS)
-    subpaths = np.empty((course.path.n, tally.SUBPATH_TALLIES))
-    steps, scratch = _likely_steps(scenario, flight), scratch_of(course)
+    (whole,), (subpaths,), (end,) = _tallies(1, path)
+    row, water = start_row(scenario, path), current_row(scenario)
+    columns = track_row.SPATIAL_TRACK_COLUMNS if scenario.vehicle.dives else track_row.TRACK_COLUMNS
+    kind = SimulatedDiver.kind if scenario.vehicle.dives else SimulatedVehicle.kind
+    steps, scratch = _likely_steps(scenario, flight), scratch_of(course, rings_of(scenario))
     while True:
         steps = min(steps, flight.steps)
-        kept = np.empty((math.ceil(steps / every) if every else 0, track_row.TRACK_COLUMNS))
+        kept = np.empty((math.ceil(steps / every) if every else 0, columns))
         vehicle: Any = flight.plant
-        servo, ring = vehicle.servo, np.zeros(max(ring_size(vehicle.servo), 1))
-        state: Any = Afloat(start, servo_begin(servo, ring, 0.0, 0.0)[0])
+        state, constant = start_from(vehicle, row, water, scratch.ring)
         if scenario.sea is not None:
             draws = Draws(flight.dt, steps, arrays=True)
-            vehicle, state = at_sea_of(scenario.vehicle, start, scenario.sea, scenario.seed, draws)
+            vehicle, state = kind.at_sea_of(scenario.vehicle, state.hull, scenario.sea, scenario.seed, draws)
         with np.errstate(all="ignore"):  # a state that runs away is a result
             fly_one(
                 flight._replace(steps=steps), vehicle, state, constant, course, scratch,
@@ -219,8 +248,3 @@ def _likely_steps(scenario: Scenario, flight: FlightConfig) -> int:
         return flight.steps
     seconds = 1.1 * scenario.path.length / scenario.vehicle.speed_at(scenario.thrust) + 60.0
     return math.ceil(seconds / flight.dt)
-
-
-def course_of(path: CompositePath) -> Course:
-    """Return a path as compiled code reads it."""
-    return Course(rows_of(path), outlines_of(path), cells_of(path))

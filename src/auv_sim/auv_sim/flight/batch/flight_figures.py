@@ -11,6 +11,16 @@ import numpy as np
 import numpy.typing as npt
 
 from auv_sim.flight.batch import tally
+from auv_sim.flight.batch.kinds.spatial_tally import (
+    DEPTH_LARGEST,
+    DEPTH_SQUARES,
+    LAST_Z,
+    PLANES_TRAVEL,
+    SINE_OF_PITCH,
+    STEADY_LARGEST,
+    STEADY_ROWS,
+    STEADY_SQUARES,
+)
 
 Column = npt.NDArray[np.float64]
 
@@ -31,6 +41,14 @@ UNITS = {
     "current_estimate_error": "m/s",
     "last_x": "m",
     "last_y": "m",
+    "rms_depth_error": "m",
+    "largest_depth_error": "m",
+    "steady_rms_depth_error": "m",
+    "steady_largest_depth_error": "m",
+    "largest_pitch": "deg",
+    "sternplane_travel": "deg",
+    "sternplane_travel_per_metre": "deg/m",
+    "last_z": "m",
 }
 
 
@@ -90,15 +108,20 @@ class Flights:
 
     @classmethod
     def joined(cls, parts: Sequence[tuple[Sequence[int], dict[str, Any]]], number: int) -> Flights:
-        """Return all flights in their order.
+        """Return all flights in their order; `SpatialFlights` if one of them is in three dimensions.
 
         Args:
             parts: places of some flights, and their figures by name, see `figures_of`.
             number: of all flights.
         """
         columns: dict[str, Any] = {}
-        for field in dataclasses.fields(cls):
-            blocks = [(places, np.asarray(figures[field.name])) for places, figures in parts]
+        made = SpatialFlights if any("last_z" in figures for _, figures in parts) else cls
+        for field in dataclasses.fields(made):
+            blocks = [
+                (places, np.asarray(figures[field.name]))
+                for places, figures in parts
+                if field.name in figures
+            ]
             kind = _KINDS.get(field.name, np.float64)
             shape: tuple[int, ...] = (number,)
             if field.name in _OF_SUBPATHS:
@@ -110,10 +133,42 @@ class Flights:
                 else:
                     column[places] = block
             columns[field.name] = column
-        return cls(**columns)
+        return made(**columns)
 
 
-_OF_SUBPATHS = ("subpath_rms_distance", "subpath_largest_distance", "subpath_duration")
+@dataclass(frozen=True, eq=False)
+class SpatialFlights(Flights):
+    """Flights of which some are in three dimensions; the further figures are NaN for the others.
+
+    A depth error is the depth less that of the closest point of the path. The steady ones count from
+    `time_to_path` on, farther than `path_cells.CORNER_RADIUS` from every corner.
+
+    Attributes:
+        rms_depth_error, largest_depth_error: over the whole flight.
+        steady_rms_depth_error, steady_largest_depth_error: after joining, away from corners.
+        largest_pitch: absolute, deg.
+        sternplane_travel: deg; sternplane_travel_per_metre: deg/m.
+        last_z: last depth, m.
+        subpath_rms_depth_error: of each subpath, m.
+    """
+
+    rms_depth_error: Column
+    largest_depth_error: Column
+    steady_rms_depth_error: Column
+    steady_largest_depth_error: Column
+    largest_pitch: Column
+    sternplane_travel: Column
+    sternplane_travel_per_metre: Column
+    last_z: Column
+    subpath_rms_depth_error: Column
+
+
+_OF_SUBPATHS = (
+    "subpath_rms_distance",
+    "subpath_largest_distance",
+    "subpath_duration",
+    "subpath_rms_depth_error",
+)
 _KINDS: dict[str, Any] = {"completed": np.bool_, "finite": np.bool_, "steps": np.int64}
 
 
@@ -159,6 +214,26 @@ def figures_of(ends: Column, whole: Column, subpaths: Column, dt: Column) -> dic
             "subpath_rms_distance": np.sqrt(subpaths[:, :, tally.SQUARES] / rows),
             "subpath_largest_distance": np.where(rows > 0, subpaths[:, :, tally.LARGEST], np.nan),
             "subpath_duration": np.where(rows > 0, subpaths[:, :, tally.DURATION], np.nan),
+        }
+
+
+def spatial_figures_of(ends: Column, whole: Column, subpaths: Column, dt: Column) -> dict[str, Any]:
+    """Return the same for flights in three dimensions, by the names of `SpatialFlights`."""
+    rows = subpaths[:, :, tally.ROWS]
+    counted, travel = rows.sum(axis=1), np.degrees(subpaths[:, :, PLANES_TRAVEL].sum(axis=1))
+    covered, steady = subpaths[:, :, tally.COVERED].sum(axis=1), whole[:, STEADY_ROWS]
+    sine = np.minimum(subpaths[:, :, SINE_OF_PITCH].max(axis=1), 1.0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return figures_of(ends, whole, subpaths, dt) | {
+            "rms_depth_error": _root(subpaths[:, :, DEPTH_SQUARES].sum(axis=1), counted),
+            "largest_depth_error": np.where(counted > 0, subpaths[:, :, DEPTH_LARGEST].max(axis=1), np.nan),
+            "steady_rms_depth_error": _root(whole[:, STEADY_SQUARES], steady),
+            "steady_largest_depth_error": np.where(steady > 0, whole[:, STEADY_LARGEST], np.nan),
+            "largest_pitch": np.where(counted > 0, np.degrees(np.arcsin(sine)), np.nan),
+            "sternplane_travel": travel,
+            "sternplane_travel_per_metre": np.where(covered > 0.0, travel / covered, np.nan),
+            "last_z": ends[:, LAST_Z],
+            "subpath_rms_depth_error": np.sqrt(subpaths[:, :, DEPTH_SQUARES] / rows),
         }
 
 

@@ -8,19 +8,22 @@ import numpy as np
 import numpy.typing as npt
 
 from auv_sim.flight.batch.compiled import compiled
-from auv_sim.flight.flown_share import (
-    AHEAD,
-    BEHIND,
+from auv_sim.flight.flown_share import AHEAD, BEHIND, LEAST_ADVANCE
+from auv_sim.flight.path_cells import (
+    CELL_DOWN,
     CELL_EAST,
     CELL_NORTH,
     CELL_REACH,
     CELL_X,
     CELL_Y,
+    CELL_Z,
     KNOT_METRES,
     KNOT_S,
-    LEAST_ADVANCE,
     Cells,
 )
+
+#: North, east, down, m.
+Place = tuple[float, float, float]
 
 
 @compiled
@@ -51,6 +54,38 @@ def pass_cells(
         u = min(max(((cx - x0) * dx + (cy - y0) * dy) / squared, 0.0), 1.0)
         off_x, off_y = x0 + u * dx - cx, y0 + u * dy - cy
         flown[k] = off_x * off_x + off_y * off_y <= reach * reach
+
+
+@compiled
+def pass_cells_in_space(
+    cells: Cells, flown: npt.NDArray[np.bool_], s: float, begin: Place, end: Place
+) -> None:
+    """Mark the cells that one step of the track passes in three dimensions.
+
+    Args:
+        cells, flown, s: as of `pass_cells`.
+        begin, end: of the step, NED, m.
+    """
+    metres = _metres_at(cells, s)
+    x0, y0, z0 = begin
+    dx, dy, dz = end[0] - x0, end[1] - y0, end[2] - z0
+    squared = dx * dx + dy * dy + dz * dz
+    if not (squared > 0.0 and math.isfinite(squared)):
+        return
+    least = LEAST_ADVANCE * math.sqrt(squared)
+    first = max(math.ceil((metres - BEHIND) / cells.spacing - 0.5), 0)
+    last = min(math.floor((metres + AHEAD) / cells.spacing - 0.5), len(flown) - 1)
+    middle = cells.cells
+    for k in range(first, last + 1):
+        if flown[k]:
+            continue
+        advance = middle[k, CELL_NORTH] * dx + middle[k, CELL_EAST] * dy + middle[k, CELL_DOWN] * dz
+        if advance < least:
+            continue
+        cx, cy, cz, reach = middle[k, CELL_X], middle[k, CELL_Y], middle[k, CELL_Z], middle[k, CELL_REACH]
+        u = min(max(((cx - x0) * dx + (cy - y0) * dy + (cz - z0) * dz) / squared, 0.0), 1.0)
+        off_x, off_y, off_z = x0 + u * dx - cx, y0 + u * dy - cy, z0 + u * dz - cz
+        flown[k] = off_x * off_x + off_y * off_y + off_z * off_z <= reach * reach
 
 
 @compiled

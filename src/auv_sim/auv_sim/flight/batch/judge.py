@@ -7,9 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_sim.flight.batch import tally
+from auv_sim.flight.flown_rows import FlownRows
+from auv_sim.flight.loops import followed_path
 from auv_sim.flight.metrics import summarise
-from auv_sim.flight.run_record import Run
+from auv_sim.flight.run_record import Run, SpatialRun
 from auv_sim.flight.scenario import Scenario
 
 
@@ -20,7 +23,7 @@ def judged(run: Run, scenario: Scenario) -> dict[str, Any]:
         run: every odometry of the flight, from `closed_loop.fly`.
         scenario: of the flight.
     """
-    path = scenario.path
+    path = followed_path(scenario)
     x, y = run.track
     summary = summarise(run, path)
     arrived = bool(run.s[-1] >= path.n)
@@ -29,10 +32,11 @@ def judged(run: Run, scenario: Scenario) -> dict[str, Any]:
     rate = np.degrees(np.diff(commands)) / scenario.step
     stops = (scenario.controller_vehicle or scenario.vehicle).rudder.max_angle
     elapsed = scenario.step * np.arange(run.steps)
-    distance = path.distance(x, y, run.subpath(path.n))
+    rows = FlownRows(run, path)
+    distance = rows.distance
     near = np.flatnonzero((run.s > 0.0) & (distance <= tally.ARRIVED))
     late = distance[near[0] :] if near.size else distance[:0]
-    return {
+    figures = {
         "completed": arrived,
         "flown_share": summary.flown_share,
         "finite": bool(np.isfinite(x[-1] + y[-1] + run.psi[-1])),
@@ -57,6 +61,29 @@ def judged(run: Run, scenario: Scenario) -> dict[str, Any]:
         "subpath_rms_distance": np.array([part.rms_distance for part in summary.subpaths]),
         "subpath_largest_distance": np.array([part.largest_distance for part in summary.subpaths]),
         "subpath_duration": np.array([part.duration for part in summary.subpaths]),
+    }
+    if isinstance(path, SpatialPath) and isinstance(run, SpatialRun):
+        figures |= _in_space(run, rows, path, summary, int(near[0]) if near.size else run.steps)
+    return figures
+
+
+def _in_space(
+    run: SpatialRun, rows: FlownRows, path: SpatialPath, summary: Any, joined: int
+) -> dict[str, Any]:
+    """Return the further figures of `SpatialFlights`; `joined` is the row at which the path was joined."""
+    _, is_free = rows.corners(path)
+    is_free[:joined] = False
+    steady = rows.depth_error[is_free]
+    return {
+        "rms_depth_error": summary.rms_depth_error,
+        "largest_depth_error": summary.largest_depth_error,
+        "steady_rms_depth_error": _rms(steady),
+        "steady_largest_depth_error": float(np.abs(steady).max()) if steady.size else math.nan,
+        "largest_pitch": summary.largest_pitch,
+        "sternplane_travel": summary.sternplane_travel,
+        "sternplane_travel_per_metre": summary.sternplane_travel_per_metre,
+        "last_z": float(run.depth[-1]),
+        "subpath_rms_depth_error": np.array([part.rms_depth_error for part in summary.subpaths]),
     }
 
 

@@ -47,10 +47,12 @@ def count(
     elapsed: float,
     distance: float,
     psi_e: float,
-    error_Vx: float,
-    error_Vy: float,
+    squared_error: float,
 ) -> None:
-    """Count an odometry `elapsed` s after the start, at s of Eq. (1), `distance` m from the path."""
+    """Count an odometry `elapsed` s after the start, at s of Eq. (1), `distance` m from the path.
+
+    The estimated current has a `squared_error`, m^2/s^2.
+    """
     subpaths[i, ROWS] += 1.0
     subpaths[i, SQUARES] += distance * distance
     subpaths[i, LARGEST] = max(subpaths[i, LARGEST], distance)
@@ -62,8 +64,7 @@ def count(
         whole[LATE_SQUARES] += distance * distance
         whole[LATE_LARGEST] = max(whole[LATE_LARGEST], distance)
     if elapsed >= OBSERVER_SETTLING_TIME:
-        squared = error_Vx * error_Vx + error_Vy * error_Vy
-        whole[ESTIMATE_ERROR] = max(whole[ESTIMATE_ERROR], math.sqrt(squared))
+        whole[ESTIMATE_ERROR] = max(whole[ESTIMATE_ERROR], math.sqrt(squared_error))
 
 
 @compiled

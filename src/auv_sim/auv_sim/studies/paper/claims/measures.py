@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from auv_path_following.curves.composite import CompositePath
-from auv_sim.flight.flown_share import CORNER_RADIUS
+from auv_sim.flight.path_cells import CORNER_RADIUS
 from auv_sim.flight.run_record import Column, Run
 
 #: After a joint a subpath counts as steady from here on, m of path.
