@@ -192,10 +192,7 @@ def summarise(run: Run, path: CompositePath | SpatialPath, begin: float = 0.0) -
     rows = FlownRows(flown, path)
     whole = rows.figures(np.ones(flown.steps, bool))
     corners, free = rows.corners(path)
-    of_mission: type[MissionSummary] = MissionSummary
-    of_subpath: type[SubpathSummary] = SubpathSummary
-    if isinstance(path, SpatialPath):
-        of_mission, of_subpath = SpatialMissionSummary, SpatialSubpathSummary
+    of_mission, of_subpath = _classes(path)
     return of_mission(
         completed=bool((run.s >= path.n).any()),
         flown_share=part.share,
@@ -214,6 +211,12 @@ def summarise(run: Run, path: CompositePath | SpatialPath, begin: float = 0.0) -
         navigation_error=largest_of(_navigation_errors(flown)),
         **whole,
     )
+
+
+def _classes(path: CompositePath | SpatialPath) -> tuple[type[MissionSummary], type[SubpathSummary]]:
+    if isinstance(path, SpatialPath):
+        return SpatialMissionSummary, SpatialSubpathSummary
+    return MissionSummary, SubpathSummary
 
 
 def _kinds(path: CompositePath | SpatialPath) -> list[str]:

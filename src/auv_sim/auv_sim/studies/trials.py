@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from auv_path_following.curves.composite import CompositePath
-from auv_sim.flight.flown_share import CORNER_RADIUS
 from auv_sim.flight.metrics import summarise, under_way
+from auv_sim.flight.path_cells import CORNER_RADIUS
 from auv_sim.flight.run_record import Column, Run, SpatialRun
 
 #: Time in which a vehicle joins the path and learns the current; its depth is judged afterwards, s.

@@ -104,8 +104,9 @@ def fly_many(
         flight = unpack(example, configs[which[k]])
         start, current = start_from(flight.plant, starts[k], currents[k], scratch.ring)
         fly_one(
-            flight, flight.plant, start, current, course, scratch, whole[k], subpaths[k], ends[k], none, 0
-        )
+            flight, flight.plant, start, current, course, scratch, whole[k], subpaths[k], ends[k], none,
+            none.size,  # 0; a literal would compile another `fly_one`
+        )  # fmt: skip
 
 
 @compiled
