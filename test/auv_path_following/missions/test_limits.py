@@ -227,6 +227,9 @@ def test_the_stricter_of_parameters_and_mission_counts():
         ground_speed_window=20.0,
         path_speed=0.5,
         path_speed_window=50.0,
+        max_depth=40.0,
+        min_altitude=3.0,
+        depth_error=0.0,
     )
     other = LimitsConfig(
         path_distance=0.0,
@@ -235,6 +238,9 @@ def test_the_stricter_of_parameters_and_mission_counts():
         ground_speed_window=40.0,
         path_speed=0.2,
         path_speed_window=90.0,
+        max_depth=30.0,
+        min_altitude=5.0,
+        depth_error=2.0,
     )
     expected = LimitsConfig(
         path_distance=10.0,
@@ -243,6 +249,9 @@ def test_the_stricter_of_parameters_and_mission_counts():
         ground_speed_window=40.0,
         path_speed=0.5,
         path_speed_window=50.0,
+        max_depth=30.0,
+        min_altitude=5.0,
+        depth_error=2.0,
     )
     assert one.stricter(other) == other.stricter(one) == expected
 

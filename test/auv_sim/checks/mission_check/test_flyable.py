@@ -19,11 +19,11 @@ from auv_path_following.curves.kinds.arc import Arc
 from auv_path_following.curves.kinds.line import Line
 from auv_path_following.curves.kinds.polynomial import Polynomial
 from auv_path_following.guidance.switching import SwitchingConfig
-from auv_path_following.missions import mission_file
+from auv_path_following.missions import limits, mission_file
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.missions.routes.smoothing import Smoothing, smooth
 from auv_sim.checks.mission_check.crossings import crossings
-from auv_sim.checks.mission_check.flyable import check
+from auv_sim.checks.mission_check.flyable import _inside, check
 
 REMUS = vehicle.load("remus100")
 
@@ -236,3 +236,14 @@ def test_a_path_that_leaves_its_geofence_is_refused(tmp_path, width, refused):
     )
     found = check(mission_file.load(str(file)), vehicle.load("remus100"))
     assert [verdict.where for verdict in found.refusals] == (["geofence"] if refused else [])
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.lists(st.tuples(st.integers(-9, 9), st.integers(-9, 9)), min_size=3, max_size=7), st.integers(0, 999)
+)
+def test_many_points_are_in_a_polygon_as_each_of_them_is(polygon, seed: int) -> None:
+    corners = [(float(x), float(y)) for x, y in polygon]
+    x, y = np.random.default_rng(seed).integers(-10, 11, (2, 50)).astype(float)
+    each = [limits.inside(corners, float(a), float(b)) for a, b in zip(x, y, strict=True)]
+    assert _inside(corners, x, y).tolist() == each
