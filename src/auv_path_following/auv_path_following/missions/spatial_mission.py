@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following.curves.kinds.reverse import reversed_path
 from auv_path_following.curves.segment import Segment
 from auv_path_following.curves.spatial.depth_profile import DepthProfile
 from auv_path_following.curves.spatial.spatial_path import LENGTH_TOLERANCE, SpatialPath
@@ -38,22 +39,24 @@ def spatial_path(
     """
     given = _given(route, depth, profile)
     if given is not None:
-        once = SpatialPath(route.segments, _fitting(given, route.segments))
+        fitting = _fitting(given, route.segments)
+        if reverse:
+            once = SpatialPath(reversed_path(route.segments), fitting.reversed())
+        else:
+            once = SpatialPath(route.segments, fitting)
     elif route.subpaths:
-        once = SpatialPath(route.subpaths)
+        once = SpatialPath(
+            [one.reversed() for one in reversed(route.subpaths)] if reverse else route.subpaths
+        )
     else:
         return None
-    subpaths: list[SpatialSegment] = list(once.subpaths)
-    if reverse:
-        subpaths = [subpath.reversed() for subpath in reversed(subpaths)]
-    if repeat > 1:
-        start, end = subpaths[0].evaluate(0.0).z, subpaths[-1].evaluate(1.0).z
-        if abs(start - end) > _SAME_DEPTH:
-            found = f"{repeat} for a path that starts at a depth of {start:g} m and ends at {end:g} m"
-            raise ConfigurationError("repeat", found, "1, or a path that ends at the depth of its start")
-    if not reverse and repeat == 1:
+    if repeat == 1:
         return once
-    return SpatialPath(subpaths * repeat)
+    start, end = once.evaluate(0, 0.0).z, once.evaluate(once.n - 1, 1.0).z
+    if abs(start - end) > _SAME_DEPTH:
+        found = f"{repeat} for a path that starts at a depth of {start:g} m and ends at {end:g} m"
+        raise ConfigurationError("repeat", found, "1, or a path that ends at the depth of its start")
+    return SpatialPath(once.subpaths * repeat)
 
 
 def _given(route: Route, depth: float | None, profile: DepthProfileSpec | None) -> DepthProfile | None:

@@ -92,7 +92,7 @@ def helix(
         run_in, run_out: lengths of the lines before and after it, m; 0 for none.
     """
     side = math.copysign(0.5 * math.pi, sweep)
-    turns, full = math.ceil(abs(sweep) / TWO_PI - 1e-9), math.copysign(TWO_PI, sweep)
+    turns, full = max(1, math.ceil(abs(sweep) / TWO_PI - 1e-9)), math.copysign(TWO_PI, sweep)
     bearings = [bearing + full * k for k in range(turns)] + [bearing + sweep]
     segments: list[Segment] = [Arc(*centre, radius, a0, a1) for a0, a1 in itertools.pairwise(bearings)]
     if run_in > TOLERANCE:
