@@ -14,6 +14,7 @@ from auv_path_following import config_files, vehicle
 from auv_sim.flight.scenario import start_of
 from auv_sim.studies.campaign.campaign_plan import StudyPlan
 from auv_sim.studies.campaign.distributions import Distribution
+from auv_sim.vehicle.hulls.rigid_body import angles_of
 
 WRONG = Path(__file__).parent / "wrong_studies"
 
@@ -171,6 +172,15 @@ def test_a_wrong_study_gets_one_line(file: Path) -> None:
     assert expectation(file) in message, message
 
 
-def test_a_mission_with_a_depth_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(ConfigurationError, match="mission: found a path with depths, expected a planar one"):
-        study(tmp_path, "mission: helix\nvehicle: remus100_6dof\nruns: 2\n")
+def test_a_vehicle_that_dives_starts_at_the_depth_of_its_path(tmp_path: Path) -> None:
+    for mission, depth in (("helix", 5.0), ("mss_course", 0.5), ("loiter", 0.5)):
+        text = f"mission: {mission}\nvehicle: remus100_6dof\nruns: 2\n"
+        scenario = study(tmp_path, text).scenario(0)
+        assert scenario.initial.z == pytest.approx(depth)
+        assert scenario.initial.x == pytest.approx(scenario.path.start_pose[0])
+        assert angles_of(scenario.initial)[2] == pytest.approx(scenario.path.start_pose[2])
+
+
+def test_a_planar_vehicle_does_not_fly_a_path_with_depths(tmp_path: Path) -> None:
+    with pytest.raises(ConfigurationError, match="sternplanes: found a path with depth"):
+        study(tmp_path, "mission: helix\nvehicle: remus100\nruns: 2\n")

@@ -15,6 +15,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.batch.scenarios import flight_of
+from auv_sim.flight.loops import check_kind
 from auv_sim.flight.scenario import Scenario
 from auv_sim.studies.campaign import targets
 from auv_sim.studies.campaign.distributions import Value
@@ -97,11 +98,12 @@ class StudyPlan:
                     f"{self.where}: vary", f"{group}.*, and no {group}", f"{group}: FILE"
                 )
             configs[group] = changed(config, given[group], f"{where}: {group}")
-        return Scenario(
+        start = targets.start(mission.path, given["initial"])
+        scenario = Scenario(
             path=mission.path,
             vehicle=configs["vehicle"],
             thrust=mission.thrust,
-            initial=targets.start(mission.path, given["initial"]),
+            initial=targets.diving_start(start, mission.spatial, hull.depth.surface) if hull.dives else start,
             current=targets.current(given["current"]),
             sea=configs["sea"],
             seed=seed,
@@ -113,6 +115,8 @@ class StudyPlan:
             time_limit=study.time_limit,
             spatial=mission.spatial,
         )
+        check_kind(scenario)
+        return scenario
 
     def _configs(self, values: dict[str, Value], mission: Mission, hull: Vehicle) -> dict[str, Any]:
         """Return the settings objects before anything is varied: group -> object."""
