@@ -33,6 +33,7 @@ ROS = re.compile(
 ROS_ROOMS = (
     "auv_msgs_py.contract.conversions",
     "auv_msgs_py.contract.qos",
+    "auv_msgs_py.contract.spatial_conversions",
     "auv_msgs_py.node",
     "auv_path_following.nodes",
     "auv_sim.bags",

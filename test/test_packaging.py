@@ -198,6 +198,7 @@ def test_the_manifest_names_what_the_tests_import(name: str) -> None:
         "golden_flights",
         "golden_tracks",
         "hulls",
+        "peer_course",
         "laws",
         "one_of_each",
         "conftest",

@@ -27,9 +27,11 @@ from auv_sim.flight.closed_loop import fly
 from auv_sim.flight.metrics import summarise
 from auv_sim.launch import mission_plan
 from auv_sim.launch.options import Options
+from auv_sim.nodes.held_commands import orders_of
 from auv_sim.nodes.lockstep import Lockstep
 from conftest import SHORT_MISSION
 from doc_pages import ROOT, listings
+from hulls import REMUS
 
 PAGE = "docs/troubleshooting.md"
 (MISSION,) = listings("docs/tutorial.md", "yaml")
@@ -103,7 +105,7 @@ def no_answer(_: Path) -> str:
         create_timer=lambda _, callback, **__: timers.append(callback),
     )  # fmt: skip
     simulator.fail = lambda text: setattr(simulator, "fault", text)
-    Lockstep(simulator).on_mission_state()
+    Lockstep(simulator, orders_of(REMUS)).on_mission_state()
     waits = [KeyValue(key="waiting_for", value="desired_yaw")]
     status = DiagnosticStatus(hardware_id="heading_autopilot", values=waits)
     for topic, callback in heard:

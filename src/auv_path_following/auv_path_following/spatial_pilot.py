@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from auv_msgs_py.contract.frames import flip_yaw
+from auv_msgs_py.values.attitude import level_of
 from auv_msgs_py.values.pure import pure
 from auv_msgs_py.values.types import SpatialCommand, SpatialCurrent, SpatialReference, WaterVelocity
 from auv_path_following.control import diving_autopilot
@@ -13,9 +14,9 @@ from auv_path_following.curves.spatial.spatial_rows import SpatialRows
 from auv_path_following.guidance import guide as guidance
 from auv_path_following.guidance.guide import Guide, GuideState, guide
 from auv_path_following.guidance.measured import SpatialMeasured
-from auv_path_following.guidance.spatial.spatial_follow import SpatialOutput, level_of
-from auv_path_following.guidance.spatial.spatial_laws import levelled
+from auv_path_following.guidance.spatial.spatial_follow import SpatialOutput
 from auv_path_following.navigation.current_observer import Observer
+from auv_path_following.navigation.levelled import levelled
 from auv_path_following.navigation.spatial_observer import (
     UNOBSERVED,
     SpatialObserverState,

@@ -8,7 +8,7 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.frames import FrameIds, FrameTable
 from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
-from auv_msgs_py.values.types import Current
+from auv_msgs_py.values.types import Current, SpatialCurrent
 from auv_path_following.parameters import (
     AutopilotParameters,
     GuidanceParameters,
@@ -16,6 +16,7 @@ from auv_path_following.parameters import (
     ObserverParameters,
 )
 from auv_sim.driver_parameters import MavlinkDriverParameters
+from auv_sim.vehicle.hulls.rigid_body import BodyState, body_at
 from auv_sim.vehicle.remus import PlantState
 
 #: Initial speed of a simulated vehicle through the water, m/s.
@@ -30,11 +31,20 @@ class InitialPose:
     y: float = setting(0.0, "east", unit="m")
     psi: float = setting(0.0, "heading, clockwise from north", unit="rad")
     surge: float = setting(CRUISE, "speed through the water", unit="m/s", ge=0.0, le=10.0)
+    depth: float = setting(0.0, "depth, of a vehicle with stern planes", unit="m", ge=0.0)
+    theta: float = setting(
+        0.0, "pitch of a vehicle with stern planes, positive bow up", unit="rad", gt=-1.5, lt=1.5
+    )
 
     @property
     def state(self) -> PlantState:
         """The same as the plant's state."""
         return PlantState(self.x, self.y, self.psi, self.surge, 0.0, 0.0)
+
+    @property
+    def spatial_state(self) -> BodyState:
+        """The same of a vehicle with stern planes."""
+        return body_at(self.x, self.y, self.depth, 0.0, self.theta, self.psi, self.surge)
 
 
 @settings
@@ -43,11 +53,23 @@ class ConstantCurrent:
 
     Vx: float = setting(0.0, "towards north", unit="m/s", ge=-5.0, le=5.0, live=True)
     Vy: float = setting(0.0, "towards east", unit="m/s", ge=-5.0, le=5.0, live=True)
+    Vz: float = setting(
+        0.0, "downwards, for a vehicle with stern planes", unit="m/s", ge=-5.0, le=5.0, live=True
+    )
 
     @property
     def value(self) -> Current:
         """The same as a vector, m/s, NED."""
         return Current(self.Vx, self.Vy)
+
+    @property
+    def spatial_value(self) -> SpatialCurrent:
+        """The same in three dimensions."""
+        return SpatialCurrent(self.Vx, self.Vy, self.Vz)
+
+    def of(self, dives: bool) -> Current | SpatialCurrent:
+        """Return the current for a vehicle that dives, or for one that does not."""
+        return self.spatial_value if dives else self.value
 
 
 @settings
@@ -104,6 +126,7 @@ class RecorderParameters(NodeParameters):
         "rosbag2 directory to write; it must not exist yet; empty: bag-DATE-TIME in the working directory",
     )
     contract: bool = setting(True, "record the wire contract, /rosout and /parameter_events from the start")
+    sternplanes: bool = setting(False, "record the topics of a vehicle with stern planes as well")
     topics: str = setting("", "further topics: names, separated by spaces")
     regex: str = setting("", "further topics: regular expression for their full names")
     exclude: str = setting("", "regular expression for full names not to record, unless named elsewhere")

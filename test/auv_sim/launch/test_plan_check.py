@@ -224,6 +224,7 @@ def test_it_starts_elsewhere_on_request_and_never_with_its_propeller_in_air():
     ("options", "message"),
     [
         ({"depth": 3.0}, "--depth: found vehicle REMUS 100 without stern planes"),
+        ({"upwelling": 0.1}, "--upwelling: found vehicle REMUS 100 without stern planes"),
         ({"depth": 300.0, "vehicle": DIVER}, "--depth: found 300 m, expected at most 100 m"),
         ({"mission": "helix"}, "vehicle REMUS 100: found no stern planes for a mission with a depth"),
     ],
@@ -239,14 +240,19 @@ def test_an_altitude_is_held_within_the_limits(tmp_path):
         "limits: {min_altitude: 3, max_depth: 60}\nloiter: {centre: [0, 0], radius: 30}\n"
     )
     (tmp_path / "low.yaml").write_text(text)
-    mode = mission_plan.scenario(Options(mission=str(tmp_path / "low.yaml"), vehicle=DIVER)).mode
+    options = Options(mission=str(tmp_path / "low.yaml"), vehicle=DIVER)
+    with pytest.raises(ConfigurationError, match="altitude: found no sea, without an altimeter"):
+        mission_plan.scenario(options)
+    mode = mission_plan.scenario(dataclasses.replace(options, sea="shelf")).mode
     assert (mode.above, mode.least, mode.surface, mode.deepest) == (5.0, 3.0, 0.5, 60.0)
 
 
 @pytest.mark.parametrize("more", [[], ["--force"]])
-def test_the_launcher_refuses_a_mission_with_a_depth_in_one_line(tmp_path, capsys, more):
-    asked = ["helix", "--vehicle", DIVER, "--out", str(tmp_path / "run"), *more]
+def test_the_launcher_refuses_a_mission_with_a_depth_for_a_planar_vehicle(tmp_path, capsys, more):
+    asked = ["helix", "--domain", "1", "--out", str(tmp_path / "run"), *more]
     assert mission_command.main(asked) == 2
     err = capsys.readouterr().err
-    assert "one with a depth flies in closed loop and campaigns only" in err and err.count("\n") == 1
+    assert "found" in err
+    assert "stern planes" in err
+    assert err.count("\n") == 1
     assert not (tmp_path / "run").exists()

@@ -8,7 +8,9 @@ from typing import Any
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
+from auv_sim.nodes.held_commands import orders_of
 from auv_sim.nodes.lockstep import Lockstep
+from hulls import REMUS
 
 
 class Simulator:
@@ -66,7 +68,7 @@ def test_a_refused_message_is_named_with_its_value_and_not_its_sender(
     node: str, text: str, waits: str, named: str
 ) -> None:
     simulator: Any = Simulator()
-    lockstep = Lockstep(simulator)
+    lockstep = Lockstep(simulator, orders_of(REMUS))
     lockstep.on_mission_state()
     lockstep._on_diagnostics(refusal(node, text))
     lockstep._on_diagnostics(reports(**{node: waits}))
@@ -99,7 +101,7 @@ def test_a_refused_message_is_named_with_its_value_and_not_its_sender(
 )
 def test_the_node_that_owes_something_is_named(waiting: dict[str, str], named: str) -> None:
     simulator: Any = Simulator()
-    lockstep = Lockstep(simulator)
+    lockstep = Lockstep(simulator, orders_of(REMUS))
     lockstep.on_mission_state()
     lockstep._on_diagnostics(reports(**waiting))
     lockstep._check()
@@ -118,7 +120,7 @@ def say(simulator: Any, lockstep: Lockstep, running: bool) -> None:
 
 def test_under_thrust_a_forged_state_holds_nothing_up() -> None:
     simulator: Any = Simulator()
-    lockstep = Lockstep(simulator)
+    lockstep = Lockstep(simulator, orders_of(REMUS))
     say(simulator, lockstep, True)
     answer(lockstep, 6.0)
     assert simulator.published == 2
@@ -131,7 +133,7 @@ def test_under_thrust_a_forged_state_holds_nothing_up() -> None:
 def test_the_end_of_a_mission_is_waited_for_though_it_was_forged_before() -> None:
     """The step without thrust is the last one, in whatever order it and the state arrive."""
     simulator: Any = Simulator()
-    lockstep = Lockstep(simulator)
+    lockstep = Lockstep(simulator, orders_of(REMUS))
     say(simulator, lockstep, True)
     say(simulator, lockstep, False)
     answer(lockstep, 6.0)
@@ -147,7 +149,7 @@ def test_the_end_of_a_mission_is_waited_for_though_it_was_forged_before() -> Non
 def test_a_forged_start_costs_one_step_at_rest() -> None:
     """Guidance answers it without thrust and says its state again."""
     simulator: Any = Simulator()
-    lockstep = Lockstep(simulator)
+    lockstep = Lockstep(simulator, orders_of(REMUS))
     say(simulator, lockstep, True)
     answer(lockstep, 0.0)
     say(simulator, lockstep, False)

@@ -13,6 +13,8 @@ from auv_msgs_py.contract.frames import (
     Convention,
     FrameTable,
     flip_yaw,
+    is_frd,
+    is_ned,
     quaternion_of_yaw,
     swap_axes,
     yaw_of_quaternion,
@@ -26,7 +28,7 @@ _BILLION = 1_000_000_000
 #: The largest second that builtin_interfaces/msg/Time can hold.
 _LAST_SECOND = 2**31 - 1
 #: Largest coordinate of a position, m: more than twice around the Earth, and its square does not overflow.
-_FARTHEST = 1e8
+FARTHEST = 1e8
 
 
 def nanoseconds(stamp: Time) -> int:
@@ -55,7 +57,7 @@ def navigation_from(message: Odometry, frames: FrameTable, topic: str) -> Naviga
     """Return pose and yaw rate, NED.
 
     Raises:
-        MessageRefused: unknown frames, a value that is not finite, a coordinate beyond `_FARTHEST`, or a
+        MessageRefused: unknown frames, a value that is not finite, a coordinate beyond `FARTHEST`, or a
             quaternion without unit norm.
     """
     convention = frames.of_pose(topic, message.header.frame_id, message.child_frame_id)
@@ -63,8 +65,8 @@ def navigation_from(message: Odometry, frames: FrameTable, topic: str) -> Naviga
     x, y, q, rate = pose.position.x, pose.position.y, pose.orientation, message.twist.twist.angular.z
     if not math.isfinite(x + y + rate):
         raise MessageRefused(topic, f"x={x}, y={y}, yaw rate={rate}", "finite numbers")
-    if not (abs(x) < _FARTHEST and abs(y) < _FARTHEST):
-        raise MessageRefused(topic, f"x={x:g}, y={y:g}", f"coordinates within {_FARTHEST:g} m")
+    if not (abs(x) < FARTHEST and abs(y) < FARTHEST):
+        raise MessageRefused(topic, f"x={x:g}, y={y:g}", f"coordinates within {FARTHEST:g} m")
     norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w
     if not abs(norm - 1.0) < 0.02:
         raise MessageRefused(topic, f"a quaternion of norm {math.sqrt(abs(norm)):.3f}", "a unit quaternion")
@@ -124,7 +126,7 @@ def fill_odometry(message: Odometry, navigation: Navigation, u: float, v: float,
     set_stamp(message.header.stamp, ns)
     pose, twist = message.pose.pose, message.twist.twist
     twist.linear.x = u
-    if message.header.frame_id.endswith("_ned"):
+    if is_ned(message.header.frame_id):
         pose.position.x, pose.position.y = navigation.x, navigation.y
         yaw, twist.linear.y, twist.angular.z = navigation.psi, v, navigation.r
     else:
@@ -138,7 +140,7 @@ def fill_water_velocity(message: TwistWithCovarianceStamped, water: WaterVelocit
     set_stamp(message.header.stamp, ns)
     linear = message.twist.twist.linear
     linear.x = water.ur
-    linear.y = water.vr if message.header.frame_id.endswith("_frd") else -water.vr
+    linear.y = water.vr if is_frd(message.header.frame_id) else -water.vr
 
 
 def fill_pose(message: PoseStamped, x: float, y: float, psi: float, ns: int) -> None:

@@ -61,7 +61,19 @@ class FrameIds:
     enu_world: list[str] = setting(factory=lambda: ["map", "odom"], doc="world frames that are ENU")
     ned_world: list[str] = setting(factory=lambda: ["map_ned", "odom_ned"], doc="world frames that are NED")
     flu_body: list[str] = setting(factory=lambda: ["base_link"], doc="body frames that are FLU")
-    frd_body: list[str] = setting(factory=lambda: ["base_link_frd"], doc="body frames that are FRD")
+    frd_body: list[str] = setting(
+        factory=lambda: ["base_link_frd", "base_link_fsd"], doc="body frames that are FRD, or FSD by REP-156"
+    )
+
+
+def is_ned(world_frame: str) -> bool:
+    """Return whether a world frame of the simulator is NED, by its name."""
+    return world_frame.endswith("_ned")
+
+
+def is_frd(body_frame: str) -> bool:
+    """Return whether a body frame of the simulator is FRD (FSD in REP-156), by its name."""
+    return body_frame.endswith(("_frd", "_fsd"))
 
 
 #: Most cached ids: a publisher with a new prefix in each message must not fill the memory.

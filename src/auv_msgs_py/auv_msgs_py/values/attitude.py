@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from auv_msgs_py.values.pure import pure
+from auv_msgs_py.values.types import Navigation, SpatialNavigation
 
 #: w, x, y, z of a unit quaternion.
 Quaternion = tuple[float, float, float, float]
@@ -54,3 +55,10 @@ def euler_rates(phi: float, theta: float, q: float, r: float) -> tuple[float, fl
     if level < 0.1:
         level = 0.1
     return (q * math.sin(phi) + r * math.cos(phi)) / level, q * math.cos(phi) - r * math.sin(phi)
+
+
+@pure
+def level_of(navigation: SpatialNavigation) -> Navigation:
+    """Return place and heading, with the rate of the heading: Eq. (3D-27)."""
+    rate, _ = euler_rates(navigation.phi, navigation.theta, navigation.q, navigation.r)
+    return Navigation(navigation.x, navigation.y, navigation.psi, rate)

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from auv_msgs_py.contract.mission_word import MissionState
-from auv_msgs_py.values.types import Reference
+from auv_msgs_py.values.types import Reference, SpatialReference
+
+AnyReference = Reference | SpatialReference
 
 
 class ReferenceWatch:
     """Keep the newest reference; find guidance that is silent or contradicts the state of its mission."""
 
     def __init__(self) -> None:
-        self.newest: Reference | None = None
+        self.newest: AnyReference | None = None
         self._at = 0.0
         self._contradicted: float | None = None
         #: Whether `allowed` found no new reference within the timeout.
@@ -18,11 +20,11 @@ class ReferenceWatch:
         #: Contradiction that `allowed` found: a desired thrust without a running mission; else empty.
         self.contradiction = ""
 
-    def put(self, reference: Reference, now: float) -> None:
+    def put(self, reference: AnyReference, now: float) -> None:
         """Keep a reference that came at `now`, s."""
         self.newest, self._at = reference, now
 
-    def allowed(self, now: float, mission: str, timeout: float) -> Reference | None:
+    def allowed(self, now: float, mission: str, timeout: float) -> AnyReference | None:
         """Return the newest reference if it may be followed, else None.
 
         Args:

@@ -86,14 +86,14 @@ class Mission:
     max_slope: float = 0.0
 
     def require_planar(self) -> None:
-        """Refuse a mission with depths or an altitude, where only planar ones can be flown.
+        """Refuse a mission with depths or an altitude: the vehicle has no stern planes.
 
         Raises:
             ConfigurationError: it is not planar.
         """
         if self.spatial is not None or self.altitude is not None:
             key, found = ("altitude", "it") if self.altitude is not None else ("depth", "a path with depths")
-            expected = "a planar mission: one with a depth flies in closed loop and campaigns only"
+            expected = "a planar mission, or a vehicle with stern planes, such as remus100_6dof"
             raise ConfigurationError(f"{self.source}: {key}", found, expected)
 
     def copy_to(self, directory: Path) -> Path:

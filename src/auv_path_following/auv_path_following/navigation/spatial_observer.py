@@ -4,9 +4,26 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from auv_msgs_py.values.attitude import level_of
 from auv_msgs_py.values.pure import pure
-from auv_msgs_py.values.types import NO_CURRENT, Navigation, SpatialCurrent, WaterVelocity
-from auv_path_following.navigation.current_observer import Observer, ObserverState, observe, relocated
+from auv_msgs_py.values.types import (
+    NO_CURRENT,
+    NO_SPATIAL_WATER,
+    Navigation,
+    SpatialCurrent,
+    SpatialNavigation,
+    SpatialWater,
+    WaterVelocity,
+)
+from auv_path_following.navigation.current_observer import (
+    CurrentObserverConfig,
+    Observer,
+    ObserverState,
+    observe,
+    prepare,
+    relocated,
+)
+from auv_path_following.navigation.levelled import levelled
 
 
 class SpatialObserverState(NamedTuple):
@@ -65,3 +82,47 @@ def observe_spatial(
         observe(config, state.horizontal, level, water, has_water, dt),
         observe(config, state.vertical, downwards, along, has_water, dt),
     )
+
+
+class SpatialCurrentObserver:
+    """The observer of one vehicle that dives: settings and state.
+
+    Args:
+        config: gains.
+    """
+
+    def __init__(self, config: CurrentObserverConfig) -> None:
+        self.configure(config)
+        self.reset()
+
+    def configure(self, config: CurrentObserverConfig) -> None:
+        """Take new gains; the estimate is kept."""
+        self.config = prepare(config)
+
+    def reset(self) -> None:
+        """Reset the state; the next update starts with an estimate of zero."""
+        self.state = UNOBSERVED
+
+    def relocate(self) -> None:
+        """Forget the last position, which the next one does not continue; keep the current."""
+        self.state = spatially_relocated(self.state)
+
+    @property
+    def current(self) -> SpatialCurrent:
+        """The latest estimate, m/s, NED."""
+        return spatial_estimate(self.state)
+
+    def update(self, navigation: SpatialNavigation, water: SpatialWater | None, dt: float) -> None:
+        """Take one measurement, see `observe_spatial`; `water` is None where it is unknown."""
+        flow = levelled(water or NO_SPATIAL_WATER, navigation.phi, navigation.theta)
+        across = WaterVelocity(flow.ahead, flow.starboard)
+        self.state = observe_spatial(
+            self.config,
+            self.state,
+            level_of(navigation),
+            navigation.z,
+            across,
+            flow.down,
+            water is not None,
+            dt,
+        )

@@ -7,10 +7,13 @@ from typing import Any
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import fill_current
+from auv_msgs_py.contract.spatial_conversions import fill_spatial_current
 from auv_msgs_py.contract.wire import Vector3Stamped
 from auv_msgs_py.node.run import run_nodes
 from auv_msgs_py.node.runtime import SuiteNode
+from auv_path_following import vehicle
 from auv_path_following.navigation.current_observer import CurrentObserver
+from auv_path_following.navigation.spatial_observer import SpatialCurrentObserver
 from auv_path_following.nodes.navigation_input import Inputs, NavigationInput
 from auv_path_following.parameters import ObserverParameters
 
@@ -20,7 +23,10 @@ class CurrentObserverNode(SuiteNode):
 
     def __init__(self, **arguments: Any) -> None:
         super().__init__(topics.OBSERVER, ObserverParameters, **arguments)
-        self.observer = CurrentObserver(self.parameters.observer)
+        dives = vehicle.load(self.parameters.vehicle).dives
+        kind = SpatialCurrentObserver if dives else CurrentObserver
+        self.observer: Any = kind(self.parameters.observer)
+        self._fill = fill_spatial_current if dives else fill_current
         self._message = Vector3Stamped()
         self._publisher = self.advertise(topics.CURRENT_ESTIMATE)
         self.close_gate()
@@ -35,18 +41,19 @@ class CurrentObserverNode(SuiteNode):
 
     def report(self) -> dict[str, Any]:
         current = self.observer.current
-        return {"north [m/s]": f"{current.Vx:.3f}", "east [m/s]": f"{current.Vy:.3f}"}
+        names = ("north [m/s]", "east [m/s]", "down [m/s]")
+        return {name: f"{part:.3f}" for name, part in zip(names, current, strict=False)}
 
     def _step(self, inputs: Inputs) -> None:
         if inputs.moved:
             self.observer.relocate()
-        output = self.observer.update(inputs.navigation, inputs.water, inputs.dt)
+        self.observer.update(inputs.navigation, inputs.water, inputs.dt)
         late = inputs.water is None and inputs.water_age > self.parameters.water_velocity_timeout
         text = f"no fresh {topics.WATER_VELOCITY.name}: the estimate rests" if late else ""
         self.health.warn("water", text)
         if inputs.water is None:
             return
-        fill_current(self._message, output.current, inputs.stamp)
+        self._fill(self._message, self.observer.current, inputs.stamp)
         self.answer(self._publish)
 
     def _publish(self) -> None:

@@ -9,13 +9,11 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.mission_word import MissionState
 from auv_msgs_py.node.run import run_nodes
 from auv_msgs_py.node.runtime import SuiteNode
-from auv_msgs_py.values.types import NO_WATER
 from auv_path_following import vehicle
-from auv_path_following.guidance.approach import ApproachWatch, agility_of
-from auv_path_following.guidance.measured import Measured
+from auv_path_following.guidance.approach import ApproachWatch
 from auv_path_following.guidance.path_follower import distance_to_go
 from auv_path_following.missions import mission_file
-from auv_path_following.nodes.guidance_output import GuidanceMessages, whole_path
+from auv_path_following.nodes.mission_course import course_of
 from auv_path_following.nodes.mission_keeper import MissionKeeper
 from auv_path_following.nodes.navigation_input import Inputs, NavigationInput
 from auv_path_following.parameters import GuidanceParameters
@@ -28,17 +26,16 @@ class GuidanceNode(SuiteNode):
         super().__init__(topics.GUIDANCE, GuidanceParameters, **arguments)
         hull = vehicle.load(self.parameters.vehicle)
         self.mission = mission_file.load(self.parameters.mission, hull)
-        self.mission.require_planar()
-        agility = agility_of(hull, self.mission.thrust)
-        self.keeper = MissionKeeper(self, self.mission, agility, self._begins)
-        self._to_go = self.mission.path.length
+        self._course = course_of(self.mission, hull)
+        self.keeper = MissionKeeper(self, self._course, self._begins)
+        self._to_go = self._course.path.length
         self._approach = ApproachWatch()
-        self._messages = GuidanceMessages(self)
+        self._messages = self._course.messages(self)
         path = self.advertise(topics.PATH)
         self.close_gate()
-        self._input = NavigationInput(self, self._step, self.keeper.restart, with_current=True)
+        self._input = NavigationInput(self, self._step, self.keeper.restart, True, self._course.with_altitude)
         self.keeper.offer()
-        path.publish(whole_path(self.mission.path, self.get_clock().now().nanoseconds))
+        path.publish(self._course.message(self.get_clock().now().nanoseconds))
         for notice in self.mission.notices:
             self.get_logger().info(notice)
         self.keeper.take_switching()
@@ -66,8 +63,7 @@ class GuidanceNode(SuiteNode):
         p, has_water = self.parameters, inputs.water is not None
         late = not has_water and inputs.water_age > p.water_velocity_timeout
         self.health.warn("water", f"no fresh {topics.WATER_VELOCITY.name}" if late else "")
-        water = inputs.water or NO_WATER
-        measured = Measured(inputs.navigation, water, has_water, inputs.moved, self._to_go, self.now())
+        measured = self._course.measured(inputs, self._to_go, self.now())
         dt = 0.0 if self.keeper.state.begins else inputs.dt
         output, thrust = self.keeper.step(measured, inputs.current, inputs.dt)
         late = thrust > 0.0 and inputs.current_age > p.current_timeout
@@ -76,7 +72,7 @@ class GuidanceNode(SuiteNode):
             if text := self._approach.update(output.approach, dt):
                 self.get_logger().info(text)
             self.health.warn("approach", self._approach.complaint(p.guidance.approach.overdue))
-        self._to_go = distance_to_go(self.mission.path, self.keeper.state.follower)
+        self._to_go = distance_to_go(self._course.path, self.keeper.state.follower)
         self._messages.fill(output, thrust, self._to_go, inputs.stamp)
         self.answer(self._publish)
 

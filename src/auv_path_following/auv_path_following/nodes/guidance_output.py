@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import PATH_FRAME, fill_pose, path_message, set_stamp
 from auv_msgs_py.contract.frames import flip_yaw
+from auv_msgs_py.contract.spatial_conversions import fill_error, fill_spatial_pose, spatial_path_message
 from auv_msgs_py.contract.wire import Float64, PoseStamped, Vector3Stamped
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_path_following.curves.composite import CompositePath
+from auv_path_following.curves.spatial.spatial_path import SpatialPath
+from auv_path_following.curves.spatial.spatial_point import tangent_of
 from auv_path_following.guidance.follow import GuidanceOutput
 
 #: Distance between the poses of `path`, m.
@@ -78,3 +82,49 @@ class GuidanceMessages:
             publisher.publish(message)
         self._virtual_point.publish(self._pose)
         self._path_error.publish(self._error)
+
+
+def whole_spatial_path(path: SpatialPath, stamp: int) -> Any:
+    """Return a path with depths as the message `path`.
+
+    Args:
+        path: the mission's.
+        stamp: ns.
+    """
+    spacing = max(_PATH_SPACING, path.length / _PATH_POSES)
+    rows = []
+    for i, subpath in enumerate(path.subpaths):
+        n = max(1, math.ceil(subpath.length / spacing))
+        for k in range(n + (i + 1 == path.n)):
+            point = path.evaluate(i, k / n)
+            along = tangent_of(point)
+            rows.append(((point.x, point.y, point.z), along.gamma, along.chi))
+    return spatial_path_message(rows, stamp)
+
+
+class SpatialGuidanceMessages(GuidanceMessages):
+    """The messages of one step of a vehicle that dives, reused."""
+
+    def __init__(self, node: SuiteNode) -> None:
+        super().__init__(node)
+        self._floats |= {
+            topic: (node.advertise(topic), Float64())
+            for topic in (topics.DESIRED_PITCH, topics.DESIRED_PITCH_RATE, topics.DESIRED_DEPTH)
+        }
+        self._error_3d, self._errors = node.advertise(topics.PATH_ERROR_3D), Vector3Stamped()
+
+    def fill(self, output: Any, thrust: float, to_go: float, stamp: int) -> None:
+        """Write a `SpatialOutput` into the messages; arguments as those of `GuidanceMessages.fill`."""
+        super().fill(output, thrust, to_go, stamp)
+        floats = self._floats
+        floats[topics.DESIRED_PITCH][1].data = -output.theta_d
+        floats[topics.DESIRED_PITCH_RATE][1].data = -output.q_d
+        floats[topics.DESIRED_DEPTH][1].data = output.depth
+        place = (output.x_p, output.y_p, output.z_p)
+        fill_spatial_pose(self._pose, place, output.gamma_p, output.chi_p, stamp)
+        fill_error(self._errors, (output.xe, output.ye, output.ze), stamp)
+
+    def publish(self) -> None:
+        """Publish all messages."""
+        super().publish()
+        self._error_3d.publish(self._errors)

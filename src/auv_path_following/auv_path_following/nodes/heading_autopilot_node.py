@@ -1,4 +1,4 @@
-"""heading_autopilot: turn the references of guidance into rudder and thrust."""
+"""heading_autopilot: turn the references of guidance into rudder, stern planes and thrust."""
 
 from __future__ import annotations
 
@@ -10,18 +10,17 @@ from auv_msgs_py.contract.pairing import Pairing
 from auv_msgs_py.contract.wire import Float64, Odometry
 from auv_msgs_py.node.run import run_nodes
 from auv_msgs_py.node.runtime import SuiteNode
-from auv_msgs_py.values.types import STOP, Command, Navigation
 from auv_path_following import vehicle
-from auv_path_following.control.autopilot import HeadingAutopilot
 from auv_path_following.nodes.odometry_intake import OdometryIntake
-from auv_path_following.nodes.reference_input import REFERENCES, ReferenceInput
+from auv_path_following.nodes.reference_input import ReferenceInput
+from auv_path_following.nodes.steering import steering_of
 from auv_path_following.parameters import AutopilotParameters
 
 _STOPPED = "rudder and thrust are 0"
 
 
 class HeadingAutopilotNode(SuiteNode):
-    """Publish both commands exactly once per odometry, and zeros when the inputs stop.
+    """Publish each command exactly once per odometry, and zeros when the inputs stop.
 
     An odometry is answered as soon as guidance has answered it. Without lockstep an odometry that is still
     open when the next one comes is answered with the last reference, or with a stop if that is too old.
@@ -30,31 +29,32 @@ class HeadingAutopilotNode(SuiteNode):
     def __init__(self, **arguments: Any) -> None:
         super().__init__(topics.AUTOPILOT, AutopilotParameters, **arguments)
         hull = vehicle.load(self.parameters.vehicle)
-        self.autopilot = HeadingAutopilot(hull, self.parameters.autopilot)
+        self.autopilot = steering_of(hull, self.parameters)
         self._intake = OdometryIntake(self, _STOPPED)
-        names = (topics.ODOM.name, *(topic.name for topic in REFERENCES))
+        names = (topics.ODOM.name, *(topic.name for topic in self.autopilot.references))
         self._pairing = Pairing(names, strict=self.parameters.lockstep)
-        self._command = STOP
-        self._rudder, self._rudder_message = self.advertise(topics.RUDDER_CMD), Float64()
-        self._thrust, self._thrust_message = self.advertise(topics.THRUST_CMD), Float64()
+        self._command = self.autopilot.stop
+        self._outputs = [(self.advertise(topic), Float64()) for topic in self.autopilot.commands]
         self.close_gate()
         self.listen(topics.ODOM, self._on_odometry)
-        self._references = ReferenceInput(self, hull.thrust_max, self._put, self._starts, _STOPPED)
+        self._references = ReferenceInput(self, self.autopilot, self._put, self._starts, _STOPPED)
         if not self.parameters.lockstep:
             self.every(0.1, self._watch)
 
     def validate(self, proposed: AutopilotParameters) -> None:
-        HeadingAutopilot(self.autopilot.vehicle, proposed.autopilot)  # raises where the gains do not fit
+        self.autopilot.validate(proposed)
 
     def configure(self) -> None:
-        self.autopilot.configure(self.parameters.autopilot)
+        self.autopilot.configure(self.parameters)
         self._intake.configure()
 
     def waiting_for(self) -> str:
         return self.gate_waits_for() or ", ".join(self._pairing.missing)
 
     def report(self) -> dict[str, Any]:
-        return {"rudder [rad]": f"{self._command.rudder:.4f}", "thrust [N]": f"{self._command.thrust:.2f}"}
+        rudder, *planes, thrust = self._command
+        values = {"rudder [rad]": f"{rudder:.4f}", "thrust [N]": f"{thrust:.2f}"}
+        return values | ({"stern planes [rad]": f"{planes[0]:.4f}"} if planes else {})
 
     def _on_odometry(self, message: Odometry) -> None:
         topic = topics.ODOM.name
@@ -65,7 +65,7 @@ class HeadingAutopilotNode(SuiteNode):
         if moved or (free and dt > self.parameters.odometry_timeout):
             self.autopilot.reset()
         if free and topic in self._pairing:
-            self._answer(*self._pairing.take())
+            self._answer(self._pairing.take())
         self._put(topic, (navigation, dt), stamp)
 
     def _starts(self) -> None:
@@ -74,19 +74,18 @@ class HeadingAutopilotNode(SuiteNode):
 
     def _put(self, topic: str, value: Any, stamp: int | None = None) -> None:
         if self._pairing.put(topic, value, stamp):
-            self._answer(*self._pairing.take())
+            self._answer(self._pairing.take())
 
-    def _answer(
-        self, odometry: tuple[Navigation, float], yaw: float | None, rate: float | None, thrust: float | None
-    ) -> None:
-        self._references.take(yaw, rate, thrust)
+    def _answer(self, parts: tuple[Any, ...]) -> None:
+        """Answer an odometry: (navigation, dt), then the references in their order."""
+        (navigation, dt), *references = parts
+        self._references.take(tuple(references))
         reference = self._references.obeyed()
-        navigation, dt = odometry
         if reference is None:
             self.autopilot.reset()
-            self._command = STOP
+            self._command = self.autopilot.stop
         else:
-            self._command = self.autopilot.update(navigation, reference, dt).command
+            self._command = self.autopilot.update(navigation, reference, dt)
         self.answer(self._publish)
 
     def _watch(self) -> None:
@@ -102,14 +101,13 @@ class HeadingAutopilotNode(SuiteNode):
             self._stop()
 
     def _stop(self) -> None:
-        self._command = STOP
+        self._command = self.autopilot.stop
         self._publish()
 
     def _publish(self) -> None:
-        command: Command = self._command
-        self._rudder_message.data, self._thrust_message.data = command
-        self._rudder.publish(self._rudder_message)
-        self._thrust.publish(self._thrust_message)
+        for (publisher, message), value in zip(self._outputs, self._command, strict=True):
+            message.data = value
+            publisher.publish(message)
 
 
 def main(args: Sequence[str] | None = None) -> int:

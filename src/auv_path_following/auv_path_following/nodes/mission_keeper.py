@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
+from typing import Any
 
 from rclpy.parameter import Parameter
 from std_srvs.srv import Trigger
@@ -11,23 +11,18 @@ from std_srvs.srv import Trigger
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.mission_word import MissionState
 from auv_msgs_py.node.runtime import SuiteNode
-from auv_msgs_py.values.types import Current
-from auv_path_following.guidance.approach import Agility, empty_approach
-from auv_path_following.guidance.follow import GuidanceOutput
+from auv_path_following.guidance.approach import empty_approach
 from auv_path_following.guidance.guide import (
     Guide,
     at_the_beginning,
     first_state,
     guide,
-    prepare,
     reconfigured,
     start,
 )
-from auv_path_following.guidance.measured import Measured
-from auv_path_following.missions import limits
 from auv_path_following.missions import mission_state as states
-from auv_path_following.missions.mission_file import Mission
 from auv_path_following.missions.mission_state import MissionStatus, Reason
+from auv_path_following.nodes.mission_course import PlanarCourse
 from auv_path_following.nodes.mission_report import MissionReport
 
 
@@ -36,16 +31,12 @@ class MissionKeeper:
 
     Args:
         node: ailos_guidance.
-        mission: to fly.
-        agility: of the hull.
+        course: the mission and its path.
         begins: called when a mission begins again, with whether a start was requested.
     """
 
-    def __init__(
-        self, node: SuiteNode, mission: Mission, agility: Agility, begins: Callable[[bool], None]
-    ) -> None:
-        self._node, self._mission, self._agility, self._begins = node, mission, agility, begins
-        self._rows = mission.path.rows
+    def __init__(self, node: SuiteNode, course: PlanarCourse, begins: Callable[[bool], None]) -> None:
+        self._node, self._course, self._begins = node, course, begins
         self.config = self._prepared()
         self.state = first_state(self.config, empty_approach())
         self._last_usable: float | None = None
@@ -67,18 +58,18 @@ class MissionKeeper:
     def take_switching(self) -> None:
         """Set the parameters to the mission's switching, where it can be seen and changed."""
         parameters = self._node.parameters
-        switching = parameters.with_mission_overrides(self._mission).guidance.switching
+        switching = parameters.with_mission_overrides(self._course.mission).guidance.switching
         if switching != parameters.guidance.switching:
             mode = Parameter("guidance.switching.mode", value=switching.mode)
             radius = Parameter("guidance.switching.radius", value=switching.radius)
             self._node.set_parameters([mode, radius])
 
-    def step(self, measured: Measured, current: Current, dt: float) -> tuple[GuidanceOutput, float]:
+    def step(self, measured: Any, current: Any, dt: float) -> tuple[Any, float]:
         """Take one measurement, see `guide`; return the follower's result and the desired thrust, N."""
         if measured.has_water:
             self._last_usable = measured.now
         self.state, output, thrust, has_resumed = guide(
-            self.config, self._rows, self.state, measured, current, dt
+            self.config, self._course.rows, self.state, measured, current, dt
         )
         if has_resumed:
             self.report.resumed(self.config.hold_after)
@@ -92,10 +83,7 @@ class MissionKeeper:
         self._clock_went_back = False
 
     def _prepared(self) -> Guide:
-        p, mission = self._node.parameters, self._mission
-        bounds = limits.prepare(p.limits.stricter(mission.limits), mission.geofence)
-        hold_after = math.inf if p.lockstep else p.holding.hold_after
-        return prepare(p.guidance, self._agility, mission.thrust, hold_after, bounds)
+        return self._course.prepare(self._node.parameters)
 
     def _on_start(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         before, self.state = self.state, start(self.config, self.state)

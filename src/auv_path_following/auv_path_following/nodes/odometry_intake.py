@@ -2,32 +2,32 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from auv_msgs_py.contract import topics
-from auv_msgs_py.contract.conversions import navigation_from, stamp_of
+from auv_msgs_py.contract.conversions import stamp_of
 from auv_msgs_py.contract.frames import FrameTable
 from auv_msgs_py.contract.stamps import Punctuality, StampGuard, StampTiming, StampVerdict
 from auv_msgs_py.contract.wire import Odometry
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.errors import MessageRefused
-from auv_msgs_py.values.types import Navigation
 from auv_path_following import vehicle
 from auv_path_following.navigation.navigation_gate import NavigationGate, Passed
+from auv_path_following.nodes.readings import readings_of
 
 
 class AcceptedOdometry(NamedTuple):
     """One accepted odometry.
 
     Attributes:
-        navigation: pose and yaw rate, NED.
+        navigation: pose and rates, NED: `Navigation`, or `SpatialNavigation` of a vehicle that dives.
         dt: seconds since the last accepted one.
         stamp: ns.
         restarted: whether the stamps went back before it.
         moved: whether it does not continue the last one, in place or in time.
     """
 
-    navigation: Navigation
+    navigation: Any
     dt: float
     stamp: int
     restarted: bool
@@ -53,7 +53,9 @@ class OdometryIntake:
         self._frames = FrameTable(p.frames)
         self._guard = StampGuard(ordered=p.lockstep)
         self._punctuality = Punctuality(p.lateness)
-        self._gate = NavigationGate(p.gate, vehicle.load(p.vehicle).top_speed)
+        hull = vehicle.load(p.vehicle)
+        self._readings = readings_of(hull)
+        self._gate = NavigationGate(p.gate, hull.top_speed)
         self._refused_for = 0.0
         self._accepted_at: float | None = None
         self._silent = False
@@ -96,7 +98,7 @@ class OdometryIntake:
             MessageRefused: it cannot be used.
         """
         stamp = stamp_of(message.header.stamp, topics.ODOM.name)
-        navigation = navigation_from(message, self._frames, topics.ODOM.name)
+        navigation = self._readings.navigation(message, self._frames, topics.ODOM.name)
         # For a stamp that goes back the order decides: an old message, or a clock that was set.
         stepped = self._free and not self._guard.is_old(stamp) and self._stepped(stamp)
         verdict, dt = self._guard.judge(stamp)
@@ -112,7 +114,7 @@ class OdometryIntake:
             self._gate.reset()
             self._punctuality.reset()
             dt = self._refused_for = 0.0
-        passed, found, expected = self._gate.judge(navigation, dt, self.under_way)
+        passed, found, expected = self._gate.judge(self._readings.level(navigation), dt, self.under_way)
         if passed is Passed.REFUSED:
             self._refused_for += dt
             raise MessageRefused(topics.ODOM.name, found, expected)

@@ -4,23 +4,20 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import finite
-from auv_msgs_py.contract.frames import flip_yaw
 from auv_msgs_py.contract.mission_word import MissionState, MissionWord
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.contract.wire import Float64
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.errors import MessageRefused
-from auv_msgs_py.values.types import Reference
 from auv_path_following.control.reference_watch import ReferenceWatch
+from auv_path_following.nodes.steering import PlanarSteering
 
 if TYPE_CHECKING:
     from std_msgs.msg import String
-
-REFERENCES = (topics.DESIRED_YAW, topics.DESIRED_YAW_RATE, topics.DESIRED_THRUST)
 
 
 class ReferenceInput:
@@ -28,7 +25,7 @@ class ReferenceInput:
 
     Args:
         node: the autopilot.
-        thrust_max: largest thrust, N.
+        steering: the references that it needs, and their bounds.
         put: called with topic and value of each reference.
         starts: called when a mission starts, only free running.
         stopped: consequence of a stop, for the diagnostics.
@@ -37,30 +34,30 @@ class ReferenceInput:
     def __init__(
         self,
         node: SuiteNode,
-        thrust_max: float,
+        steering: PlanarSteering,
         put: Callable[[str, float], None],
         starts: Callable[[], None],
         stopped: str,
     ) -> None:
         self._node, self._put, self._starts, self._stopped = node, put, starts, stopped
-        # Bounds (rad, rad/s, N) beyond any request of guidance.
-        self._largest = dict(zip(REFERENCES, (6.5, 10.0, 10.0 * thrust_max), strict=True))
+        self._steering = steering
         self._watch = ReferenceWatch()
         self._missing = ""
         self.mission = MissionWord()
-        for topic in REFERENCES:
+        for topic in steering.references:
             node.listen(topic, self._on_reference(topic))
         node.listen(topics.MISSION_STATE, self._on_mission_state)
 
-    def take(self, yaw: float | None, rate: float | None, thrust: float | None) -> None:
+    def take(self, values: tuple[float | None, ...]) -> None:
         """Take guidance's answer to one odometry; None for a missing reference."""
-        if yaw is not None and rate is not None and thrust is not None:
-            self._watch.put(Reference(flip_yaw(yaw), -rate, thrust), self._node.now())
+        parts = zip(self._steering.references, values, strict=True)
+        missing = [topic.name for topic, value in parts if value is None]
+        if missing:
+            self._missing = ", ".join(missing)
         else:
-            parts = zip(REFERENCES, (yaw, rate, thrust), strict=True)
-            self._missing = ", ".join(topic.name for topic, value in parts if value is None)
+            self._watch.put(self._steering.reference(values), self._node.now())  # type: ignore[arg-type]
 
-    def obeyed(self) -> Reference | None:
+    def obeyed(self) -> Any | None:
         """Return the reference to follow; None: stop."""
         watch, p = self._watch, self._node.parameters
         if p.lockstep:
@@ -75,7 +72,7 @@ class ReferenceInput:
         return reference
 
     def _on_reference(self, topic: Topic) -> Callable[[Float64], None]:
-        largest = self._largest[topic]
+        largest = self._steering.references[topic]
 
         def callback(message: Float64) -> None:
             value = finite(message.data, topic.name)

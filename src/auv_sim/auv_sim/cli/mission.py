@@ -66,6 +66,9 @@ def _add_simulation(p: argparse.ArgumentParser) -> None:
         "--current", nargs=2, type=finite, metavar=("VX", "VY"), help="current towards north and east, m/s"
     )
     p.add_argument(
+        "--upwelling", type=finite, metavar="V", help="current upwards, for a vehicle with stern planes, m/s"
+    )
+    p.add_argument(
         "--initial",
         nargs=3,
         type=finite,
@@ -158,6 +161,7 @@ def _options(argv: Sequence[str] | None) -> Options:
         raise ConfigurationError("--vehicle-driver", "together with --no-sim", "one of them")
     conflicts: dict[str, Any] = {
         "--sea": options.sea, "--seed": options.seed, "--depth": options.depth,
+        "--upwelling": options.upwelling,
     }  # fmt: skip
     if not options.emulator:
         conflicts |= {"--speed": options.speed, "--initial": options.initial, "--current": options.current}

@@ -11,12 +11,12 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import SpatialCurrent
 from auv_path_following.control import autopilot, diving_autopilot
 from auv_path_following.curves.composite import CompositePath
-from auv_path_following.curves.spatial.depth_profile import DepthProfile
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_path_following.curves.spatial.spatial_rows import spatial_rows
 from auv_path_following.guidance import guide
 from auv_path_following.guidance.approach import agility_of
 from auv_path_following.guidance.measured import Measured, SpatialMeasured
+from auv_path_following.guidance.spatial.flown_path import flown_path
 from auv_path_following.navigation import current_observer
 from auv_path_following.pilot import Pilot, begun, pilot
 from auv_path_following.spatial_pilot import SpatialPilot, spatial_begun, spatial_pilot
@@ -118,32 +118,7 @@ def spatial_path_of(scenario: Scenario) -> SpatialPath:
     Raises:
         ConfigurationError: the path leaves the vehicle's range of depth, or the thrust is too low for it.
     """
-    path, allowed = scenario.spatial, scenario.vehicle.depth
-    if path is None:
-        length = math.fsum(segment.length for segment in scenario.path.segments)
-        path = SpatialPath(scenario.path.segments, DepthProfile.constant(allowed.surface, length))
-    check_depths(scenario, path)
-    return path
-
-
-def check_depths(scenario: Scenario, path: SpatialPath) -> None:
-    """Check that a scenario's vehicle can hold the depths of a path.
-
-    Raises:
-        ConfigurationError: as `spatial_path_of`.
-    """
-    vehicle = scenario.vehicle
-    allowed = vehicle.depth
-    for number, (way, depth) in enumerate(path.knots):
-        least = 0.0 if number in (0, len(path.knots) - 1) else allowed.surface
-        if not least <= depth <= allowed.max:
-            found, expected = f"{depth:g} m at {way:g} m of path", f"{least:g} to {allowed.max:g} m"
-            raise ConfigurationError(f"{vehicle.name}: depth_profile.knots[{number}]", found, expected)
-    speed = vehicle.speed_at(scenario.thrust)
-    if speed < allowed.minimum_speed:
-        found = f"{scenario.thrust:g} N, {speed:.2f} m/s"
-        expected = f"at least {allowed.minimum_speed:g} m/s, below which the planes hold no depth"
-        raise ConfigurationError(f"{vehicle.name}: thrust", found, expected)
+    return flown_path(scenario.path, scenario.spatial, scenario.vehicle, scenario.thrust)
 
 
 def loop_of(scenario: Scenario) -> Loop:

@@ -39,7 +39,8 @@ def fly(options: Options, loader: Loader) -> int:
     """
     directory = _run_directory(options)
     resolved = mission_plan.make(options, directory)
-    resolved.mission.require_planar()
+    if not resolved.vehicle.dives:
+        resolved.mission.require_planar()  # whatever --force is
     domain = launcher.domain_of(resolved)
     console = terminal(options.quiet)
     make_directory(directory, new=True)

@@ -14,12 +14,10 @@ from auv_msgs_py.settings.schema import Pair
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import NO_CURRENT, Current
 from auv_path_following import config_files, vehicle
-from auv_path_following.guidance.spatial.vertical_modes import (
-    FOLLOW_PATH,
-    AltitudeConfig,
-    AltitudeHold,
-    PathDepth,
-)
+from auv_path_following.curves.composite import CompositePath
+from auv_path_following.curves.spatial.spatial_path import SpatialPath
+from auv_path_following.guidance.spatial.flown_path import flown_path
+from auv_path_following.guidance.spatial.spatial_follower import mode_of
 from auv_path_following.missions import mission_file
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
@@ -29,7 +27,6 @@ from auv_sim.launch import node_settings
 from auv_sim.launch.options import DRIVERS, Options
 from auv_sim.launch.vehicle_driver import configure_driver
 from auv_sim.vehicle import sea
-from auv_sim.vehicle.hulls.rigid_body import BodyState, body_at
 
 
 @dataclass(frozen=True)
@@ -54,6 +51,14 @@ class Plan:
     verdicts: Findings
     controller_model: Vehicle
     emulator: tuple[str, ...] | None = None
+
+    @property
+    def path(self) -> CompositePath | SpatialPath:
+        """The path that is flown: in three dimensions by a vehicle that dives."""
+        mission = self.mission
+        if not self.vehicle.dives:
+            return mission.path
+        return flown_path(mission.path, mission.spatial, self.controller_model, mission.thrust)
 
     @property
     def lockstep(self) -> bool:
@@ -86,48 +91,25 @@ class Plan:
         """
         if not self.options.simulator:
             raise ValueError("a mission without the simulator has no closed loop")
-        plant = self.parameters[topics.PLANT]
+        plant, guidance = self.parameters[topics.PLANT], self.parameters[topics.GUIDANCE]
+        dives = self.vehicle.dives
         return Scenario(
             path=self.mission.path,
             vehicle=self.vehicle,
             thrust=self.mission.thrust,
-            initial=self._diver_start() if self.vehicle.dives else plant.initial.state,
+            initial=plant.initial.spatial_state if dives else plant.initial.state,
             spatial=self.mission.spatial,
-            mode=self._vertical_mode(),
-            current=plant.current.value,
+            current=plant.current.of(dives),
             sea=sea.load(plant.sea) if plant.sea else None,
             seed=plant.seed,
             step=plant.step,
-            guidance=self.parameters[topics.GUIDANCE].guidance,
+            guidance=guidance.guidance,
             observer=self.parameters[topics.OBSERVER].observer,
             autopilot=self.parameters[topics.AUTOPILOT].autopilot,
             pitch=self.parameters[topics.AUTOPILOT].pitch,
+            mode=mode_of(self.mission, guidance.guidance, guidance.limits, self.controller_model),
             controller_vehicle=self.controller_model,
         )
-
-    def _vertical_mode(self) -> PathDepth | AltitudeHold:
-        """Return what the vertical plane follows: the path's depth, or the mission's altitude."""
-        altitude, limits, allowed = self.mission.altitude, self.mission.limits, self.vehicle.depth
-        if altitude is None:
-            return FOLLOW_PATH
-        least = max(altitude.min, limits.min_altitude)
-        deepest = min(allowed.max, limits.max_depth or allowed.max)
-        filters = dataclasses.astuple(AltitudeConfig())
-        return AltitudeHold(altitude.above_bottom, least, allowed.surface, deepest, *filters)
-
-    def _diver_start(self) -> BodyState | None:
-        """Return the first state of a vehicle that dives; None for the path's start, along the path.
-
-        Without `--depth` the vehicle starts at the path's first depth, but not above `depth.surface`, where
-        its propeller and planes are out of the water.
-        """
-        options, spatial, surface = self.options, self.mission.spatial, self.vehicle.depth.surface
-        first = surface if spatial is None else spatial.start_pose.z
-        if options.initial is None and options.depth is None and first >= surface:
-            return None
-        initial = self.parameters[topics.PLANT].initial
-        depth = max(first, surface) if options.depth is None else options.depth
-        return body_at(initial.x, initial.y, depth, 0.0, 0.0, initial.psi, initial.surge)
 
     def write(self, directory: Path) -> Path:
         """Write the resolved configuration, ready to be flown again.
@@ -179,8 +161,9 @@ def make(options: Options, directory: Path) -> Plan:
     _check_start(options, hull)
     notices: list[str] = []
     settings = node_settings.load(options, sources["params"], model, notices)
-    node_settings.set_mission(settings, options, mission, sources, directory)
+    node_settings.set_mission(settings, options, mission, sources, directory, hull)
     mean = node_settings.set_options(settings, options, sources)
+    _check_altimeter(options, mission, settings)
     verdicts = _check(options, mission, hull, settings, mean)
     verdicts = dataclasses.replace(verdicts, notices=(*verdicts.notices, *notices))
     if verdicts.refusals and not options.force:
@@ -223,15 +206,25 @@ def _find_files(options: Options) -> node_settings.Sources:
 
 
 def _check_start(options: Options, hull: Vehicle) -> None:
-    """Refuse a depth of the start that the vehicle cannot have."""
-    if options.depth is None:
-        return
-    if not hull.dives:
-        expected = "a vehicle with stern planes, such as remus100_6dof"
-        raise ConfigurationError("--depth", f"vehicle {hull.name} without stern planes", expected)
-    if options.depth > hull.depth.max:
+    """Refuse a depth or an upwelling for a vehicle in the plane, and a start below the largest depth."""
+    for flag, value in (("--depth", options.depth), ("--upwelling", options.upwelling)):
+        if value is not None and not hull.dives:
+            expected = "a vehicle with stern planes, such as remus100_6dof"
+            raise ConfigurationError(flag, f"vehicle {hull.name} without stern planes", expected)
+    if options.depth is not None and options.depth > hull.depth.max:
         expected = f"at most {hull.depth.max:g} m, depth.max of {hull.name}"
         raise ConfigurationError("--depth", f"{options.depth:g} m", expected)
+
+
+def _check_altimeter(options: Options, mission: Mission, settings: node_settings.NodeSettings) -> None:
+    """Refuse an altitude that the simulated vehicle cannot measure."""
+    if mission.altitude is None or not options.simulator:
+        return
+    plant = settings[topics.PLANT]
+    if not plant.sea or not sea.load(plant.sea).sensors.altimeter.fitted:
+        found = f"{plant.sea or 'no sea'}, without an altimeter"
+        expected = "--sea with a sea whose sensors.altimeter is fitted"
+        raise ConfigurationError(f"{mission.source}: altitude", found, expected)
 
 
 def _check(

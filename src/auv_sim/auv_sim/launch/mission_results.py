@@ -55,7 +55,7 @@ def conclude(plan: Plan, directory: Path, outcome: Outcome) -> tuple[Outcome, Mi
         run = load(directory / "bag")
     except ConfigurationError:
         return outcome, None
-    summary = summarise(run, plan.mission.path)
+    summary = summarise(run, plan.path)
     if outcome.state == "complete":
         reason = summary.shortfall(plan.options.least_flown) or ("" if summary.completed else _UNFINISHED)
         if reason:

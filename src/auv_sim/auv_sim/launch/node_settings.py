@@ -54,8 +54,9 @@ def load(options: Options, file: Path, model: Vehicle, notices: list[str]) -> No
 
 
 def set_mission(
-    settings: NodeSettings, options: Options, mission: Mission, sources: Sources, directory: Path
-) -> None:
+    settings: NodeSettings, options: Options, mission: Mission, sources: Sources, directory: Path,
+    hull: Vehicle,
+) -> None:  # fmt: skip
     """Set the files, the mission's overrides, the initial state and the bag; change `settings` in place.
 
     Args:
@@ -64,6 +65,7 @@ def set_mission(
         mission: as read from `sources`.
         sources: the input files.
         directory: the run directory.
+        hull: the vehicle.
     """
     overridden = settings[topics.GUIDANCE].with_mission_overrides(mission).guidance
     model_file = str(sources.get("controller_model", sources["vehicle"]))
@@ -72,9 +74,11 @@ def set_mission(
     for node in (topics.GUIDANCE, topics.OBSERVER, topics.AUTOPILOT):
         change(settings, node, vehicle=model_file)
     initial = _initial(options, mission, settings)
+    if hull.dives:
+        initial = _at_depth(initial, options, mission, hull)
     plant_file = str(sources["vehicle"])
     change(settings, topics.PLANT, vehicle=plant_file, initial=initial, publish_at_rest=False)
-    change(settings, topics.RECORDER, directory=str(directory / "bag"))
+    change(settings, topics.RECORDER, directory=str(directory / "bag"), sternplanes=hull.dives)
 
 
 def set_options(settings: NodeSettings, options: Options, sources: Sources) -> Pair:
@@ -92,6 +96,9 @@ def set_options(settings: NodeSettings, options: Options, sources: Sources) -> P
     if options.current is not None:
         Vx, Vy = options.current
         current = dataclasses.replace(settings[topics.PLANT].current, Vx=Vx, Vy=Vy)
+        change(settings, topics.PLANT, current=current)
+    if options.upwelling is not None:
+        current = dataclasses.replace(settings[topics.PLANT].current, Vz=-options.upwelling)
         change(settings, topics.PLANT, current=current)
     if options.switching is not None:
         guidance = settings[topics.GUIDANCE].guidance
@@ -127,3 +134,21 @@ def _initial(options: Options, mission: Mission, settings: NodeSettings) -> Any:
     else:
         return initial
     return dataclasses.replace(initial, x=x, y=y, psi=psi)
+
+
+def _at_depth(initial: Any, options: Options, mission: Mission, hull: Vehicle) -> Any:
+    """Return the initial state with depth and pitch.
+
+    Without `--depth` a vehicle that starts at the path's start has the path's first depth and elevation; but
+    none starts above `depth.surface`, where its propeller and planes are out of the water.
+    """
+    surface = hull.depth.surface
+    if options.depth is not None:
+        return dataclasses.replace(initial, depth=options.depth, theta=0.0)
+    if initial.depth > 0.0:
+        return initial
+    if mission.spatial is None:
+        return dataclasses.replace(initial, depth=surface)
+    start = mission.spatial.start_pose
+    on_path = options.initial is None and start.z >= surface
+    return dataclasses.replace(initial, depth=max(start.z, surface), theta=start.gamma if on_path else 0.0)

@@ -26,6 +26,7 @@ class Options:
     controller_model: str | None = None
     params: str = DEFAULT_PARAMS
     current: tuple[float, float] | None = None
+    upwelling: float | None = None
     initial: tuple[float, float, float] | None = None
     depth: float | None = None
     sea: str | None = None

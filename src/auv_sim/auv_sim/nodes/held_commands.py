@@ -2,25 +2,53 @@
 
 from __future__ import annotations
 
+from typing import Any, NamedTuple
+
 from auv_msgs_py.contract import topics
 from auv_msgs_py.values.errors import MessageRefused
-from auv_msgs_py.values.types import Command
+from auv_msgs_py.values.types import SPATIAL_STOP, STOP
+from auv_path_following.vehicle import Vehicle
 
-_RUDDER, _THRUST = topics.RUDDER_CMD.name, topics.THRUST_CMD.name
 #: Rounding by which a command may exceed a limit.
 _ROUNDING = 1e-9
+
+
+class Orders(NamedTuple):
+    """The commands of one kind of vehicle.
+
+    Attributes:
+        limits: topic -> lowest and highest value (rad, N), in the order of a command's fields.
+        stop: the command without thrust.
+    """
+
+    limits: dict[str, tuple[float, float]]
+    stop: Any
+
+
+def orders_of(vehicle: Vehicle) -> Orders:
+    """Return the commands that a vehicle obeys."""
+    rudder, thrust = vehicle.rudder.max_angle, vehicle.thrust_max
+    limits = {topics.RUDDER_CMD.name: (-rudder, rudder), topics.THRUST_CMD.name: (0.0, thrust)}
+    if vehicle.sternplanes is None:
+        return Orders(limits, STOP)
+    planes = vehicle.sternplanes.max_angle
+    limits = {
+        topics.RUDDER_CMD.name: (-rudder, rudder),
+        topics.STERNPLANE_CMD.name: (-planes, planes),
+        topics.THRUST_CMD.name: (0.0, thrust),
+    }
+    return Orders(limits, SPATIAL_STOP)
 
 
 class HeldCommands:
     """Keeps the newest command of each kind and its time.
 
     Args:
-        rudder: largest angle, rad.
-        thrust: largest thrust, N.
+        orders: the commands and their limits.
     """
 
-    def __init__(self, rudder: float, thrust: float) -> None:
-        self._limits = {_RUDDER: (-rudder, rudder), _THRUST: (0.0, thrust)}
+    def __init__(self, orders: Orders) -> None:
+        self._limits, self._command = orders.limits, type(orders.stop)
         self._held: dict[str, tuple[float, int]] = {}
 
     def clear(self) -> None:
@@ -38,8 +66,8 @@ class HeldCommands:
             raise MessageRefused(topic, f"{value:g}", f"from {lowest:g} to {highest:g}")
         self._held[topic] = value, stamp
 
-    def at(self, stamp: int, bound: float) -> tuple[Command, list[str]]:
+    def at(self, stamp: int, bound: float) -> tuple[Any, list[str]]:
         """Return the commands in force at `stamp` (ns), and the topics silent for more than `bound` s."""
         held = {name: self._held.get(name, (0.0, stamp)) for name in self._limits}
         silent = [name for name, (_, at) in held.items() if at < stamp - bound * 1e9]
-        return Command(held[_RUDDER][0], held[_THRUST][0]), silent
+        return self._command(*(value for value, _ in held.values())), silent

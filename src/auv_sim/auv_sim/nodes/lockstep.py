@@ -16,7 +16,8 @@ from std_msgs.msg import UInt64
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.pairing import Pairing
 from auv_msgs_py.contract.topics import Topic
-from auv_msgs_py.values.types import Command
+from auv_msgs_py.values.types import STOP
+from auv_sim.nodes.held_commands import Orders
 from auv_sim.nodes.wait_reports import WaitReports
 
 
@@ -34,28 +35,31 @@ class Simulator(Protocol):
     def advertise(self, topic: Topic) -> Any: ...
     def create_timer(self, period: float, callback: Callable[[], None], *, clock: Any) -> Any: ...
     def gate_waits_for(self) -> str: ...
-    def advance(self, command: Command) -> None: ...
+    def advance(self, command: Any) -> None: ...
     def publish_step(self) -> None: ...
     def fail(self, text: str) -> None: ...
 
 
 class Lockstep:
-    """Takes the next step once both commands for the present one have arrived and the mission runs.
+    """Takes the next step once all commands for the present one have arrived and the mission runs.
 
     Args:
         node: the simulator.
+        orders: the commands that end a step.
     """
 
-    def __init__(self, node: Simulator) -> None:
+    def __init__(self, node: Simulator, orders: Orders) -> None:
         self._node = node
-        self._pairing = Pairing((topics.RUDDER_CMD.name, topics.THRUST_CMD.name), strict=True)
+        self._orders = orders
+        self._pairing = Pairing(tuple(orders.limits), strict=True)
+        self._lead = topics.RECORDING_LEAD if orders.stop == STOP else topics.SPATIAL_RECORDING_LEAD
         self._open_since: float | None = None
         self._left_running = False
         self._awaits_state = False
         #: Whether the newest command has thrust.
         self._under_thrust = False
         self._begun = False
-        self._command: Command | None = None
+        self._command: Any = None
         self._recorded, self._recorded_at = 0, time.monotonic()
         self._published = 0
         self._reports = WaitReports()
@@ -76,7 +80,7 @@ class Lockstep:
         """Process a valid command."""
         if not self._pairing.put(topic, value):
             return
-        self._command = Command(*self._pairing.take())
+        self._command = type(self._orders.stop)(*self._pairing.take())
         self._open_since = None
         # With thrust the mission ran at this step, whatever state arrived meanwhile (of another publisher,
         # or of an abort that the next step will show). Without thrust it did not run. Its state travels on
@@ -103,7 +107,7 @@ class Lockstep:
             return
         if not (self._under_thrust or self._node.mission_running):
             return
-        if self._node.parameters.recorded and self._published - self._recorded >= topics.RECORDING_LEAD:
+        if self._node.parameters.recorded and self._published - self._recorded >= self._lead:
             return
         if self._begun:
             assert self._command is not None
@@ -111,7 +115,7 @@ class Lockstep:
         self._begun = True
         self._left_running = False
         self._published += 1
-        if self._published - self._recorded == topics.RECORDING_LEAD:
+        if self._published - self._recorded == self._lead:
             self._recorded_at = time.monotonic()
         self._open_since = time.monotonic()
         self._node.publish_step()
@@ -138,7 +142,7 @@ class Lockstep:
 
     def _check_recorder(self) -> None:
         under_way = self._under_thrust or self._node.mission_running
-        waits = self._published - self._recorded >= topics.RECORDING_LEAD and under_way
+        waits = self._published - self._recorded >= self._lead and under_way
         if not (self._node.parameters.recorded and waits):
             return
         bound = self._node.parameters.answer_timeout

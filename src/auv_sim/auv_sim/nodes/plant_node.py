@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from rclpy import clock as ros_clock
@@ -17,15 +17,14 @@ from auv_msgs_py.contract.mission_word import MissionState, MissionWord
 from auv_msgs_py.contract.wire import Float64
 from auv_msgs_py.node.run import run_nodes
 from auv_msgs_py.node.runtime import SuiteNode
-from auv_msgs_py.values.types import STOP, Command
 from auv_path_following import vehicle
-from auv_sim.nodes.held_commands import HeldCommands
+from auv_sim.nodes.held_commands import HeldCommands, orders_of
 from auv_sim.nodes.lockstep import Lockstep
 from auv_sim.nodes.pacing import Pacer
-from auv_sim.nodes.vehicle_outputs import VehicleOutputs
+from auv_sim.nodes.vehicle_outputs import outputs_of
 from auv_sim.sim_parameters import PlantParameters
 from auv_sim.vehicle import sea
-from auv_sim.vehicle.simulated import SimulatedVehicle
+from auv_sim.vehicle.diving.simulated_diver import simulated_vehicle
 
 #: States of a mission in which the free-running vehicle obeys no command: one may arrive late.
 _OVER = (MissionState.HOLDING, MissionState.COMPLETE, MissionState.ABORTED)
@@ -41,24 +40,28 @@ class RemusPlantNode(SuiteNode):
         at_sea = sea.load(p.sea) if p.sea else None
         self.step_ns = round(p.step * 1e9)
         self._dt = self.step_ns * 1e-9
-        self.simulated = SimulatedVehicle(
-            self.vehicle, p.initial.state, at_sea, p.seed, p.current.value, self._dt
+        dives = self.vehicle.dives
+        initial = p.initial.spatial_state if dives else p.initial.state
+        self.simulated: Any = simulated_vehicle(
+            self.vehicle, initial, at_sea, p.seed, p.current.of(dives), self._dt
         )
         self.steps = 0
         self.mission_running = False
         self._mission = MissionWord()
-        self.command = STOP
+        orders = orders_of(self.vehicle)
+        self.command = self._stop = orders.stop
         self._released = not p.hold_until_running
-        self._commands = HeldCommands(self.vehicle.rudder.max_angle, self.vehicle.thrust_max)
+        self._commands = HeldCommands(orders)
         self._reset_requested = False
         self._begun = False
         p.check_frames(self.get_name())
-        self._outputs = VehicleOutputs(self, with_true_odometry=at_sea is not None)
+        self._outputs = outputs_of(self, self.simulated, with_true_odometry=at_sea is not None)
         self.close_gate()
-        self._lockstep = Lockstep(self) if p.lockstep else None
+        self._lockstep = Lockstep(self, orders) if p.lockstep else None
         self.pacer = None if p.lockstep else Pacer(p.step / p.speed)
-        self.listen(topics.RUDDER_CMD, self._on_rudder)
-        self.listen(topics.THRUST_CMD, self._on_thrust)
+        for topic in (topics.RUDDER_CMD, topics.THRUST_CMD, topics.STERNPLANE_CMD):
+            if topic.name in orders.limits:
+                self.listen(topic, self._on_command(topic.name))
         self.listen(topics.MISSION_STATE, self._on_mission_state)
         self.create_service(Trigger, topics.RESET_SERVICE, self._on_reset)
         if self.pacer is not None:
@@ -83,7 +86,7 @@ class RemusPlantNode(SuiteNode):
         return topics.FIRST_STAMP_NS + self.steps * self.step_ns
 
     def configure(self) -> None:
-        self.simulated.constant_current = self.parameters.current.value
+        self.simulated.constant_current = self.parameters.current.of(self.vehicle.dives)
 
     def publish_step(self) -> None:
         """Publish the present state, once its subscribers are matched."""
@@ -93,7 +96,7 @@ class RemusPlantNode(SuiteNode):
         in_lockstep = self._lockstep is not None
         self.answer(lambda: self._outputs.publish(in_lockstep or self.simulated.water_lock))
 
-    def advance(self, command: Command) -> None:
+    def advance(self, command: Any) -> None:
         """Advance the vehicle by one step, or reset it if that was requested."""
         if self._reset_requested:
             self._reset_requested = False
@@ -104,16 +107,14 @@ class RemusPlantNode(SuiteNode):
         self.simulated.advance(command, self._dt)
         self.steps += 1
 
-    def _on_rudder(self, message: Float64) -> None:
-        self._on_command(topics.RUDDER_CMD.name, message.data)
+    def _on_command(self, topic: str) -> Callable[[Float64], None]:
+        def callback(message: Float64) -> None:
+            value = message.data
+            self._commands.put(topic, finite(value, topic), self.stamp)
+            if self._lockstep is not None:
+                self._lockstep.on_command(topic, value)
 
-    def _on_thrust(self, message: Float64) -> None:
-        self._on_command(topics.THRUST_CMD.name, message.data)
-
-    def _on_command(self, topic: str, value: float) -> None:
-        self._commands.put(topic, finite(value, topic), self.stamp)
-        if self._lockstep is not None:
-            self._lockstep.on_command(topic, value)
+        return callback
 
     def _on_mission_state(self, message: String) -> None:
         refused = self._mission.hear(message.data, time.monotonic())
@@ -151,13 +152,13 @@ class RemusPlantNode(SuiteNode):
         """Whether a free run has not begun: time passes, and the vehicle is held at its initial state."""
         return self._lockstep is None and not self._released
 
-    def _held_command(self) -> Command:
+    def _held_command(self) -> Any:
         """Return the newest commands; a stop when one is overdue, as every vehicle has to do on its own."""
         bound = self.parameters.command_timeout
         command, silent = self._commands.at(self.stamp, bound)
         self.health.warn("commands", f"no {', '.join(silent)} for {bound:g} s: stopped" if silent else "")
         over = self._mission.at(time.monotonic()) in _OVER
-        return STOP if silent or over else command
+        return self._stop if silent or over else command
 
 
 def main(args: Sequence[str] | None = None) -> int:

@@ -71,7 +71,8 @@ class RecorderNode(SuiteNode):
         self._reported = 0
         self.close_gate()
         self.selection = Selection(self, p, self.writer)
-        per_step = {self.resolve_topic_name(topic.name) for topic in topics.PER_STEP}
+        spatial = topics.SPATIAL_PER_STEP if p.sternplanes else ()
+        per_step = {self.resolve_topic_name(topic.name) for topic in (*topics.PER_STEP, *spatial)}
         self._per_step = [topic.channel for topic in self.selection.topics if topic.name in per_step]
         if p.lockstep:
             self.listen(topics.RECORD_REQUEST, lambda _: self._poll())

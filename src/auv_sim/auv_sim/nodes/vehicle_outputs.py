@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import fill_current, fill_odometry, fill_water_velocity, set_stamp
+from auv_msgs_py.contract.spatial_conversions import (
+    fill_spatial_current,
+    fill_spatial_odometry,
+    fill_spatial_water,
+)
 from auv_msgs_py.contract.wire import Clock, Float64, Odometry, TwistWithCovarianceStamped, Vector3Stamped
 from auv_msgs_py.node.runtime import SuiteNode
+from auv_sim.vehicle.diving.simulated_diver import SimulatedDiver
 from auv_sim.vehicle.simulated import SimulatedVehicle
 
 
@@ -57,3 +64,46 @@ class VehicleOutputs:
         for publisher, message in self._outputs:
             if with_water_velocity or message is not self._water:
                 publisher.publish(message)
+
+
+class SpatialVehicleOutputs(VehicleOutputs):
+    """The same for a vehicle that dives; its altitude is published only with an altimeter.
+
+    Args:
+        node, with_true_odometry: as those of `VehicleOutputs`.
+        with_altitude: whether there is an altimeter.
+    """
+
+    def __init__(self, node: SuiteNode, with_true_odometry: bool, with_altitude: bool) -> None:
+        super().__init__(node, with_true_odometry)
+        self._planes = Float64()
+        self._outputs.append((node.advertise(topics.STERNPLANE_STATE), self._planes))
+        self._range: Any = None
+        if with_altitude:
+            from sensor_msgs.msg import Range
+
+            self._range = Range(radiation_type=Range.ULTRASOUND)
+            self._range.header.frame_id = node.parameters.body_frame
+            self._outputs.append((node.advertise(topics.ALTITUDE), self._range))
+
+    def fill(self, vehicle: Any, at_rest: bool, stamp: int) -> None:
+        set_stamp(self._clock.clock, stamp)
+        velocity = (0.0, 0.0, 0.0) if at_rest else vehicle.ground_velocity
+        roll_rate = vehicle.motion.p
+        fill_spatial_odometry(self._odometry, vehicle.navigation, velocity, roll_rate, stamp)
+        fill_spatial_water(self._water, vehicle.passing_water if at_rest else vehicle.water_velocity, stamp)
+        self._rudder.data, self._planes.data = vehicle.rudder, vehicle.sternplanes
+        fill_spatial_current(self._true_current, vehicle.current, stamp)
+        if self._truth is not None:
+            navigation, *velocity = vehicle.truth
+            fill_spatial_odometry(self._truth, navigation, tuple(velocity), roll_rate, stamp)
+        if self._range is not None:
+            set_stamp(self._range.header.stamp, stamp)
+            self._range.range = vehicle.altitude
+
+
+def outputs_of(node: SuiteNode, simulated: Any, with_true_odometry: bool) -> VehicleOutputs:
+    """Return the outputs of a simulated vehicle; an altimeter is one whose range is not NaN."""
+    if isinstance(simulated, SimulatedDiver):
+        return SpatialVehicleOutputs(node, with_true_odometry, not math.isnan(simulated.altitude))
+    return VehicleOutputs(node, with_true_odometry)

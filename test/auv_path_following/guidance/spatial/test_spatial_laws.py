@@ -19,12 +19,12 @@ from auv_path_following.guidance.spatial.spatial_laws import (
     current_along,
     elevation_seen,
     error_rates,
-    levelled,
     spatial_errors,
     spatial_speed,
     vertical_ailos,
 )
 from auv_path_following.guidance.virtual_point import path_errors, tangential_speed
+from auv_path_following.navigation.levelled import levelled
 
 angle, speed = st.floats(-3.1, 3.1), st.floats(0.3, 2.5)
 small, metres, drift = st.floats(-0.5, 0.5), st.floats(-50.0, 50.0), st.floats(-0.4, 0.4)

@@ -6,12 +6,11 @@ import math
 from typing import Any, NamedTuple
 
 from auv_msgs_py.values.angles import wrap
-from auv_msgs_py.values.attitude import euler_rates
+from auv_msgs_py.values.attitude import level_of
 from auv_msgs_py.values.pure import bounded, pure
 from auv_msgs_py.values.types import (
     NO_SPATIAL_CURRENT,
     Current,
-    Navigation,
     SpatialCurrent,
     SpatialNavigation,
 )
@@ -25,11 +24,9 @@ from auv_path_following.guidance.laws.registered import law_step
 from auv_path_following.guidance.measured import SpatialMeasured
 from auv_path_following.guidance.progress import Progress, approach_to_go, followed, move, settled
 from auv_path_following.guidance.spatial.spatial_laws import (
-    Levelled,
     VerticalLaw,
     current_along,
     elevation_seen,
-    levelled,
     spatial_errors,
     spatial_speed,
     vertical_ailos,
@@ -42,6 +39,7 @@ from auv_path_following.guidance.spatial.vertical_modes import (
     vertical_step,
 )
 from auv_path_following.guidance.virtual_point import VirtualPoint, driven, saturated
+from auv_path_following.navigation.levelled import Levelled, levelled
 
 
 class SpatialFollower(NamedTuple):
@@ -115,13 +113,6 @@ def first_state(config: SpatialFollower, approach: Any) -> SpatialFollowerState:
     """Return the state at the beginning of the path; `approach` as of `approach.empty_approach`."""
     plane = planar.first_state(config.plane, approach)
     return SpatialFollowerState(plane.progress, plane.law, NO_REQUEST)
-
-
-@pure
-def level_of(navigation: SpatialNavigation) -> Navigation:
-    """Return place and heading, with the rate of the heading: Eq. (3D-27)."""
-    rate, _ = euler_rates(navigation.phi, navigation.theta, navigation.q, navigation.r)
-    return Navigation(navigation.x, navigation.y, navigation.psi, rate)
 
 
 @pure

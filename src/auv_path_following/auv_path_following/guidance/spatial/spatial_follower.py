@@ -11,7 +11,9 @@ from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.guidance.spatial.spatial_follow import SpatialFollower
 from auv_path_following.guidance.spatial.spatial_laws import VerticalLaw
 from auv_path_following.guidance.spatial.spatial_limits import steepest_of
-from auv_path_following.guidance.spatial.vertical_modes import AltitudeHold
+from auv_path_following.guidance.spatial.vertical_modes import FOLLOW_PATH, AltitudeHold
+from auv_path_following.missions.limits import LimitsConfig
+from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 
 #: Bound of |theta_b|: the share of the speed that a current across the path may have.
@@ -51,3 +53,20 @@ def altitude_hold(
     bound = min(deepest, depth.max) if deepest > 0.0 else depth.max
     values = (above, least, depth.surface, bound, c.bandwidth, c.damping, c.patience)
     return AltitudeHold(*map(float, values))
+
+
+def mode_of(mission: Mission, config: PathFollowerConfig, limits: LimitsConfig, vehicle: Vehicle) -> Any:
+    """Return what the vertical plane follows in a mission.
+
+    Args:
+        mission: with or without an altitude.
+        config: of guidance.
+        limits: of the parameters, for the largest depth.
+        vehicle: for its range of depth.
+    """
+    altitude = mission.altitude
+    if altitude is None:
+        return FOLLOW_PATH
+    bounds = limits.stricter(mission.limits)
+    least = max(altitude.min, bounds.min_altitude)
+    return altitude_hold(config, vehicle, altitude.above_bottom, least, bounds.max_depth)

@@ -13,6 +13,7 @@ from auv_msgs_py.values.angles import wrap
 from auv_msgs_py.values.pure import bounded, pure
 from auv_path_following.curves.spatial.spatial_point import Tangent
 from auv_path_following.guidance.laws.ailos import adaptive_offset
+from auv_path_following.navigation.levelled import Levelled
 
 #: Three components, of a place (m) or of a velocity (m/s).
 Vector = tuple[float, float, float]
@@ -40,44 +41,6 @@ def spatial_errors(offset: Vector, chi: float, gamma: float) -> Vector:
 def current_along(current: Vector, chi: float, gamma: float) -> Vector:
     """Return Vt, Vn, Vb of Eq. (3D-13), m/s: the current along the path, across it, and down from it."""
     return spatial_errors(current, chi, gamma)
-
-
-class Levelled(NamedTuple):
-    """Velocity through the water in level axes that turn with the heading, m/s: Eqs. (3D-14), (3D-15).
-
-    Attributes:
-        ahead, starboard, down: a, b, c_.
-        Uh: its horizontal part.
-        Ur: all of it.
-        beta_h: crab angle, rad.
-        gamma_w: elevation of the way through the water, rad, up positive.
-    """
-
-    ahead: float
-    starboard: float
-    down: float
-    Uh: float
-    Ur: float
-    beta_h: float
-    gamma_w: float
-
-
-@pure
-def levelled(water: Vector, phi: float, theta: float) -> Levelled:
-    """Return the velocity through the water without roll and pitch.
-
-    Args:
-        water: ur, vr, wr, m/s, FRD.
-        phi, theta: roll and pitch, rad; a positive pitch is bow up.
-    """
-    ur, vr, wr = water
-    cos_phi, sin_phi = math.cos(phi), math.sin(phi)
-    w1 = sin_phi * vr + cos_phi * wr
-    a = math.cos(theta) * ur + math.sin(theta) * w1
-    b = cos_phi * vr - sin_phi * wr
-    c = -math.sin(theta) * ur + math.cos(theta) * w1
-    Uh = math.hypot(a, b)
-    return Levelled(a, b, c, Uh, math.hypot(Uh, c), math.atan2(b, a), math.atan2(-c, Uh))
 
 
 @pure

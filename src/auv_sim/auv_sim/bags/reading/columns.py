@@ -18,6 +18,8 @@ from numpy.typing import NDArray
 from auv_msgs_py.contract.codec import HEADER, LAYOUTS, LITTLE_ENDIAN, STAMP, Layout, aligned, read_texts
 from auv_sim.bags.definitions import typestore
 
+#: Layouts whose numbers are no float64, which only rosbags decodes.
+_OTHERS = {"sensor_msgs/msg/Range": Layout("header.stamp", ("header.frame_id",), {"range": 1})}
 _BODY = len(HEADER)
 _STAMP = np.dtype([("sec", "<i4"), ("nanosec", "<u4")])
 assert _STAMP.itemsize == STAMP.size
@@ -48,13 +50,13 @@ def decode(type_name: str, messages: Sequence[bytes]) -> Columns:
     """Decode all messages of a topic.
 
     Args:
-        type_name: one of `LAYOUTS`.
+        type_name: one of `LAYOUTS`, or sensor_msgs/msg/Range.
         messages: n serialised messages, CDR header included.
 
     Raises:
         Exception: bytes that are no such message; of which type depends on what is wrong with them.
     """
-    columns = decode_at_once(type_name, messages)
+    columns = None if type_name in _OTHERS else decode_at_once(type_name, messages)
     return decode_one_by_one(type_name, messages) if columns is None else columns
 
 
@@ -88,7 +90,7 @@ def decode_at_once(type_name: str, messages: Sequence[bytes]) -> Columns | None:
 
 def decode_one_by_one(type_name: str, messages: Sequence[bytes]) -> Columns:
     """Decode as `decode` does, by rosbags' deserialiser: slow, for any frame ids and byte order."""
-    layout = LAYOUTS[type_name]
+    layout = LAYOUTS.get(type_name) or _OTHERS[type_name]
     store = typestore()
     stamp = np.zeros(len(messages), np.int64)
     values = np.zeros((len(messages), layout.doubles))

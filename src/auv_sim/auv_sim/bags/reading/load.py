@@ -37,6 +37,7 @@ USED = (
     topics.PATH_ERROR,
     topics.RUDDER_CMD,
     topics.THRUST_CMD,
+    *topics.SPATIAL_CONTRACT,
 )
 #: Its states are intervals of time, not numbers.
 _STATE = topics.MISSION_STATE  # fmt: skip

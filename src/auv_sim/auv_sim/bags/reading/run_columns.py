@@ -15,6 +15,7 @@ from auv_msgs_py.values.angles import wrap
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.reading.columns import Columns
 from auv_sim.bags.reading.held_rows import held_rows
+from auv_sim.bags.reading.spatial_columns import spatial_columns
 from auv_sim.flight.run_record import Run
 
 _POSITION, _ORIENTATION = "pose.pose.position.", "pose.pose.orientation."
@@ -58,15 +59,18 @@ def assemble(
     Vx_est, Vy_est = swap_axes(*(aligned(topics.CURRENT_ESTIMATE, f"vector.{axis}") for axis in "xy"))
     Vx_true, Vy_true = swap_axes(*(aligned(topics.TRUE_CURRENT, f"vector.{axis}") for axis in "xy"))
     x_true, y_true, psi_true = _pose([aligned(topics.TRUE_ODOM, field) for field in _POSE], convention)
+    sway = _sway_sign(recorded, table, bag)
+    dives = any(topic in recorded for topic in topics.SPATIAL_PER_STEP)
     run = Run.from_columns(
-        {
+        (spatial_columns(odometry.columns.column, aligned, convention, sway) if dives else {})
+        | {
             "t": odometry.columns.stamp_ns * 1e-9,
             "x": x,
             "y": y,
             "psi": psi,
             "r": turn,
             "ur": aligned(topics.WATER_VELOCITY, "twist.twist.linear.x"),
-            "vr": _sway_sign(recorded, table, bag) * aligned(topics.WATER_VELOCITY, "twist.twist.linear.y"),
+            "vr": sway * aligned(topics.WATER_VELOCITY, "twist.twist.linear.y"),
             "rudder": aligned(topics.RUDDER_STATE),
             "rudder_cmd": aligned(topics.RUDDER_CMD),
             "thrust_cmd": aligned(topics.THRUST_CMD),

@@ -46,7 +46,8 @@ class Selection:
         self._promised: dict[str, QoSProfile] = {}
         self.topics: list[PolledTopic] = []
         if parameters.contract:
-            for topic in (*topics.CONTRACT, *ROS_OWN):
+            spatial = topics.SPATIAL_CONTRACT if parameters.sternplanes else ()
+            for topic in (*topics.CONTRACT, *spatial, *ROS_OWN):
                 self._follow_contract(topic)
         elif not self._seeks:
             raise ConfigurationError(

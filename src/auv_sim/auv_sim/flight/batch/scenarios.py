@@ -10,11 +10,12 @@ import numpy.typing as npt
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
+from auv_path_following.guidance.spatial.flown_path import check_range
 from auv_sim.flight.batch.compiled_flight import Course, FlightConfig
 from auv_sim.flight.batch.config_rows import flat, layout_of
 from auv_sim.flight.batch.distance import outlines_of, rows_of
 from auv_sim.flight.batch.kinds.nearest import spatial_arrays_of, spatial_outlines_of
-from auv_sim.flight.loops import check_depths, check_kind, followed_path, pilot_of, spatial_pilot_of
+from auv_sim.flight.loops import check_kind, followed_path, pilot_of, spatial_pilot_of
 from auv_sim.flight.path_cells import cells_of
 from auv_sim.flight.scenario import Scenario, spatial_start_of, start_of
 from auv_sim.vehicle.actuator import ring_size, servo_of
@@ -84,7 +85,7 @@ class Courses:
         course, path, _ = known
         if isinstance(path, SpatialPath):
             check_kind(c)
-            check_depths(c, path)
+            check_range(path, c.vehicle, c.thrust)
         return course, path
 
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from auv_msgs_py.values.pure import pure
 from auv_msgs_py.values.types import SpatialNavigation, WaterVelocity
-from auv_path_following.guidance.spatial.spatial_laws import levelled
+from auv_path_following.navigation.levelled import levelled
 from auv_sim.vehicle.diving.diver_sensors import SpatialMeasurements, SpatialSensors
 from auv_sim.vehicle.draws import Draws, Now, Ring, slot
 from auv_sim.vehicle.navigator import (

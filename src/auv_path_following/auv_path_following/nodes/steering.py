@@ -1,0 +1,113 @@
+"""The autopilot of the node: rudder and thrust, or stern planes as well."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.frames import flip_yaw
+from auv_msgs_py.contract.topics import Topic
+from auv_msgs_py.values.types import SPATIAL_STOP, STOP, Reference, SpatialReference
+from auv_path_following.control.autopilot import HeadingAutopilot
+from auv_path_following.control.diving_autopilot import SpatialAutopilot
+from auv_path_following.parameters import AutopilotParameters
+from auv_path_following.vehicle import Vehicle
+
+
+class PlanarSteering:
+    """The heading autopilot of a planar vehicle.
+
+    Args:
+        vehicle: hull and rudder.
+        parameters: gains.
+
+    Attributes:
+        references: topic -> largest magnitude beyond any request of guidance (rad, rad/s, N).
+        commands: topics in the order of a command's fields.
+        stop: the command without thrust.
+
+    Raises:
+        ConfigurationError: the gains do not fit the vehicle.
+    """
+
+    commands: tuple[Topic, ...] = (topics.RUDDER_CMD, topics.THRUST_CMD)
+    stop: Any = STOP
+
+    def __init__(self, vehicle: Vehicle, parameters: AutopilotParameters) -> None:
+        self.vehicle = vehicle
+        self.references = {
+            topics.DESIRED_YAW: 6.5,
+            topics.DESIRED_YAW_RATE: 10.0,
+            topics.DESIRED_THRUST: 10.0 * vehicle.thrust_max,
+        }
+        self._autopilot: Any = self._made(parameters)
+
+    def _made(self, parameters: AutopilotParameters) -> Any:
+        return HeadingAutopilot(self.vehicle, parameters.autopilot)
+
+    @property
+    def config(self) -> Any:
+        """Configuration of the autopilot."""
+        return self._autopilot.config
+
+    def validate(self, parameters: AutopilotParameters) -> None:
+        """Refuse gains that do not fit the vehicle.
+
+        Raises:
+            ConfigurationError: a gain needs values that the vehicle's file does not have.
+        """
+        self._made(parameters)
+
+    def configure(self, parameters: AutopilotParameters) -> None:
+        """Take new gains."""
+        self._autopilot.configure(parameters.autopilot)
+
+    def reset(self) -> None:
+        """Reset the state."""
+        self._autopilot.reset()
+
+    def reference(self, values: tuple[float, ...]) -> Any:
+        """Return the reference (NED) of the messages, in the order of `references`."""
+        yaw, rate, thrust = values
+        return Reference(flip_yaw(yaw), -rate, thrust)
+
+    def update(self, navigation: Any, reference: Any, dt: float) -> Any:
+        """Return the command for a measurement; `dt` in s."""
+        return self._autopilot.update(navigation, reference, dt).command
+
+
+class SpatialSteering(PlanarSteering):
+    """The autopilots of a vehicle that dives, in one executable.
+
+    Heading and pitch share odometry, references, thrust and the rule for stopping, so that both fins stop
+    together, and a step has no further process.
+    """
+
+    commands = (topics.RUDDER_CMD, topics.STERNPLANE_CMD, topics.THRUST_CMD)
+    stop = SPATIAL_STOP
+
+    def __init__(self, vehicle: Vehicle, parameters: AutopilotParameters) -> None:
+        super().__init__(vehicle, parameters)
+        self.references |= {topics.DESIRED_PITCH: 1.6, topics.DESIRED_PITCH_RATE: 10.0}
+
+    def _made(self, parameters: AutopilotParameters) -> Any:
+        return SpatialAutopilot(self.vehicle, parameters.autopilot, parameters.pitch)
+
+    def configure(self, parameters: AutopilotParameters) -> None:
+        self._autopilot.configure(parameters.autopilot, parameters.pitch)
+
+    def reference(self, values: tuple[float, ...]) -> Any:
+        yaw, yaw_rate, thrust, pitch, pitch_rate = values
+        return SpatialReference(flip_yaw(yaw), -yaw_rate, -pitch, -pitch_rate, thrust)
+
+    def update(self, navigation: Any, reference: Any, dt: float) -> Any:
+        return self._autopilot.update(navigation, reference, dt)
+
+
+def steering_of(vehicle: Vehicle, parameters: AutopilotParameters) -> PlanarSteering:
+    """Return the autopilot of a vehicle.
+
+    Raises:
+        ConfigurationError: the gains do not fit the vehicle.
+    """
+    return (SpatialSteering if vehicle.dives else PlanarSteering)(vehicle, parameters)
