@@ -8,6 +8,7 @@ import pytest
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files, vehicle
+from auv_path_following.vertical_hull import immersed_share
 
 DIVES = config_files.find("vehicles", "remus100_6dof").read_text(encoding="utf-8")
 PEER = config_files.find("vehicles", "mss_remus100").read_text(encoding="utf-8")
@@ -145,3 +146,12 @@ def test_a_built_in_hull_has_no_coefficients():
         ConfigurationError, match=r"hull: found simulated_as: mss_remus100, expected the hull's"
     ):
         _ = vehicle.load("mss_remus100").coefficients
+
+
+def test_a_hull_floats_where_its_buoyancy_is_its_weight():
+    diver = vehicle.load("remus100_6dof")
+    c = diver.hull.vertical
+    floating = diver.shallowest
+    assert 0.0 < floating < 0.5 * c.diameter
+    assert c.B * immersed_share(floating, 0.5 * c.diameter) == pytest.approx(c.W)
+    assert vehicle.load("remus100").shallowest == 0.0

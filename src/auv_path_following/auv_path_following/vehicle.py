@@ -14,7 +14,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.pure import numbers
 from auv_path_following import config_files
 from auv_path_following.abilities import Cruise, DepthRange, Pitching, Turning
-from auv_path_following.vertical_hull import VerticalHull, check_planes
+from auv_path_following.vertical_hull import VerticalHull, check_planes, floating_depth
 
 #: m/s^2.
 GRAVITY = 9.81
@@ -233,6 +233,13 @@ class Vehicle:
     def top_speed(self) -> float:
         """Speed through the water at full thrust, m/s."""
         return self.speed_at(self.thrust_max)
+
+    @property
+    def shallowest(self) -> float:
+        """Least depth at which a dive begins, m: that of the floating hull; 0 without its coefficients."""
+        if self.hull is None or self.hull.vertical is None:
+            return 0.0
+        return floating_depth(self.hull.vertical)
 
     def thrust_at(self, speed: float) -> float:
         """Return the thrust (N) for a steady speed through the water (m/s): inverse of `speed_at`."""

@@ -8,7 +8,7 @@ import pydantic
 
 from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.settings.validators import unfit
-from auv_msgs_py.values.pure import numbers
+from auv_msgs_py.values.pure import numbers, pure
 from auv_path_following.abilities import DepthRange
 
 
@@ -83,6 +83,34 @@ def reversal_speed(hull: VerticalHull) -> float:
     if pitch >= 0.0:
         return math.inf
     return math.sqrt(attack / pitch) if attack < 0.0 else 0.0
+
+
+@pure
+def immersed_share(z: float, radius: float) -> float:
+    """Return how much of a level hull of circular section is under water, 0 to 1.
+
+    Args:
+        z: depth of its axis, m.
+        radius: of the section, m.
+    """
+    if z >= radius:
+        return 1.0
+    if z <= -radius:
+        return 0.0
+    height = z / radius
+    return 1.0 - (math.acos(height) - height * math.sqrt(1.0 - height * height)) / math.pi
+
+
+def floating_depth(hull: VerticalHull) -> float:
+    """Return the depth at which the hull floats at rest, m; fully immersed where it does not float."""
+    radius = 0.5 * hull.diameter
+    low, high = -radius, radius
+    if not hull.B > hull.W:
+        return radius
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if hull.B * immersed_share(middle, radius) < hull.W else (low, middle)
+    return high
 
 
 #: Largest pitch of a level trim that is looked for, rad.

@@ -21,7 +21,7 @@ from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_path_following.guidance.spatial.spatial_limits import steepest_at, steepest_of
 from auv_path_following.missions import mission_file
 from auv_sim.flight.closed_loop import fly
-from auv_sim.flight.scenario import Scenario
+from auv_sim.flight.scenario import Scenario, spatial_start_of
 from auv_sim.vehicle.hulls.rigid_body import body_at
 from hulls import DIVER, REMUS
 
@@ -166,3 +166,15 @@ def test_a_slow_vehicle_pitches_less(robust) -> None:
     reached = run.t[np.argmax(run.z > 9.0)] - run.t[0]
     assert reached < 21.0
     assert run.z.max() < 10.1
+
+
+@pytest.mark.parametrize("speed", [0.0, 1.0])
+def test_a_vehicle_dives_from_the_surface(robust, speed) -> None:
+    """A path that begins at the surface is begun afloat, at rest too."""
+    profile = DepthProfile([(0.0, 0.0), (150.0, 8.0), (200.0, 8.0)], "linear")
+    path = SpatialPath([Line(0.0, 0.0, 200.0, 0.0)], profile)
+    start = spatial_start_of(path, DIVER)
+    assert start.z == DIVER.shallowest
+    run = fly(scenario(path, vehicle=DIVER, thrust=6.48, initial=start._replace(ur=speed), **robust))
+    assert run.s[-1] == path.n
+    assert run.z[-1] == pytest.approx(8.0, abs=0.05)

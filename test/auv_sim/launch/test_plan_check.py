@@ -214,9 +214,9 @@ def test_a_vehicle_that_dives_starts_at_the_paths_first_depth(tmp_path):
     assert (z, theta) == pytest.approx((8.0, -np.arctan(0.2)))
 
 
-def test_it_starts_elsewhere_on_request_and_never_with_its_propeller_in_air():
+def test_it_starts_elsewhere_on_request_and_never_higher_than_it_floats():
     assert _start(mission="helix", depth=12.0)[:2] == pytest.approx((12.0, 0.0))
-    assert _start(mission="mss_course")[0] == 0.5
+    assert _start(mission="mss_course")[0] == vehicle.load(DIVER).shallowest
     assert _start(mission="mss_course", depth=0.0)[0] == 0.0
 
 

@@ -134,7 +134,7 @@ def loop_of(scenario: Scenario) -> Loop:
         vehicle: Any = SimulatedVehicle(c.vehicle, start, c.sea, c.seed, c.current, c.dt)  # type: ignore[arg-type]
         names: tuple[str, ...] = (*_COLUMNS, *TRUTH) if c.sea else _COLUMNS
         return Loop(pilot_of(c), begun, path.rows, vehicle, answer, names)
-    start = c.initial or spatial_start_of(path)
+    start = c.initial or spatial_start_of(path, c.vehicle)
     current = SpatialCurrent(*c.current, *(0.0,) * (3 - len(c.current)))
     vehicle = SimulatedDiver(c.vehicle, start, c.sea, c.seed, current, c.dt)
     names = (*_SPATIAL_COLUMNS, *SPATIAL_TRUTH) if c.sea else _SPATIAL_COLUMNS

@@ -77,14 +77,13 @@ def start_of(path: CompositePath) -> PlantState:
     return PlantState(x, y, chi, CRUISE, 0.0, 0.0)
 
 
-def spatial_start_of(path: SpatialPath, depth: float | None = None) -> BodyState:
+def spatial_start_of(path: SpatialPath, vehicle: Vehicle) -> BodyState:
     """Return the state on the path's first point, along its tangent, at cruising speed.
 
-    Args:
-        path: the path.
-        depth: start level at this depth instead, m.
+    A path that begins above the floating hull is begun afloat: from higher the hull would fall into the
+    water.
     """
     x, y, z, gamma, chi = path.start_pose
-    if depth is not None:
-        z, gamma = depth, 0.0
+    if z < vehicle.shallowest:
+        z, gamma = vehicle.shallowest, 0.0
     return body_at(x, y, z, 0.0, gamma, chi, CRUISE)

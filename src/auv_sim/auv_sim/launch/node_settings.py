@@ -140,15 +140,15 @@ def _at_depth(initial: Any, options: Options, mission: Mission, hull: Vehicle) -
     """Return the initial state with depth and pitch.
 
     Without `--depth` a vehicle that starts at the path's start has the path's first depth and elevation; but
-    none starts above `depth.surface`, where its propeller and planes are out of the water.
+    none starts higher than it floats.
     """
-    surface = hull.depth.surface
     if options.depth is not None:
         return dataclasses.replace(initial, depth=options.depth, theta=0.0)
     if initial.depth > 0.0:
         return initial
     if mission.spatial is None:
-        return dataclasses.replace(initial, depth=surface)
-    start = mission.spatial.start_pose
-    on_path = options.initial is None and start.z >= surface
-    return dataclasses.replace(initial, depth=max(start.z, surface), theta=start.gamma if on_path else 0.0)
+        return dataclasses.replace(initial, depth=hull.depth.surface)
+    start, floating = mission.spatial.start_pose, hull.shallowest
+    is_on_path = options.initial is None and start.z >= floating
+    theta = start.gamma if is_on_path else 0.0
+    return dataclasses.replace(initial, depth=max(start.z, floating), theta=theta)

@@ -173,7 +173,11 @@ def test_a_wrong_study_gets_one_line(file: Path) -> None:
 
 
 def test_a_vehicle_that_dives_starts_at_the_depth_of_its_path(tmp_path: Path) -> None:
-    for mission, depth in (("helix", 5.0), ("mss_course", 0.5), ("loiter", 0.5)):
+    for mission, depth in (
+        ("helix", 5.0),
+        ("mss_course", vehicle.load("remus100_6dof").shallowest),
+        ("loiter", 0.5),
+    ):
         text = f"mission: {mission}\nvehicle: remus100_6dof\nruns: 2\n"
         scenario = study(tmp_path, text).scenario(0)
         assert scenario.initial.z == pytest.approx(depth)

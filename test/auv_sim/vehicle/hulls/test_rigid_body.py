@@ -9,13 +9,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from auv_path_following.vertical_hull import immersed_share
 from auv_sim.vehicle.hulls.rigid_body import (
     BodyState,
     after_runge_kutta,
     angles_of,
     body_at,
     body_slope,
-    immersed_share,
     quaternion_of,
     to_body,
     to_world,

@@ -44,7 +44,7 @@ def start_row(scenario: Scenario, path: CompositePath | SpatialPath) -> list[flo
     """Return the first state of a scenario's hull, which begins on its path by default."""
     start: Any = scenario.initial
     if start is None:
-        start = spatial_start_of(path) if isinstance(path, SpatialPath) else start_of(path)
+        start = spatial_start_of(path, scenario.vehicle) if isinstance(path, SpatialPath) else start_of(path)
     return [float(number) for number in start]
 
 

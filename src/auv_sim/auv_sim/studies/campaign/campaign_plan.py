@@ -103,7 +103,7 @@ class StudyPlan:
             path=mission.path,
             vehicle=configs["vehicle"],
             thrust=mission.thrust,
-            initial=targets.diving_start(start, mission.spatial, hull.depth.surface) if hull.dives else start,
+            initial=targets.diving_start(start, mission.spatial, hull) if hull.dives else start,
             current=targets.current(given["current"]),
             sea=configs["sea"],
             seed=seed,

@@ -21,6 +21,7 @@ from auv_msgs_py.values.types import Current
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.segment import PathPoint
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
+from auv_path_following.vehicle import Vehicle
 from auv_sim.sim_parameters import CRUISE
 from auv_sim.vehicle.hulls.rigid_body import BodyState, body_at
 from auv_sim.vehicle.remus import PlantState
@@ -73,17 +74,18 @@ def start(path: CompositePath, given: Mapping[str, float]) -> PlantState:
     )
 
 
-def diving_start(start: PlantState, path: SpatialPath | None, surface: float) -> BodyState:
+def diving_start(start: PlantState, path: SpatialPath | None, vehicle: Vehicle) -> BodyState:
     """Return the first state of a vehicle that dives.
 
     Args:
         start: its place, heading and speed.
         path: that it starts on; None for a planar one, which is flown at the surface depth.
-        surface: depth above which the propeller is out of the water, m.
+        vehicle: for its surface depth, and the depth at which it floats.
     """
+    surface, floating = vehicle.depth.surface, vehicle.shallowest
     depth, gamma = (surface, 0.0) if path is None else (path.start_pose.z, path.start_pose.gamma)
-    if depth < surface:
-        depth, gamma = surface, 0.0
+    if depth < floating:
+        depth, gamma = floating, 0.0
     return body_at(start.x, start.y, depth, 0.0, gamma, start.psi, start.ur)
 
 

@@ -18,7 +18,7 @@ _FLOWN_BY = (
     *((auv_path_following, f"{room}/**/*.py") for room in ("guidance", "control")),
     (auv_sim, "*parameters.py"),
     (auv_sim, "flight/**/*.py"),
-    (auv_sim, "vehicle/*.py"),
+    (auv_sim, "vehicle/**/*.py"),
     (auv_sim, "studies/settings_changes.py"),
     *(
         (auv_sim, f"studies/campaign/{name}.py")

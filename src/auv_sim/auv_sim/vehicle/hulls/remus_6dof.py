@@ -18,6 +18,7 @@ import numpy as np
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.pure import numbers_of, pure
 from auv_path_following.vehicle import Hull
+from auv_path_following.vertical_hull import immersed_share
 from auv_sim.vehicle.actuator import Deflection
 from auv_sim.vehicle.hulls.rigid_body import (
     Accelerations,
@@ -27,7 +28,6 @@ from auv_sim.vehicle.hulls.rigid_body import (
     advanced,
     after_runge_kutta,
     body_slope,
-    immersed_share,
     to_body,
 )
 

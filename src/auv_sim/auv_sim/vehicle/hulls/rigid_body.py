@@ -153,19 +153,3 @@ def after_runge_kutta(
         end.q,
         end.r,
     )
-
-
-@pure
-def immersed_share(z: float, radius: float) -> float:
-    """Return how much of a level hull of circular section is under water, 0 to 1.
-
-    Args:
-        z: depth of its axis, m.
-        radius: of the section, m.
-    """
-    if z >= radius:
-        return 1.0
-    if z <= -radius:
-        return 0.0
-    height = z / radius
-    return 1.0 - (math.acos(height) - height * math.sqrt(1.0 - height * height)) / math.pi
