@@ -15,36 +15,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from auv_msgs_py.contract import topics
-from auv_msgs_py.contract.conversions import nanoseconds, navigation_from, water_velocity_from
-from auv_msgs_py.contract.frames import FrameTable, flip_yaw
+from auv_msgs_py.contract.conversions import nanoseconds
+from auv_msgs_py.contract.frames import FrameTable
 from auv_msgs_py.contract.mission_word import MissionState
+from auv_msgs_py.contract.spatial_conversions import altitude_from
 from auv_msgs_py.contract.stamps import StampGuard, StampVerdict
 from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
-from auv_msgs_py.values.types import NO_WATER, WaterVelocity
-from auv_path_following.control import autopilot
-from auv_path_following.guidance import guide
-from auv_path_following.guidance.approach import agility_of, empty_approach
-from auv_path_following.guidance.guide import GuideState, at_the_beginning
-from auv_path_following.guidance.measured import Measured
+from auv_path_following.guidance.approach import empty_approach
+from auv_path_following.guidance.guide import at_the_beginning
 from auv_path_following.missions import mission_state as states
 from auv_path_following.missions.mission_file import Mission
-from auv_path_following.navigation import current_observer
-from auv_path_following.pilot import Pilot, first_state, pilot
 from auv_path_following.vehicle import Vehicle
+from auv_sim.bags.content.rerun_chain import chain_of
+from auv_sim.bags.reading.beside import Beside
 from auv_sim.bags.reading.deserialize import deserializer
 from auv_sim.bags.reading.load import messages_of
 from auv_sim.bags.reading.recording import Bag, RecordedTopic
-
-
-class Answer(NamedTuple):
-    """The pilot's commands for one odometry, as sent on the wire."""
-
-    rudder_cmd: float
-    thrust_cmd: float
-    desired_yaw: float
-    desired_yaw_rate: float
-    desired_thrust: float
-    path_parameter: float
 
 
 @dataclass(frozen=True)
@@ -66,6 +52,7 @@ class _Step(NamedTuple):
     stamp: int
     log_ns: int
     water: Any | None
+    altitude: Any | None = None
 
 
 class _Phase(NamedTuple):
@@ -98,20 +85,21 @@ def answers(
             str(bag.path), "no odometry", f"messages on {topics.ODOM.name}, or --odometry"
         )
     log_ns = np.array([step.log_ns for step in steps], np.int64)
-    recorded = {name: _column(bag, name, namespace, log_ns, lockstep) for name in Answer._fields}
+    rerun = _RerunPilot(parameters, mission, vehicle)
+    names = rerun.answered
+    recorded = {name: _column(bag, name, namespace, log_ns, lockstep) for name in names}
     running = _running(bag, namespace, recorded[topics.DESIRED_THRUST.name])
     rows, kept = [], []
-    rerun = _RerunPilot(parameters, mission, vehicle)
     for k, step in enumerate(steps):
         answer = rerun.step(step, running[k])
         if answer is not None:
             rows.append(answer)
             kept.append(k)
-    columns = np.array(rows, np.float64).reshape(-1, len(Answer._fields))
+    columns = np.array(rows, np.float64).reshape(-1, len(names))
     return Answers(
         np.array([steps[k].stamp for k in kept]) * 1e-9,
         {name: column[kept] for name, column in recorded.items()},
-        {name: columns[:, j] for j, name in enumerate(Answer._fields)},
+        {name: columns[:, j] for j, name in enumerate(names)},
     )
 
 
@@ -120,52 +108,46 @@ class _RerunPilot:
 
     def __init__(self, parameters: dict[str, Any], mission: Mission, vehicle: Vehicle) -> None:
         guidance = parameters[topics.GUIDANCE].with_mission_overrides(mission)
-        steering = parameters[topics.AUTOPILOT]
-        # In lockstep a node's watchdogs rest, and so do these bounds.
-        hold_after = math.inf if guidance.lockstep else guidance.holding.hold_after
-        gap = math.inf if guidance.lockstep else steering.odometry_timeout
-        self._config = Pilot(
-            current_observer.prepare(parameters[topics.OBSERVER].observer),
-            guide.prepare(guidance.guidance, agility_of(vehicle, mission.thrust), mission.thrust, hold_after),
-            autopilot.prepare(steering.autopilot, vehicle),
-            gap,
-            True,
-        )
-        self._rows = mission.path.rows
+        self._chain = chain_of(parameters, guidance, mission, vehicle)
         self._frames = FrameTable(guidance.frames)
         self._guard = StampGuard(ordered=guidance.lockstep)
-        self._state = first_state(self._config, empty_approach())
 
-    def step(self, step: _Step, phase: _Phase) -> Answer | None:
+    @property
+    def answered(self) -> tuple[str, ...]:
+        """Names of the topics of an answer."""
+        names: tuple[str, ...] = self._chain.answer._fields
+        return names
+
+    def step(self, step: _Step, phase: _Phase) -> Any | None:
         """Return the answer; None for an odometry that the nodes refuse, too."""
+        chain = self._chain
         if phase.begins:
             running = states.MissionStatus(states.RUNNING)
-            self._guide(at_the_beginning(self._config.guide, running, empty_approach()))
+            chain.guiding = at_the_beginning(chain.guide, running, empty_approach())
         try:
-            navigation = navigation_from(step.odometry, self._frames, topics.ODOM.name)
+            navigation = chain.readings.navigation(step.odometry, self._frames, topics.ODOM.name)
             water = self._water(step.water)
+            altitude = self._altitude(step.altitude)
         except MessageRefused:
             return None
         verdict, dt = self._guard.judge(step.stamp)
         if verdict is StampVerdict.REFUSE:
             return None
-        mission = self._state.guide.mission
+        mission = chain.guiding.mission
         if verdict is StampVerdict.RESTART:
-            self._state = first_state(self._config, empty_approach())
-        self._guide(self._state.guide._replace(mission=_in_phase(mission, phase)))
-        measured = Measured(navigation, water or NO_WATER, water is not None, False, 0.0, step.stamp * 1e-9)
-        self._state, out = pilot(self._config, self._rows, self._state, measured, dt)
-        _, guided, reference, (rudder, thrust) = out
-        yaw = flip_yaw(guided.psi_d)
-        return Answer(rudder, thrust, yaw, -guided.r_d, reference.thrust, guided.s)
+            chain.restart()
+        chain.guiding = chain.guiding._replace(mission=_in_phase(mission, phase))
+        return chain.step(navigation, water, altitude, step.stamp * 1e-9, dt)
 
-    def _guide(self, state: GuideState) -> None:
-        self._state = self._state._replace(guide=state)
-
-    def _water(self, message: Any | None) -> WaterVelocity | None:
+    def _water(self, message: Any | None) -> Any | None:
         if message is None:
             return None
-        return water_velocity_from(message, self._frames, topics.WATER_VELOCITY.name)
+        return self._chain.readings.water(message, self._frames, topics.WATER_VELOCITY.name)
+
+    def _altitude(self, message: Any | None) -> float:
+        if message is None or not self._chain.with_altitude:
+            return math.nan
+        return altitude_from(message, topics.ALTITUDE.name)
 
 
 def _in_phase(mission: states.MissionStatus, phase: _Phase) -> states.MissionStatus:
@@ -179,28 +161,25 @@ def _in_phase(mission: states.MissionStatus, phase: _Phase) -> states.MissionSta
 
 
 def _steps(bag: Bag, namespace: str | None, lockstep: bool, timeout: float) -> Iterator[_Step]:
-    """Yield each odometry with its velocity through water: of the same stamp in lockstep, else the newest."""
-    odom, through = bag.find(topics.ODOM.name, namespace), bag.find(topics.WATER_VELOCITY.name, namespace)
+    """Yield each odometry with its velocity through water and its range to the bottom."""
+    odom = bag.find(topics.ODOM.name, namespace)
     if odom is None:
         return
+    water, altitude = (
+        Beside(bag.find(topic.name, namespace), lockstep, timeout)
+        for topic in (topics.WATER_VELOCITY, topics.ALTITUDE)
+    )
     decode_odometry = deserializer(odom)
-    waters: dict[int, Any] = {}
-    if lockstep and through is not None:
-        waters = {nanoseconds(message.header.stamp): message for _, message in messages_of(through)}
-    decode_water = deserializer(through) if through is not None else None
-    newest: Any | None = None
     for topic, k in bag.in_order():
         data = topic.messages[k]
-        if topic is through and data is not None and decode_water is not None and not lockstep:
-            newest = decode_water(data)
+        for beside in (water, altitude):
+            if topic is beside.topic:
+                beside.take(data)
         if topic is not odom or data is None:
             continue
         message = decode_odometry(data)
         stamp = nanoseconds(message.header.stamp)
-        water = waters.get(stamp) if lockstep else newest
-        if water is not None and abs(stamp - nanoseconds(water.header.stamp)) > timeout * 1e9:
-            water = None
-        yield _Step(message, stamp, topic.log_ns[k], water)
+        yield _Step(message, stamp, topic.log_ns[k], water.at(stamp), altitude.at(stamp))
 
 
 def _column(

@@ -33,11 +33,18 @@ from auv_sim.command_line import target
 from auv_sim.sim_parameters import SUITE
 from auv_sim.terminal import console as terminal
 
-_FURTHER = {topics.MISSION_STATE.name, topics.DESIRED_THRUST.name}
-_DEGREES = (topics.RUDDER_CMD.name, topics.DESIRED_YAW.name, topics.DESIRED_YAW_RATE.name)
+_FURTHER = {topics.MISSION_STATE.name, topics.DESIRED_THRUST.name, topics.ALTITUDE.name}
+_DEGREES = (
+    topics.RUDDER_CMD.name, topics.DESIRED_YAW.name, topics.DESIRED_YAW_RATE.name,
+    topics.STERNPLANE_CMD.name, topics.DESIRED_PITCH.name, topics.DESIRED_PITCH_RATE.name,
+)  # fmt: skip
+#: What the vehicle was commanded: rudder, thrust, and the stern planes of a vehicle that has them.
+_COMMANDS = (topics.RUDDER_CMD.name, topics.STERNPLANE_CMD.name, topics.THRUST_CMD.name)
 _UNITS = {
     topics.RUDDER_CMD.name: "°", topics.THRUST_CMD.name: "N", topics.DESIRED_YAW.name: "°",
     topics.DESIRED_YAW_RATE.name: "°/s", topics.DESIRED_THRUST.name: "N", topics.PATH_PARAMETER.name: "",
+    topics.STERNPLANE_CMD.name: "°", topics.DESIRED_PITCH.name: "°", topics.DESIRED_PITCH_RATE.name: "°/s",
+    topics.DESIRED_DEPTH.name: "m",
 }  # fmt: skip
 
 
@@ -75,10 +82,7 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         _show(found, figures)
     changed = arguments.params or arguments.mission or arguments.vehicle
-    same = all(
-        figures[name]["identical"] == figures[name]["compared"] for name in ("rudder_cmd", "thrust_cmd")
-    )
-    return 0 if changed or same else 1
+    return 0 if changed or _is_same(figures) else 1
 
 
 def rerun(
@@ -200,16 +204,25 @@ def _show(found: Answers, figures: dict[str, dict[str, Any]]) -> None:
             f"{f['rms']:.4g}{unit}", f"{f['largest']:.4g}{unit}", "-" if same else f"{f['largest_at_s']:.2f}",
         )  # fmt: skip
     console.print(table)
-    commands = [figures[name] for name in (topics.RUDDER_CMD.name, topics.THRUST_CMD.name)]
-    if all(f["identical"] == f["compared"] for f in commands):
+    if _is_same(figures):
         console.print(f"every command is the recorded one, bit for bit ({found.t.size} steps)")
-    for label, commands_of in (("recorded", found.recorded), ("new", found.new)):
-        rudder = np.degrees(commands_of[topics.RUDDER_CMD.name])
-        rudder = rudder[np.isfinite(rudder)]
-        travel, rms = np.abs(np.diff(rudder)).sum(), np.sqrt(np.mean(rudder**2))
-        console.print(
-            f"rudder {label}: travel {travel:.1f}°, rms {rms:.3f}°, largest {np.abs(rudder).max():.2f}°"
-        )
+    fins = {"rudder": topics.RUDDER_CMD.name, "stern planes": topics.STERNPLANE_CMD.name}
+    for fin, name in fins.items():
+        for label, commands in (("recorded", found.recorded), ("new", found.new)):
+            angles = np.degrees(commands.get(name, np.empty(0)))
+            angles = angles[np.isfinite(angles)]
+            if not angles.size:
+                continue
+            travel, rms = np.abs(np.diff(angles)).sum(), np.sqrt(np.mean(angles**2))
+            console.print(
+                f"{fin} {label}: travel {travel:.1f}°, rms {rms:.3f}°, largest {np.abs(angles).max():.2f}°"
+            )
+
+
+def _is_same(figures: dict[str, dict[str, Any]]) -> bool:
+    """Return whether every command has the bits of the recorded one."""
+    commands = [figures[name] for name in _COMMANDS if name in figures]
+    return all(f["identical"] == f["compared"] for f in commands)
 
 
 def _write_csv(found: Answers, file: Path) -> None:
