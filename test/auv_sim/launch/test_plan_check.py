@@ -12,6 +12,7 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.settings import params_file
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files, vehicle
+from auv_path_following.control.rule.gain_rule import gains_for
 from auv_path_following.missions import mission_file
 from auv_sim.cli import mission as mission_command
 from auv_sim.flight.closed_loop import fly
@@ -256,3 +257,20 @@ def test_the_launcher_refuses_a_mission_with_a_depth_for_a_planar_vehicle(tmp_pa
     assert "stern planes" in err
     assert err.count("\n") == 1
     assert not (tmp_path / "run").exists()
+
+
+def test_gains_by_rule_are_those_of_the_vehicles_file(tmp_path):
+    """The word stands in place of a file; a vehicle for which the rule does not hold gets a notice."""
+    made = mission_plan.make(Options(params="rule", vehicle="remus100_mismatch"), tmp_path)
+    gains = gains_for(vehicle.load("remus100_mismatch"))
+    flight = made.scenario()
+    assert flight.autopilot == gains.heading.autopilot
+    assert flight.guidance.ailos.lookahead == gains.heading.lookahead
+    assert flight.guidance.switching.turn_rate == gains.heading.autopilot.reference.max_rate
+    assert made.parameters[topics.OBSERVER].observer.k_ob1 == 1.0
+    assert made.verdicts.notices == ()
+    slow = tmp_path / "slow.yaml"
+    text = config_files.find("vehicles", "remus100").read_text(encoding="utf-8")
+    slow.write_text(text.replace("max_rate_deg_s: 15", "max_rate_deg_s: 3"), encoding="utf-8")
+    notices = mission_plan.make(Options(params="rule", vehicle=str(slow)), tmp_path).verdicts.notices
+    assert any("too slow a fin" in notice for notice in notices)

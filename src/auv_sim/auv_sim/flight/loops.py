@@ -131,12 +131,12 @@ def loop_of(scenario: Scenario) -> Loop:
     path = followed_path(c)
     if not isinstance(path, SpatialPath):
         start: Any = c.initial or start_of(c.path)
-        vehicle: Any = SimulatedVehicle(c.vehicle, start, c.sea, c.seed, c.current, c.dt)  # type: ignore[arg-type]
+        vehicle: Any = SimulatedVehicle(c.plant_vehicle, start, c.sea, c.seed, c.current, c.dt)  # type: ignore[arg-type]
         names: tuple[str, ...] = (*_COLUMNS, *TRUTH) if c.sea else _COLUMNS
         return Loop(pilot_of(c), begun, path.rows, vehicle, answer, names)
     start = c.initial or spatial_start_of(path, c.vehicle)
     current = SpatialCurrent(*c.current, *(0.0,) * (3 - len(c.current)))
-    vehicle = SimulatedDiver(c.vehicle, start, c.sea, c.seed, current, c.dt)
+    vehicle = SimulatedDiver(c.plant_vehicle, start, c.sea, c.seed, current, c.dt)
     names = (*_SPATIAL_COLUMNS, *SPATIAL_TRUTH) if c.sea else _SPATIAL_COLUMNS
     return Loop(spatial_pilot_of(c), spatial_begun, spatial_rows(path), vehicle, spatial_answer, names)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from auv_msgs_py.values.types import NO_CURRENT, Current, SpatialCurrent
@@ -35,6 +35,7 @@ class Scenario:
         sea: imperfections; None: an ideal sea.
         seed: of the sea's random numbers.
         step: time between odometries, s.
+        command_delay: added to the dead time of the plant's fins, s; of any length.
         guidance, observer, autopilot: laws and gains.
         pitch: gains of the pitch autopilot, for a vehicle that dives.
         mode: what the vertical plane follows, of `vertical_modes.vertical_step`.
@@ -51,6 +52,7 @@ class Scenario:
     sea: Sea | None = None
     seed: int = 0
     step: float = 0.05
+    command_delay: float = 0.0
     guidance: PathFollowerConfig = field(default_factory=PathFollowerConfig)
     observer: CurrentObserverConfig = field(default_factory=CurrentObserverConfig)
     autopilot: AutopilotConfig = field(default_factory=AutopilotConfig)
@@ -64,6 +66,18 @@ class Scenario:
     def step_ns(self) -> int:
         """Step in whole ns, as stamps have it."""
         return round(self.step * 1e9)
+
+    @property
+    def plant_vehicle(self) -> Vehicle:
+        """The plant's hull with the delay of its commands."""
+        if not self.command_delay:
+            return self.vehicle
+        rudder, planes = self.vehicle.rudder, self.vehicle.sternplanes
+        return replace(
+            self.vehicle,
+            rudder=replace(rudder, dead_time=rudder.dead_time + self.command_delay),
+            sternplanes=planes and replace(planes, dead_time=planes.dead_time + self.command_delay),
+        )
 
     @property
     def dt(self) -> float:

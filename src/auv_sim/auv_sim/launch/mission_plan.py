@@ -24,7 +24,7 @@ from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.mission_check.flyable import Findings, check, refusal
 from auv_sim.flight.scenario import Scenario
 from auv_sim.launch import node_settings
-from auv_sim.launch.options import DRIVERS, Options
+from auv_sim.launch.options import BY_RULE, DEFAULT_PARAMS, DRIVERS, Options
 from auv_sim.launch.vehicle_driver import configure_driver
 from auv_sim.vehicle import sea
 
@@ -198,7 +198,9 @@ def _find_files(options: Options) -> node_settings.Sources:
     sources = {
         "mission": config_files.find("missions", options.mission).absolute(),
         "vehicle": config_files.find("vehicles", options.vehicle).absolute(),
-        "params": config_files.find("params", options.params).absolute(),
+        "params": config_files.find(
+            "params", DEFAULT_PARAMS if options.params == BY_RULE else options.params
+        ).absolute(),
     }
     if options.controller_model is not None:
         sources["controller_model"] = config_files.find("vehicles", options.controller_model).absolute()

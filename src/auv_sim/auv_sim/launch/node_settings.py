@@ -14,9 +14,11 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_path_following.control import diving_autopilot
 from auv_path_following.control.autopilot import HeadingAutopilot
+from auv_path_following.control.rule.gain_rule import gains_for
+from auv_path_following.guidance.ruled_guidance import with_gains
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
-from auv_sim.launch.options import Options
+from auv_sim.launch.options import BY_RULE, Options
 from auv_sim.sim_parameters import SUITE
 from auv_sim.vehicle import sea
 
@@ -39,6 +41,8 @@ def load(options: Options, file: Path, model: Vehicle, notices: list[str]) -> No
         ConfigurationError: a parameter or a gain that its node would refuse.
     """
     settings: NodeSettings = params_file.load(file, SUITE, options.namespace, notices)
+    if options.params == BY_RULE:
+        _take_rule(settings, model, notices)
     lockstep = options.simulator and options.speed is None
     for name in settings:
         change(settings, name, lockstep=lockstep, recorded=lockstep)
@@ -51,6 +55,17 @@ def load(options: Options, file: Path, model: Vehicle, notices: list[str]) -> No
         place = f"{file}: {topics.AUTOPILOT}: {error.where}"
         raise ConfigurationError(place, error.found, error.expected) from None
     return settings
+
+
+def _take_rule(settings: NodeSettings, model: Vehicle, notices: list[str]) -> None:
+    """Replace gains and look-aheads by those of the rule; append its notices."""
+    gains = gains_for(model, step=settings[topics.PLANT].step)
+    guidance = with_gains(settings[topics.GUIDANCE].guidance, gains)
+    change(settings, topics.GUIDANCE, guidance=guidance)
+    change(settings, topics.AUTOPILOT, autopilot=gains.heading.autopilot)
+    if gains.pitch is not None:
+        change(settings, topics.AUTOPILOT, pitch=gains.pitch.autopilot)
+    notices.extend(gains.notices)
 
 
 def set_mission(

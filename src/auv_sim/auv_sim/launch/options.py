@@ -13,6 +13,8 @@ from auv_sim.flight.least_share import LEAST_SHARE, LEAST_SHARE_AT_SEA
 DEFAULT_MISSION = "paper_composite"
 DEFAULT_VEHICLE = "remus100"
 DEFAULT_PARAMS = "robust"
+#: In place of a parameter file: the default one, with gains by the rule from the vehicle's file.
+BY_RULE = "rule"
 #: Value of `--vehicle-driver` -> the driver's node.
 DRIVERS = {"mavlink": topics.MAVLINK_DRIVER}
 

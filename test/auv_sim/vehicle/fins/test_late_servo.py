@@ -122,5 +122,7 @@ def test_the_engine_flies_it_as_the_closed_loop_does() -> None:
     for name in ("x", "y", "psi", "r", "rudder"):
         assert np.abs(getattr(run, name) - getattr(track, name)).max() < 1e-9
     assert math.degrees(abs(run.rudder).max()) > 1.0
+    by_link = dataclasses.replace(flight, vehicle=REMUS, command_delay=0.083)
+    assert np.array_equal(engine.track(by_link).rudder, track.rudder)
     figures = engine.fly([flight])
     assert figures.last_y[0] == pytest.approx(run.y[-1], abs=1e-9)

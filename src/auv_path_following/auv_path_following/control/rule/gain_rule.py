@@ -46,7 +46,7 @@ class PlaneGains(NamedTuple):
         autopilot: controller and reference.
         lookahead: Delta, m.
         crossover: w_c of the inner loop, 1/s.
-        product: p tau, the divergence times the delay; 0 of a stable hull.
+        product: p tau, the divergence times the delay, the lag by sideslip included; 0 of a stable hull.
         authority: b rate/p^2, rad/s; very large of a stable hull.
     """
 
@@ -125,7 +125,11 @@ def plane_gains(
     )
     lookahead = speed * (LOOKAHEADS / bandwidth + DRIFTS / quickness * response.drift_time)
     return PlaneGains(
-        AutopilotConfig(nism=nism, reference=reference), lookahead, crossover, p * tau, authority
+        AutopilotConfig(nism=nism, reference=reference),
+        lookahead,
+        crossover,
+        p * (tau + response.lag(crossover)),
+        authority,
     )
 
 

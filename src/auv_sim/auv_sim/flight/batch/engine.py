@@ -231,7 +231,9 @@ def _flown(
         state, constant = start_from(vehicle, row, water, scratch.ring)
         if scenario.sea is not None:
             draws = Draws(flight.dt, steps, arrays=True)
-            vehicle, state = kind.at_sea_of(scenario.vehicle, state.hull, scenario.sea, scenario.seed, draws)
+            vehicle, state = kind.at_sea_of(
+                scenario.plant_vehicle, state.hull, scenario.sea, scenario.seed, draws
+            )
         with np.errstate(all="ignore"):  # a state that runs away is a result
             fly_one(
                 flight._replace(steps=steps), vehicle, state, constant, course, scratch,

@@ -34,7 +34,7 @@ def flight_of(scenario: Scenario) -> FlightConfig:
     dives = scenario.vehicle.dives
     return FlightConfig(
         pilot=spatial_pilot_of(scenario) if dives else pilot_of(scenario),
-        plant=spatial_plant_of(scenario.vehicle) if dives else plant_of(scenario.vehicle),
+        plant=(spatial_plant_of if dives else plant_of)(scenario.plant_vehicle),
         dt=scenario.dt,
         steps=int(scenario.time_limit / scenario.step) + 1,
     )
@@ -56,7 +56,7 @@ def current_row(scenario: Scenario) -> list[float]:
 
 def rings_of(scenario: Scenario) -> int:
     """Return how many numbers the largest ring of a vehicle's servos holds."""
-    fins = scenario.vehicle.rudder, scenario.vehicle.sternplanes
+    fins = scenario.plant_vehicle.rudder, scenario.plant_vehicle.sternplanes
     return max(ring_size(servo_of(fin)) for fin in fins if fin is not None)
 
 
@@ -125,7 +125,7 @@ class Preparation:
             c.mode,
             c.sea,
         )
-        key = (*map(id, settings), c.thrust, c.step, c.time_limit)
+        key = (*map(id, settings), c.thrust, c.step, c.command_delay, c.time_limit)
         row = self._known.get(key)
         if row is None:
             flight = flight_of(scenario)
