@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from auv_msgs_py.values.types import Command
@@ -41,10 +41,11 @@ def vehicle_with(dead_time: float) -> Vehicle:
     return dataclasses.replace(REMUS, rudder=late(dead_time))
 
 
+@settings(deadline=None)  # a loaded machine takes longer for the steps of 1 ms
 @given(
     st.integers(1, 400),
     st.sampled_from([20, 50, 100]),
-    st.lists(st.floats(-0.7, 0.7), min_size=1, max_size=20),
+    st.lists(st.floats(-0.7, 0.7), min_size=1, max_size=8),
     st.sampled_from([0.2, 0.26, 14.0]),
 )
 def test_its_angle_is_that_of_an_ideal_one_some_time_ago(delay, period, commands, rate) -> None:
