@@ -22,7 +22,7 @@ LONGER = {
     "autopilot.steer": (44, _STEP),
     "progress.move": (42, _STEP),
     "run_columns.assemble": (61, "one column after the other; a third is its docstring"),
-    "judge.judged": (49, "a table: one figure a line"),
+    "judge.judged": (51, "a table: one figure a line"),
     "flight_figures.figures_of": (43, "a table: one figure a line"),
     "mcap_file._end_chunk": (41, "the order of its writes is what makes a crash harmless"),
 }

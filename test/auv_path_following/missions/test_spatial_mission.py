@@ -235,6 +235,6 @@ def test_depths_of_points_can_be_ignored(loaded):
 
 
 def test_shipped_missions_in_three_dimensions():
-    names = {"paper_at_depth", "paper_ramps", "helix", "mss_course", "survey_3d"}
+    names = {"paper_at_depth", "paper_deep", "paper_ramps", "helix", "mss_course", "survey_3d"}
     shipped = {name: mission_file.load(name).spatial is not None for name in config_files.shipped("missions")}
     assert {name for name, is_spatial in shipped.items() if is_spatial} == names

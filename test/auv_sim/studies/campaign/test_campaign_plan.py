@@ -188,3 +188,35 @@ def test_a_vehicle_that_dives_starts_at_the_depth_of_its_path(tmp_path: Path) ->
 def test_a_planar_vehicle_does_not_fly_a_path_with_depths(tmp_path: Path) -> None:
     with pytest.raises(ConfigurationError, match="sternplanes: found a path with depth"):
         study(tmp_path, "mission: helix\nvehicle: remus100\nruns: 2\n")
+
+
+def test_starts_and_currents_have_a_vertical_part(tmp_path: Path) -> None:
+    text = (
+        "mission: helix\nvehicle: remus100_6dof\nsuccess: {steady_rms_depth_error: 0.02}\nvary:\n"
+        "  initial.below: {choice: [4]}\n  initial.pitch_deg: {choice: [-15]}\n"
+        "  current.down: {choice: [0.1]}\n  initial.starboard: {choice: [3]}\n"
+        "  current.east: {choice: [0.2]}\n  pitch.nism.k1: {choice: [0.3]}\n"
+    )
+    plan = study(tmp_path, text)
+    told = plan.scenario(0)
+    x, y, z, _, chi = told.spatial.start_pose
+    _, theta, psi = angles_of(told.initial)
+    assert (told.initial.z, theta, psi) == pytest.approx((z + 4.0, math.radians(-15.0), chi))
+    assert math.hypot(told.initial.x - x, told.initial.y - y) == pytest.approx(3.0)
+    assert told.current == pytest.approx((0.0, 0.2, 0.1))
+    assert told.pitch.nism.k1 == 0.3
+    assert plan.dives
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("vary:\n  initial.below: {uniform: [-20, 5]}\n", "found a start at a depth of -15 m"),
+        ("vehicle: remus100\nmission: loiter\nvary:\n  current.down: {choice: [0.1]}\n", "stern planes"),
+        ("vehicle: remus100\nmission: loiter\njudge: largest_pitch\n", "a figure of flights with depth"),
+    ],
+)
+def test_what_has_no_depth_is_refused(tmp_path: Path, text: str, message: str) -> None:
+    base = "" if "vehicle" in text else "mission: helix\nvehicle: remus100_6dof\n"
+    with pytest.raises(ConfigurationError, match=message):
+        study(tmp_path, base + text)

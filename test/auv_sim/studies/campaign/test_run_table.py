@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import dataclasses
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from auv_msgs_py.settings.schema import validated
 from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.flight.batch import engine
 from auv_sim.flight.batch.flight_figures import Flights
-from auv_sim.studies.campaign.run_table import flown_enough, successes
+from auv_sim.studies.campaign.campaign_plan import StudyPlan
+from auv_sim.studies.campaign.evaluation.summary import summarise
+from auv_sim.studies.campaign.run_table import flown_enough, successes, table_of
 from auv_sim.studies.campaign.study_file import Study
 
 
@@ -45,3 +49,20 @@ def test_the_end_of_the_path_and_the_limits_count_as_well() -> None:
 def test_a_share_beyond_the_whole_path_is_refused() -> None:
     with pytest.raises(ConfigurationError, match="flown: found 99"):
         study(flown=99)
+
+
+def test_a_table_has_figures_of_depth_where_a_vehicle_dives(tmp_path: Path) -> None:
+    """Of a study in which the other vehicle flies in the plane."""
+    file = tmp_path / "depths.yaml"
+    file.write_text(
+        "version: 1\nname: depths\nmission: loiter\ntime_limit: 5\nvary:\n"
+        "  vehicle: {grid: [remus100, remus100_6dof]}\njudge: largest_pitch\n"
+    )
+    plan = StudyPlan(file)
+    scenarios = [plan.scenario(run) for run in range(2)]
+    table = table_of(plan, range(2), engine.fly(scenarios), [told.path.n for told in scenarios])
+    planar, deep = table.column("largest_pitch").to_pylist()
+    assert np.isnan(planar) and 0.0 < deep < 30.0
+    assert "largest_pitch" in summarise(plan, table).figures
+    alone = table_of(plan, range(1), engine.fly(scenarios[:1]), [scenarios[0].path.n])
+    assert np.isnan(alone.column("rms_depth_error").to_pylist()).all()

@@ -141,11 +141,12 @@ class SpatialFlights(Flights):
     """Flights of which some are in three dimensions; the further figures are NaN for the others.
 
     A depth error is the depth less that of the closest point of the path. The steady ones count from
-    `time_to_path` on, farther than `path_cells.CORNER_RADIUS` from every corner.
+    `spatial_tally.SETTLING_TIME` after `time_to_path` on, farther than `path_cells.CORNER_RADIUS` from every
+    corner.
 
     Attributes:
         rms_depth_error, largest_depth_error: over the whole flight.
-        steady_rms_depth_error, steady_largest_depth_error: after joining, away from corners.
+        steady_rms_depth_error, steady_largest_depth_error: settled on the path, away from corners.
         largest_pitch: absolute, deg.
         sternplane_travel: deg; sternplane_travel_per_metre: deg/m.
         last_z: last depth, m.

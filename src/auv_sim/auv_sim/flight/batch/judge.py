@@ -9,6 +9,7 @@ import numpy as np
 
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_sim.flight.batch import tally
+from auv_sim.flight.batch.kinds.spatial_tally import SETTLING_TIME
 from auv_sim.flight.flown_rows import FlownRows
 from auv_sim.flight.loops import followed_path
 from auv_sim.flight.metrics import summarise
@@ -63,16 +64,18 @@ def judged(run: Run, scenario: Scenario) -> dict[str, Any]:
         "subpath_duration": np.array([part.duration for part in summary.subpaths]),
     }
     if isinstance(path, SpatialPath) and isinstance(run, SpatialRun):
-        figures |= _in_space(run, rows, path, summary, int(near[0]) if near.size else run.steps)
+        joined = elapsed[near[0]] if near.size else math.inf
+        settled = elapsed - joined >= SETTLING_TIME - 1e-6
+        figures |= _in_space(run, rows, path, summary, settled)
     return figures
 
 
 def _in_space(
-    run: SpatialRun, rows: FlownRows, path: SpatialPath, summary: Any, joined: int
+    run: SpatialRun, rows: FlownRows, path: SpatialPath, summary: Any, settled: Any
 ) -> dict[str, Any]:
-    """Return the further figures of `SpatialFlights`; `joined` is the row at which the path was joined."""
+    """Return the further figures of `SpatialFlights`; `settled` marks the rows on the path."""
     _, is_free = rows.corners(path)
-    is_free[:joined] = False
+    is_free &= settled
     steady = rows.depth_error[is_free]
     return {
         "rms_depth_error": summary.rms_depth_error,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import math
 import zlib
@@ -12,14 +13,15 @@ import numpy as np
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.batch.scenarios import flight_of
-from auv_sim.flight.loops import check_kind
+from auv_sim.flight.loops import followed_path
 from auv_sim.flight.scenario import Scenario
 from auv_sim.studies.campaign import targets
 from auv_sim.studies.campaign.distributions import Value
-from auv_sim.studies.campaign.study_file import load_study
+from auv_sim.studies.campaign.study_file import figures_of, load_study
 from auv_sim.studies.campaign.study_files import StudyFiles
 from auv_sim.studies.settings_changes import changed, multiplied
 from auv_sim.vehicle import sea
@@ -52,6 +54,8 @@ class StudyPlan:
         )
         self.runs = study.runs * len(self.points)
         self.sea: Sea | None = sea.load(self.files.file("seas", study.sea)) if study.sea else None
+        #: Whether a vehicle of the study dives: its table then has the figures of `SpatialFlights`.
+        self.dives = any(self.files.hull(name).dives for name in self.files.words("vehicle"))
         self._check()
 
     def values(self, run: int) -> dict[str, Value]:
@@ -89,6 +93,9 @@ class StudyPlan:
         """
         study = self.study
         mission = self.files.mission_of(values)
+        if mission.altitude is not None:
+            expected = "a mission with depths, which figures are about"
+            raise ConfigurationError(f"{mission.source}: altitude", "it", expected)
         hull = self.files.hull(str(values.get("vehicle", study.vehicle)))
         configs = self._configs(values, mission, hull)
         given = self._by_group(values, configs)
@@ -98,25 +105,39 @@ class StudyPlan:
                     f"{self.where}: vary", f"{group}.*, and no {group}", f"{group}: FILE"
                 )
             configs[group] = changed(config, given[group], f"{where}: {group}")
-        start = targets.start(mission.path, given["initial"])
         scenario = Scenario(
             path=mission.path,
             vehicle=configs["vehicle"],
             thrust=mission.thrust,
-            initial=targets.diving_start(start, mission.spatial, hull) if hull.dives else start,
-            current=targets.current(given["current"]),
             sea=configs["sea"],
             seed=seed,
             step=study.step,
             guidance=configs["guidance"],
             observer=configs["observer"],
             autopilot=configs["autopilot"],
+            pitch=configs["pitch"],
             controller_vehicle=self.files.hull(study.controller_model) if study.controller_model else hull,
             time_limit=study.time_limit,
             spatial=mission.spatial,
         )
-        check_kind(scenario)
-        return scenario
+        return self._begun(scenario, given, where)
+
+    def _begun(self, scenario: Scenario, given: dict[str, dict[str, Any]], where: str) -> Scenario:
+        """Return a scenario with its start and current; both are relative to the path that is followed."""
+        initial, water = given["initial"], given["current"]
+        path = followed_path(scenario)
+        if isinstance(path, SpatialPath):
+            start = targets.spatial_start(path, initial, scenario.vehicle.shallowest, where)
+            current = targets.spatial_current(water)
+            return dataclasses.replace(scenario, initial=start, current=current)
+        for name in (*targets.DIVING_START, *targets.DIVING_CURRENT):
+            if name in initial or name in water:
+                group = "initial" if name in initial else "current"
+                found = f"it with {scenario.vehicle.name}"
+                raise ConfigurationError(f"{where}: {group}.{name}", found, "a vehicle with stern planes")
+        return dataclasses.replace(
+            scenario, initial=targets.start(path, initial), current=targets.current(water)
+        )
 
     def _configs(self, values: dict[str, Value], mission: Mission, hull: Vehicle) -> dict[str, Any]:
         """Return the settings objects before anything is varied: group -> object."""
@@ -127,6 +148,7 @@ class StudyPlan:
             "guidance": parameters[topics.GUIDANCE].with_mission_overrides(mission).guidance,
             "observer": parameters[topics.OBSERVER].observer,
             "autopilot": parameters[topics.AUTOPILOT].autopilot,
+            "pitch": parameters[topics.AUTOPILOT].pitch,
         }
 
     def _by_group(self, values: dict[str, Value], configs: dict[str, Any]) -> dict[str, dict[str, Any]]:
@@ -145,6 +167,12 @@ class StudyPlan:
 
     def _check(self) -> None:
         """Check every name, and every distribution at its ends, before anything is flown."""
+        for figure in (*self.study.success, self.study.judge):
+            if figure not in figures_of(self.dives):
+                expected = "a figure of flights in the plane, or a vehicle with stern planes"
+                raise ConfigurationError(
+                    f"{self.where}: {figure}", "a figure of flights with depth", expected
+                )
         for name, distribution in self.study.vary.items():
             targets.group_of(name, self.where)
             is_word = name in targets.WORDS

@@ -19,7 +19,8 @@ from auv_sim.bags.reading.load import load
 from auv_sim.cli import mission as mission_command
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, to_type
 from auv_sim.flight.batch import engine
-from auv_sim.flight.metrics import summarise
+from auv_sim.flight.loops import followed_path
+from auv_sim.flight.metrics import SpatialMissionSummary, summarise
 from auv_sim.flight.run_record import Run
 from auv_sim.flight.scenario import Scenario, start_of
 from auv_sim.sim_parameters import ConstantCurrent, InitialPose
@@ -42,28 +43,39 @@ def replay(store: Store, number: int, graph: bool, console: Console) -> int:
         the exit code: 0 if the path was flown to its end, else 1.
 
     Raises:
-        ConfigurationError: there is no such run.
+        ConfigurationError: there is no such run, or the nodes cannot fly it.
     """
     plan = store.plan
     if number >= plan.runs:
         raise ConfigurationError("--replay-run", str(number), f"a run from 0 to {plan.runs - 1}")
-    console.print(f"[bold]{escape(plan.study.name)}[/bold], run {number}")
-    for name, value in plan.values(number).items():
-        text = f"{value:.6g}" if isinstance(value, float) else escape(str(value))
-        console.print(f"  {name:<32} {text}")
     scenario = plan.scenario(number)
+    is_planar = not scenario.vehicle.dives
+    if graph and not is_planar:
+        expected = "a run in the plane: the others fly in the engine only"
+        raise ConfigurationError("--graph", f"run {number} of a vehicle that dives", expected)
+    console.print(f"[bold]{escape(plan.study.name)}[/bold], run {number}")
+    _print_values(plan, number, console)
     directory = store.directory / "runs" / f"{number:07d}"
     shutil.rmtree(directory, ignore_errors=True)
-    write_files(plan, number, directory / "config")
+    if is_planar:
+        write_files(plan, number, directory / "config")
+    directory.mkdir(parents=True, exist_ok=True)
     flown = engine.track(scenario)
     code = _show(store, number, flown, scenario, console)
     _picture(plan, number, flown, scenario, directory / "overview.png")
     wrote(console, directory / "overview.png", "the run in one picture")
-    if not graph:
+    if graph:
+        return _over_ros(plan, directory, flown, console)
+    if is_planar:
         again = to_type("campaign.py", store.directory, replay_run=number, graph=True)
         go_on(console, "Fly it over ROS 2", again)
-        return code
-    return _over_ros(plan, directory, flown, console)
+    return code
+
+
+def _print_values(plan: StudyPlan, number: int, console: Console) -> None:
+    for name, value in plan.values(number).items():
+        text = f"{value:.6g}" if isinstance(value, float) else escape(str(value))
+        console.print(f"  {name:<32} {text}")
 
 
 def _over_ros(plan: StudyPlan, directory: Path, flown: Run, console: Console) -> int:
@@ -124,12 +136,17 @@ def _written(settings: Any) -> Any:
 
 def _show(store: Store, number: int, flown: Run, scenario: Scenario, console: Console) -> int:
     """Print the figures; return the exit code."""
-    summary = summarise(flown, scenario.path)
+    summary = summarise(flown, followed_path(scenario))
     outcome = summary.outcome(store.plan.study.flown)
     console.print(
         f"\n{outcome} after {summary.duration:.1f} s,"
         f" rms distance {summary.rms_distance:.4g} m, largest {summary.largest_distance:.4g} m"
     )
+    if isinstance(summary, SpatialMissionSummary):
+        console.print(
+            f"rms depth error {summary.rms_depth_error:.4g} m, largest {summary.largest_depth_error:.4g} m,"
+            f" largest pitch {summary.largest_pitch:.3g} deg"
+        )
     console.print(summary.flown_line(), soft_wrap=True)
     if store.finished:
         table = pq.read_table(store.directory / RESULTS, columns=["rms_distance"])
@@ -145,7 +162,7 @@ def _picture(plan: StudyPlan, number: int, flown: Run, scenario: Scenario, file:
     draw(
         flown,
         scenario.path,
-        summarise(flown, scenario.path),
+        summarise(flown, followed_path(scenario)),
         file,
         f"{plan.study.name}, run {number}",
         rudder_limit=rudder.max_angle,

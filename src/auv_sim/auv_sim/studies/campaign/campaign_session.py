@@ -105,7 +105,7 @@ def _flown(
     """Compile the laws once, then start the workers; yield each chunk with its table."""
     if COMPILED:
         with console.status("compiling the laws (once for each version of them)"):
-            engine.compile_once(bool(store.plan.study.sea))
+            engine.compile_once(bool(store.plan.study.sea), dives=store.plan.dives)
     else:
         console.print(
             "[yellow]Numba is not installed: this takes many times as long, see docs/performance.md[/yellow]"

@@ -12,17 +12,24 @@ from auv_msgs_py.settings import yaml_file
 from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.settings.validators import no_boolean, unfit
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.flight.batch.flight_figures import Flights
+from auv_sim.flight.batch.flight_figures import Flights, SpatialFlights
 from auv_sim.flight.least_share import LEAST_SHARE
 from auv_sim.studies.campaign.distributions import Distribution
 
 _Version = Annotated[Literal[1], pydantic.BeforeValidator(no_boolean)]
-#: The figures of a flight that are one number.
-FIGURES = tuple(
-    field.name
-    for field in dataclasses.fields(Flights)
-    if not field.name.startswith("subpath_") and field.name not in ("completed", "finite")
-)
+
+
+def figures_of(dives: bool) -> tuple[str, ...]:
+    """Return the figures of a flight that are one number; with those in depth if its vehicle dives."""
+    return tuple(
+        field.name
+        for field in dataclasses.fields(SpatialFlights if dives else Flights)
+        if not field.name.startswith("subpath_") and field.name not in ("completed", "finite")
+    )
+
+
+#: All figures of a flight that are one number.
+FIGURES = figures_of(True)
 #: Keys that have been renamed: former name -> present name.
 _RENAMED = {"believed": "controller_model"}
 _MOST_RUNS = 10_000_000

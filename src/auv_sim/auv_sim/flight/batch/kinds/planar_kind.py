@@ -97,7 +97,7 @@ def planar_squared_error(estimate: Current, current: Current) -> float:
 
 @pure
 def planar_extras(
-    path: PathRows, whole: Any, subpaths: Any, i: int, motion: PlantState, below: float
+    path: PathRows, whole: Any, subpaths: Any, i: int, elapsed: float, motion: PlantState, below: float
 ) -> None:
     """Count nothing more."""
 

@@ -21,6 +21,7 @@ from auv_sim.views.plot_style import BLUE, GREEN, GRID, INK, MUTED, ORANGE, RED,
 UNITS = {
     "distance": "m", "bearing_deg": "deg", "ahead": "m", "starboard": "m", "heading_deg": "deg",
     "surge": "m/s", "speed": "m/s", "course_deg": "deg", "north": "m/s", "east": "m/s",
+    "below": "m", "pitch_deg": "deg", "down": "m/s",
 }  # fmt: skip
 _BINS = 12
 

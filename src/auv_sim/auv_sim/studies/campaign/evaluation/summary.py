@@ -32,6 +32,15 @@ SUMMED_UP = (
     "saturated",
     "current_estimate_error",
 )
+#: Further ones of studies with a vehicle that dives.
+SUMMED_UP_IN_DEPTH = (
+    "rms_depth_error",
+    "largest_depth_error",
+    "steady_rms_depth_error",
+    "steady_largest_depth_error",
+    "largest_pitch",
+    "sternplane_travel_per_metre",
+)
 
 
 @dataclass(frozen=True)
@@ -102,7 +111,7 @@ def summarise(plan: StudyPlan, table: pa.Table) -> Summary:
     rounds = rounds_of(plan, table)
     figures = {
         name: _spread(column(table, name)[completed], rounds[completed] if plan.grids else None, study.seed)
-        for name in dict.fromkeys((*SUMMED_UP, study.judge))
+        for name in summed_up(plan)
     }
     explained = {name: _explained(plan, column(table, name), judged, name) for name in study.vary}
     order = np.lexsort((column(table, "run"), -np.nan_to_num(judged, nan=np.inf), success))
@@ -120,6 +129,12 @@ def summarise(plan: StudyPlan, table: pa.Table) -> Summary:
         points=tuple(_points(plan, success, completed, judged)) if plan.grids else (),
         worst=tuple(int(run) for run in order[:5]),
     )
+
+
+def summed_up(plan: StudyPlan) -> tuple[str, ...]:
+    """Return the figures in a study's summary."""
+    more = SUMMED_UP_IN_DEPTH if plan.dives else ()
+    return tuple(dict.fromkeys((*SUMMED_UP, *more, plan.study.judge)))
 
 
 def column(table: pa.Table, name: str) -> Any:

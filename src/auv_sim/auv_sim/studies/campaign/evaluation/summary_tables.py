@@ -11,7 +11,7 @@ from rich.table import Table
 from auv_sim.flight.flown_share import percent
 from auv_sim.studies.campaign.campaign_plan import StudyPlan
 from auv_sim.studies.campaign.evaluation.statistics import Estimate
-from auv_sim.studies.campaign.evaluation.summary import SUMMED_UP, Summary, figure_label
+from auv_sim.studies.campaign.evaluation.summary import Summary, figure_label
 from auv_sim.terminal import headed_table
 
 #: Most rows of the table of points.
@@ -44,8 +44,7 @@ def show(plan: StudyPlan, summary: Summary, console: Console) -> None:
 def _figures(summary: Summary) -> Table:
     title = "completed flights, with 95 % confidence intervals"
     table = headed_table(title, ("figure",), ("mean", "median", "95 % of flights below", "largest"))
-    for name in dict.fromkeys((*SUMMED_UP, summary.judge)):
-        spread = summary.figures[name]
+    for name, spread in summary.figures.items():
         cells = [_estimate(value) for value in (spread.mean, spread.median, spread.p95)]
         table.add_row(escape(figure_label(name)), *cells, f"{spread.largest:.4g}")
     return table
