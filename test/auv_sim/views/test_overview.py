@@ -11,6 +11,7 @@ from auv_path_following.curves.kinds.line import Line
 from auv_sim.flight.metrics import summarise
 from auv_sim.flight.run_record import Run
 from auv_sim.views.overview import draw
+from auv_sim.views.signal_rows import FinLimits
 
 PATH = CompositePath([Line(0.0, 0.0, 50.0, 0.0), Line(50.0, 0.0, 50.0, math.pi / 2)])
 
@@ -51,8 +52,7 @@ def test_the_picture_shows_track_errors_limits_and_current(tmp_path: Path) -> No
         summarise(run, PATH),
         tmp_path / "a.png",
         "a title",
-        rudder_limit=0.6,
-        rudder_rate_limit=0.26,
+        limits=FinLimits(0.6, 0.26),
     )
     picture = pixels(tmp_path / "a.png")
     assert picture.shape == (1000, 1600, 3)

@@ -14,13 +14,21 @@ from rich.table import Table
 
 from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_sim.bags.reading.load import load
 from auv_sim.command_line import to_type
-from auv_sim.flight.metrics import MissionSummary, SubpathSummary, farthest, summarise
+from auv_sim.flight.metrics import (
+    MissionSummary,
+    SpatialMissionSummary,
+    SubpathSummary,
+    farthest,
+    summarise,
+)
 from auv_sim.launch.mission_plan import Plan
 from auv_sim.launch.outcome import Outcome
 from auv_sim.terminal import go_on, wrote
 from auv_sim.views.overview import draw
+from auv_sim.views.signal_rows import limits_of
 
 #: The outcome is judged by the recording, not by `mission_state`.
 _UNFINISHED = "found a recording without the path's end, expected it where mission_state is complete"
@@ -28,6 +36,19 @@ _UNFINISHED = "found a recording without the path's end, expected it where missi
 #: At most this many subpaths and corners are printed, those farthest off the path; summary.json has all.
 _MOST_ROWS, _MOST_CORNERS = 40, 10
 
+#: Heading, field of the summary, digits.
+_COLUMNS = (
+    ("time (s)", "duration", 1),
+    ("rms distance (m)", "rms_distance", 3),
+    ("largest (m)", "largest_distance", 3),
+    ("rms heading error (°)", "rms_heading_error", 2),
+    ("rudder (°/m)", "rudder_travel_per_metre", 2),
+)
+#: The further ones of a mission in three dimensions.
+_VERTICAL = (
+    ("rms depth (m)", "rms_depth_error", 3),
+    ("planes (°/m)", "sternplane_travel_per_metre", 2),
+)
 
 #: Files of a run directory -> what each is for.
 _FILES = (
@@ -61,15 +82,14 @@ def conclude(plan: Plan, directory: Path, outcome: Outcome) -> tuple[Outcome, Mi
         if reason:
             outcome = dataclasses.replace(outcome, state="incomplete", reason=reason)
     _write_summary(plan, directory, outcome, summary)
-    rudder = plan.vehicle.rudder
     draw(
         run,
         plan.mission.path,
         summary,
         directory / "overview.png",
         f"{plan.mission.name}, {plan.vehicle.name}",
-        rudder_limit=rudder.max_angle,
-        rudder_rate_limit=rudder.max_rate,
+        limits=limits_of(plan.vehicle),
+        spatial=plan.path if isinstance(plan.path, SpatialPath) else None,
         command=plan.options.command,
     )
     return outcome, summary
@@ -103,36 +123,35 @@ def _table(title: str, summary: MissionSummary) -> Table:
     """Return the subpaths farthest off the path and the whole mission, a row each."""
     table = Table(title=title, title_justify="left")
     table.add_column("subpath")
-    for heading in (
-        "time (s)",
-        "rms distance (m)",
-        "largest (m)",
-        "rms heading error (°)",
-        "rudder (°/m)",
-    ):
+    columns = _COLUMNS + (_VERTICAL if isinstance(summary, SpatialMissionSummary) else ())
+    for heading, _, _ in columns:
         table.add_column(heading, justify="right")
     for part in farthest(summary.subpaths, _MOST_ROWS):
-        table.add_row(f"{part.number} {part.kind}", *_cells(part))
+        table.add_row(f"{part.number} {part.kind}", *_cells(part, columns))
     table.add_section()
     if (others := len(summary.subpaths) - _MOST_ROWS) > 0:
         table.add_row(f"{others} others, nearer to the path")
-    table.add_row("all", *_cells(summary))
+    table.add_row("all", *_cells(summary, columns))
     return table
 
 
-def _cells(part: SubpathSummary | MissionSummary) -> tuple[str, ...]:
-    return (
-        _number(part.duration, 1),
-        _number(part.rms_distance, 3),
-        _number(part.largest_distance, 3),
-        _number(part.rms_heading_error, 2),
-        _number(part.rudder_travel_per_metre, 2),
-    )
+def _cells(
+    part: SubpathSummary | MissionSummary, columns: tuple[tuple[str, str, int], ...]
+) -> tuple[str, ...]:
+    return tuple(_number(getattr(part, name), digits) for _, name, digits in columns)
 
 
 def _show_figures(outcome: Outcome, summary: MissionSummary, console: Console) -> None:
     """Print the flown share, the corners, the errors of navigation and current, and the speed."""
     console.print(summary.flown_line(), soft_wrap=True)
+    if isinstance(summary, SpatialMissionSummary):
+        console.print(
+            f"depth error: rms {_number(summary.rms_depth_error, 3)} m,"
+            f" largest {_number(summary.largest_depth_error, 3)} m;"
+            f" stern planes moved {_number(summary.sternplane_travel, 1)}°;"
+            f" largest pitch {_number(summary.largest_pitch, 1)}°",
+            soft_wrap=True,
+        )
     for corner in farthest(summary.corners, _MOST_CORNERS):
         if math.isnan(corner.largest_distance):  # not reached
             continue

@@ -10,11 +10,12 @@ from matplotlib.figure import Figure
 from matplotlib.gridspec import GridSpec
 
 from auv_path_following.curves.composite import CompositePath
+from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_sim.flight.flown_share import percent
-from auv_sim.flight.metrics import MissionSummary, under_way
+from auv_sim.flight.metrics import MissionSummary, SpatialMissionSummary, under_way
 from auv_sim.flight.run_record import Run
 from auv_sim.views.plot_style import INK, MUTED, fact, save
-from auv_sim.views.signal_panels import cross_track, current, heading_error, rudder, rudder_rate, switches
+from auv_sim.views.signal_rows import NO_LIMITS, FinLimits, draw_rows, rows_of
 from auv_sim.views.track_panel import table, track
 
 _SIZE_INCHES = (16.0, 10.0)
@@ -30,8 +31,8 @@ def draw(
     png: Path,
     title: str,
     *,
-    rudder_limit: float | None = None,
-    rudder_rate_limit: float | None = None,
+    limits: FinLimits = NO_LIMITS,
+    spatial: SpatialPath | None = None,
     command: str = "",
 ) -> None:
     """Draw the overview, 1600 x 1000 pixels.
@@ -42,19 +43,20 @@ def draw(
         summary: its figures, for the headline.
         png: the file to write.
         title: mission and vehicle.
-        rudder_limit, rudder_rate_limit: drawn where given, rad and rad/s.
+        limits: of the fins, drawn where given.
+        spatial: the path in three dimensions, for a run of a vehicle that dives.
         command: the command that flies this mission again, printed below the picture.
     """
     figure = Figure(figsize=_SIZE_INCHES, dpi=_DOTS_PER_INCH, facecolor="white")
     FigureCanvasAgg(figure)
     margins = {"left": 0.05, "right": 0.985, "top": 0.875, "bottom": 0.06}
-    grid = figure.add_gridspec(5, 2, width_ratios=(1.0, 1.12), wspace=0.12, hspace=0.22, **margins)
+    grid = figure.add_gridspec(rows_of(run), 2, width_ratios=(1.0, 1.12), wspace=0.12, hspace=0.22, **margins)
     flown = under_way(run, path.n)
     _headline(figure, summary, title)
     left = grid[:, 0].subgridspec(2, 1, height_ratios=(2.5, 1.0), hspace=0.18)
     track(figure.add_subplot(left[0]), flown, path, summary.missed)
     table(figure.add_subplot(left[1]), summary)
-    _signals(figure, grid, flown, path, rudder_limit, rudder_rate_limit)
+    _signals(figure, grid, flown, path, spatial, limits)
     figure.text(
         0.05, 0.018, command, fontsize=10, family="monospace", color=MUTED, va="center", parse_math=False
     )
@@ -66,20 +68,13 @@ def _signals(
     grid: GridSpec,
     flown: Run,
     path: CompositePath,
-    rudder_limit: float | None,
-    rudder_rate_limit: float | None,
+    spatial: SpatialPath | None,
+    limits: FinLimits,
 ) -> None:
     """Draw the panels of the right half."""
     rows = [figure.add_subplot(grid[0, 1])]
-    rows += [figure.add_subplot(grid[k, 1], sharex=rows[0]) for k in range(1, 5)]
-    if flown.steps:
-        time = flown.t - flown.t[0]
-        cross_track(rows[0], time, flown, path)
-        heading_error(rows[1], time, flown)
-        rudder(rows[2], time, flown, rudder_limit)
-        rudder_rate(rows[3], time, flown, rudder_rate_limit)
-        current(rows[4], time, flown)
-        switches(rows, time, flown, path)
+    rows += [figure.add_subplot(grid[k, 1], sharex=rows[0]) for k in range(1, rows_of(flown))]
+    draw_rows(rows, flown, path, spatial, limits)
     for axes in rows[:-1]:
         axes.tick_params(labelbottom=False)
     rows[-1].set_xlabel("time since the start (s)", color=INK)
@@ -94,6 +89,7 @@ def _headline(figure: Figure, summary: MissionSummary, title: str) -> None:
         fact(summary.distance_covered, "{:.1f} m"),
         fact(summary.rms_distance, "rms distance {:.3f} m"),
         fact(summary.largest_distance, "largest {:.2f} m"),
+        *_depth_facts(summary),
         fact(summary.navigation_error, "odometry off by {:.2f} m at most"),
         fact(summary.current_estimate_error, "current estimate within {:.4f} m/s"),
     ]
@@ -101,3 +97,12 @@ def _headline(figure: Figure, summary: MissionSummary, title: str) -> None:
     line = "   ·   ".join(text for text in facts if text)
     size = min(12.0, 12.0 * _HEADLINE / len(line))  # the longest lines, of flights at sea, in smaller letters
     figure.text(0.05, 0.921, line, fontsize=size, color=MUTED, va="center")
+
+
+def _depth_facts(summary: MissionSummary) -> tuple[str, ...]:
+    if not isinstance(summary, SpatialMissionSummary):
+        return ()
+    return (
+        fact(summary.rms_depth_error, "depth rms {:.3f} m"),
+        fact(summary.largest_depth_error, "largest {:.2f} m"),
+    )

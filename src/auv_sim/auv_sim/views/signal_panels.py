@@ -8,12 +8,71 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from auv_path_following.curves.composite import CompositePath
-from auv_sim.flight.run_record import Column, Run
+from auv_path_following.curves.spatial.spatial_path import SpatialPath
+from auv_sim.flight.run_record import Column, Run, SpatialRun
 from auv_sim.views.labels import Labels
-from auv_sim.views.plot_style import BLUE, MUTED, ORANGE, PATH, RED, style
+from auv_sim.views.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, PATH, RED, style
 
 #: Most switches that are drawn; more would cover the panels.
 _MOST_SWITCHES = 200
+#: A bottom farther below than this multiple of the greatest depth is cut off.
+_BOTTOM_SHOWN = 1.6
+
+
+def distance(axes: Axes, time: Column, flown: SpatialRun, path: SpatialPath) -> None:
+    """Draw the distance to a path in three dimensions, and guidance's errors, Eq. (3D-12)."""
+    style(axes, "distance (m)")
+    x, y = flown.track
+    away = path.distance(x, y, flown.depth, flown.subpath(path.n))
+    label = "true distance to the path" if np.isfinite(flown.x_true).any() else "distance to the path"
+    axes.fill_between(time, away, color=PATH, alpha=0.6, linewidth=0.0, label=label)
+    _line(axes, time, flown.ye, BLUE, "ye (starboard positive)")
+    _line(axes, time, flown.ze, ORANGE, "ze (below positive)")
+    _spread(axes, 0.1)
+    _legend(axes)
+
+
+def depth(axes: Axes, time: Column, flown: SpatialRun, path: SpatialPath | None) -> None:
+    """Draw depth, requested depth, the path's depth, surface and bottom; depth increases downwards."""
+    style(axes, "depth (m)")
+    columns = [flown.depth, flown.depth_d]
+    if path is not None:
+        columns.append(path.closest(*flown.track, flown.depth, flown.subpath(path.n))[1])
+        _line(axes, time, columns[-1], PATH, "path", width=5.0)
+    _line(axes, time, flown.depth_d, ORANGE, "requested")
+    _line(axes, time, flown.depth, BLUE, "true depth" if np.isfinite(flown.z_true).any() else "depth")
+    known = np.concatenate(columns)
+    known = known[np.isfinite(known)]
+    deepest = max(1.0, float(known.max())) if known.size else 1.0
+    highest = min(0.0, float(known.min())) if known.size else 0.0
+    slant = np.where(np.isfinite(flown.altitude), flown.altitude, np.nan)
+    bottom = flown.depth + slant * np.cos(flown.phi) * np.cos(flown.theta)
+    _line(axes, time, bottom, INK, "bottom", width=2.0)
+    if np.isfinite(bottom).any():
+        deepest = max(deepest, min(float(np.nanmax(bottom)), _BOTTOM_SHOWN * deepest))
+    axes.axhline(0.0, color=GREEN, linewidth=1.0, linestyle=(0, (4, 3)), label="surface")
+    margin = 0.1 * (deepest - highest)
+    axes.set_ylim(deepest + margin, highest - margin)
+    _legend(axes)
+
+
+def angle_errors(axes: Axes, time: Column, flown: SpatialRun) -> None:
+    """Draw wrap(psi - psi_d) and theta - theta_d."""
+    style(axes, "error (°)")
+    _line(axes, time, np.degrees(flown.psi_e), BLUE, "heading psi − psi_d")
+    _line(axes, time, np.degrees(flown.theta_e), ORANGE, "pitch theta − theta_d")
+    _spread(axes, 1.0)
+    _legend(axes)
+
+
+def sternplanes(axes: Axes, time: Column, flown: SpatialRun, limit: float | None) -> None:
+    """Draw the angle of the stern planes; limit in rad."""
+    style(axes, "stern planes (°)")
+    _line(axes, time, np.degrees(flown.sternplanes_cmd), ORANGE, "commanded")
+    _line(axes, time, np.degrees(flown.sternplanes), BLUE, "measured (bow down positive)")
+    _limits(axes, limit)
+    _spread(axes, 1.0)
+    _legend(axes)
 
 
 def cross_track(axes: Axes, time: Column, flown: Run, path: CompositePath) -> None:
@@ -64,11 +123,14 @@ def current(axes: Axes, time: Column, flown: Run) -> None:
     _line(axes, time, flown.Vy_true, PATH, "", width=5.0)
     _line(axes, time, flown.Vx_est, BLUE, "estimate, north Vx")
     _line(axes, time, flown.Vy_est, ORANGE, "estimate, east Vy")
+    if isinstance(flown, SpatialRun):
+        _line(axes, time, flown.Vz_true, PATH, "", width=5.0)
+        _line(axes, time, flown.Vz_est, GREEN, "estimate, down Vz")
     _spread(axes, 0.05)
     _legend(axes)
 
 
-def switches(rows: list[Axes], time: Column, flown: Run, path: CompositePath) -> None:
+def switches(rows: list[Axes], time: Column, flown: Run, path: CompositePath | SpatialPath) -> None:
     """Draw light lines where a subpath begins, and the subpaths' numbers in the top panel."""
     subpath = flown.subpath(path.n)
     starts = [0.0, *time[1:][np.diff(subpath) > 0]]
@@ -103,7 +165,7 @@ def _legend(axes: Axes) -> None:
     handles, _ = axes.get_legend_handles_labels()
     if handles:
         axes.legend(
-            loc="lower right", bbox_to_anchor=(1.0, 0.97), ncols=4, fontsize=9, frameon=False, borderpad=0.0
+            loc="lower right", bbox_to_anchor=(1.0, 0.97), ncols=5, fontsize=9, frameon=False, borderpad=0.0
         )
 
 

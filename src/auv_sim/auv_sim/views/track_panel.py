@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from auv_msgs_py.values.angles import wrap
 from auv_path_following.curves.composite import CompositePath
 from auv_sim.flight.flown_share import Stretch
-from auv_sim.flight.metrics import MissionSummary, farthest
+from auv_sim.flight.metrics import MissionSummary, SpatialMissionSummary, farthest
 from auv_sim.flight.path_cells import cells_of, middles_of
 from auv_sim.flight.run_record import Run
 from auv_sim.views.labels import Labels, arrow
@@ -25,6 +25,7 @@ _FEW, _NUMBERS = 30, 60
 _STRAIGHT = 1e-3
 #: The table's columns: left edge of the first, right edges of the others.
 _TABLE_COLUMNS = (0.0, 0.33, 0.49, 0.64, 0.83, 1.0)
+_SPATIAL_COLUMNS = (0.0, 0.22, 0.33, 0.47, 0.59, 0.7, 0.85, 1.0)
 
 
 def track(axes: Axes, flown: Run, path: CompositePath, missed: Sequence[Stretch] = ()) -> None:
@@ -117,24 +118,34 @@ def table(axes: Axes, summary: MissionSummary) -> None:
     if len(subpaths) > _TABLE_ROWS:
         subpaths = tuple(farthest(subpaths, _TABLE_ROWS))
         head = f"farthest {_TABLE_ROWS} of {len(summary.subpaths)}"
-    heads = (head, "time (s)", "rms dist. (m)", "largest (m)", "rms heading (°)", "rudder (°/m)")
+    columns: list[tuple[str, str, str]] = [
+        ("time (s)", "duration", "{:.1f}"),
+        ("rms dist. (m)", "rms_distance", "{:.3f}"),
+        ("largest (m)", "largest_distance", "{:.3f}"),
+        ("rms heading (°)", "rms_heading_error", "{:.2f}"),
+        ("rudder (°/m)", "rudder_travel_per_metre", "{:.2f}"),
+    ]
+    edges: tuple[float, ...] = _TABLE_COLUMNS
+    if isinstance(summary, SpatialMissionSummary):
+        edges = _SPATIAL_COLUMNS
+        columns = [
+            ("time (s)", "duration", "{:.1f}"),
+            ("rms (m)", "rms_distance", "{:.3f}"),
+            ("largest (m)", "largest_distance", "{:.3f}"),
+            ("depth (m)", "rms_depth_error", "{:.3f}"),
+            ("psi_e (°)", "rms_heading_error", "{:.2f}"),
+            ("rudder (°/m)", "rudder_travel_per_metre", "{:.2f}"),
+            ("planes (°/m)", "sternplane_travel_per_metre", "{:.2f}"),
+        ]
+    heads = (head, *(title for title, _, _ in columns))
     rows = [
-        (
-            f"{k.number}  {k.kind}",
-            k.duration,
-            k.rms_distance,
-            k.largest_distance,
-            k.rms_heading_error,
-            k.rudder_travel_per_metre,
-        )
+        (f"{k.number}  {k.kind}", *(fact(getattr(k, name), form) or "–" for _, name, form in columns))
         for k in subpaths
     ]
-    forms = ("{:.1f}", "{:.3f}", "{:.3f}", "{:.2f}", "{:.2f}")
-    look: dict[str, Any] = {"va": "top", "fontsize": 10, "transform": axes.transAxes}
+    size = 10 if edges is _TABLE_COLUMNS else 9
+    look: dict[str, Any] = {"va": "top", "fontsize": size, "transform": axes.transAxes}
     for column, head in enumerate(heads):
         look["ha"] = "left" if column == 0 else "right"
-        axes.text(_TABLE_COLUMNS[column], 1.0, head, color=MUTED, **look)
+        axes.text(edges[column], 1.0, head, color=MUTED, **look)
         for row, cells in enumerate(rows, start=1):
-            cell = cells[column]
-            text = cell if isinstance(cell, str) else (fact(cell, forms[column - 1]) or "–")
-            axes.text(_TABLE_COLUMNS[column], 1.0 - row / (_TABLE_ROWS + 1), text, color=INK, **look)
+            axes.text(edges[column], 1.0 - row / (_TABLE_ROWS + 1), cells[column], color=INK, **look)

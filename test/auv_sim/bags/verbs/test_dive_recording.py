@@ -5,11 +5,19 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
+from matplotlib.figure import Figure
+from PIL import Image
 
 from auv_msgs_py.settings import yaml_file
+from auv_sim.bags.content.recorded_mission import mission_in
+from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.cli import bag as bag_command
 from auv_sim.cli import mission as mission_command
+from auv_sim.flight.metrics import under_way
+from auv_sim.flight.run_record import SpatialRun
+from auv_sim.views import signal_panels as panels
 
 DIVE = Path(__file__).parents[3] / "data" / "short_dive.yaml"
 VERTICAL = ("sternplane_cmd", "desired_pitch", "desired_pitch_rate", "desired_depth")
@@ -49,3 +57,39 @@ def test_a_rerun_with_another_gain_of_the_pitch_moves_the_planes_alone(
     assert topics["sternplane_cmd"]["largest"] > 0.1
     assert topics["rudder_cmd"]["identical"] == topics["rudder_cmd"]["compared"]
     assert (tmp_path / "rerun.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_overview_of_a_dive_has_a_row_more_and_a_surface(dive: Path) -> None:
+    with Image.open(dive / "overview.png") as image:
+        picture = np.asarray(image.convert("RGB"), dtype=np.int16)
+    assert picture.shape == (1000, 1600, 3)
+    green = np.abs(picture[:, 800:] - np.array([42, 157, 111])).max(axis=2) < 12
+    assert green.sum(axis=1).max() > 300, "the surface"
+    summary = json.loads((dive / "summary.json").read_text())
+    assert 0.0 < summary["rms_depth_error"] < summary["largest_depth_error"] < 0.2
+
+
+def test_depth_increases_downwards_and_the_surface_is_on_top(dive: Path) -> None:
+    flight = mission_in(read_bag(dive))
+    run, path = flight.run, flight.spatial
+    assert isinstance(run, SpatialRun)
+    assert path is not None
+    flown = under_way(run, path.n)
+    assert isinstance(flown, SpatialRun)
+    axes = Figure().add_subplot()
+    panels.depth(axes, flown.t - flown.t[0], flown, path)
+    bottom, top = axes.get_ylim()
+    assert bottom > run.z.max() > 4.9
+    assert top < 0.0
+    lines = {line.get_label(): line for line in axes.get_lines()}
+    assert set(lines) == {"path", "requested", "depth", "surface"}
+    depth = np.asarray(lines["path"].get_ydata(), float)
+    assert (depth.min(), depth.max()) == pytest.approx((3.0, 5.0), abs=0.02)
+
+
+def test_report_draws_the_same_rows_and_the_figures_of_the_mission(dive: Path, tmp_path: Path) -> None:
+    assert bag_command.main(["report", str(dive), "--out", str(tmp_path)]) == 0
+    with Image.open(tmp_path / "overview.png") as ours, Image.open(dive / "overview.png") as theirs:
+        rows = slice(120, 950)  # without title and command line
+        new, old = (np.asarray(image.convert("RGB"))[rows] for image in (ours, theirs))
+    np.testing.assert_array_equal(new, old)

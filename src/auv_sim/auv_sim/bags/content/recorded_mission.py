@@ -12,6 +12,8 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.settings import params_file
 from auv_msgs_py.values.errors import ConfigurationError, printable
 from auv_path_following import config_files, vehicle
+from auv_path_following.curves.spatial.spatial_path import SpatialPath
+from auv_path_following.guidance.spatial.flown_path import flown_path
 from auv_path_following.missions import mission_file
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
@@ -20,7 +22,7 @@ from auv_sim.bags.reading.recording import Bag
 from auv_sim.bags.texts import texts_below
 from auv_sim.flight.by_odometry import ByOdometry, by_odometry
 from auv_sim.flight.metrics import MissionSummary, summarise
-from auv_sim.flight.run_record import Run
+from auv_sim.flight.run_record import Run, SpatialRun
 from auv_sim.sim_parameters import SUITE
 
 #: The files that the launcher writes and the recorder keeps.
@@ -47,11 +49,24 @@ class RecordedMission:
     notes: list[str]
 
     @property
+    def spatial(self) -> SpatialPath | None:
+        """The path in three dimensions, where a vehicle that dives flew and was recorded as one."""
+        mission, hull = self.mission, self.vehicle
+        if mission is None or not isinstance(self.run, SpatialRun):
+            return None
+        if mission.spatial is not None or hull is None or not hull.dives:
+            return mission.spatial
+        # A recorded flight is judged even if the vehicle's file, as it is now, would refuse it.
+        with contextlib.suppress(ConfigurationError):
+            return flown_path(mission.path, None, hull, mission.thrust)
+        return None
+
+    @property
     def summary(self) -> MissionSummary | None:
         """The figures, where run and path are known."""
         if self.run is None or self.mission is None:
             return None
-        return summarise(self.run, self.mission.path)
+        return summarise(self.run, self.spatial or self.mission.path)
 
     @property
     def by_odometry(self) -> ByOdometry | None:

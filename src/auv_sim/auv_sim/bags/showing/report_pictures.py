@@ -13,7 +13,7 @@ from auv_sim.bags.content.recorded_mission import RecordedMission
 from auv_sim.flight.metrics import under_way
 from auv_sim.views import overview
 from auv_sim.views.plot_style import BLUE, INK, ORANGE, save, style
-from auv_sim.views.signal_panels import cross_track, current, heading_error, rudder, rudder_rate, switches
+from auv_sim.views.signal_rows import FinLimits, draw_rows, limits_of, rows_of
 from auv_sim.views.track_panel import track
 
 
@@ -24,25 +24,18 @@ def pictures(flight: RecordedMission, directory: Path, title: str) -> list[Path]
         return []
     if mission is None or summary is None:
         return [_draw(directory / "track.png", lambda figure: _track_alone(figure, flight))]
-    hull = flight.vehicle.rudder if flight.vehicle is not None else None
-    angle, rate = (hull.max_angle, hull.max_rate) if hull is not None else (None, None)
+    limits = limits_of(flight.vehicle) if flight.vehicle is not None else FinLimits()
+    spatial = flight.spatial
     flown = under_way(run, mission.path.n)
     whole = directory / "overview.png"
-    overview.draw(run, mission.path, summary, whole, title, rudder_limit=angle, rudder_rate_limit=rate)
+    overview.draw(run, mission.path, summary, whole, title, limits=limits, spatial=spatial)
 
     def map_only(figure: Figure) -> None:
         track(figure.add_subplot(), flown, mission.path, summary.missed)
 
     def signals(figure: Figure) -> None:
-        rows = list(figure.subplots(5, 1, sharex=True))
-        if flown.steps:
-            time = flown.t - flown.t[0]
-            cross_track(rows[0], time, flown, mission.path)
-            heading_error(rows[1], time, flown)
-            rudder(rows[2], time, flown, angle)
-            rudder_rate(rows[3], time, flown, rate)
-            current(rows[4], time, flown)
-            switches(rows, time, flown, mission.path)
+        rows = list(figure.subplots(rows_of(flown), 1, sharex=True))
+        draw_rows(rows, flown, mission.path, spatial, limits)
         rows[-1].set_xlabel("time since the start (s)", color=INK)
         figure.align_ylabels(rows)
 

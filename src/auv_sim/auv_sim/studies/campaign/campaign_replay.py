@@ -28,6 +28,7 @@ from auv_sim.studies.campaign.campaign_plan import StudyPlan
 from auv_sim.studies.campaign.store import RESULTS, Store
 from auv_sim.terminal import go_on, wrote
 from auv_sim.views.overview import draw
+from auv_sim.views.signal_rows import limits_of
 
 
 def replay(store: Store, number: int, graph: bool, console: Console) -> int:
@@ -158,13 +159,11 @@ def _show(store: Store, number: int, flown: Run, scenario: Scenario, console: Co
 
 
 def _picture(plan: StudyPlan, number: int, flown: Run, scenario: Scenario, file: Path) -> None:
-    rudder = scenario.vehicle.rudder
     draw(
         flown,
         scenario.path,
         summarise(flown, followed_path(scenario)),
         file,
         f"{plan.study.name}, run {number}",
-        rudder_limit=rudder.max_angle,
-        rudder_rate_limit=rudder.max_rate,
+        limits=limits_of(scenario.vehicle),
     )
