@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import json
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from PIL import Image
 from auv_msgs_py.settings import yaml_file
 from auv_sim.bags.content.recorded_mission import mission_in
 from auv_sim.bags.reading.bag_reader import read_bag
+from auv_sim.bags.showing.report_data import page_data
 from auv_sim.cli import bag as bag_command
 from auv_sim.cli import mission as mission_command
 from auv_sim.flight.metrics import under_way
@@ -93,3 +95,22 @@ def test_report_draws_the_same_rows_and_the_figures_of_the_mission(dive: Path, t
         rows = slice(120, 950)  # without title and command line
         new, old = (np.asarray(image.convert("RGB"))[rows] for image in (ours, theirs))
     np.testing.assert_array_equal(new, old)
+
+
+def test_inspect_and_compare_and_the_page_have_the_vertical(
+    dive: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert bag_command.main(["inspect", str(dive)]) == 0
+    shown = capsys.readouterr().out
+    assert "depth 3.00 to 5.0" in shown
+    assert "stern planes -" in shown
+    asked = ["--png", str(tmp_path / "c.png"), "--json"]
+    assert bag_command.main(["compare", str(dive), str(dive / "bag"), *asked]) == 0
+    for figures in json.loads(capsys.readouterr().out)["runs"].values():
+        assert 0.0 < figures["rms_depth_error"] < 0.1
+    data = page_data(mission_in(read_bag(dive)), [], "a dive")
+    panels_of = {panel["title"]: panel for panel in data["panels"]}
+    assert "Stern planes (°)" in panels_of
+    assert {"height", "height_d", "sternplanes", "theta_d"} <= set(data["columns"])
+    height = np.frombuffer(base64.b64decode(data["columns"]["height"]), "<f4")
+    assert (height.min(), height.max()) == pytest.approx((-5.0, -3.0), abs=0.1)

@@ -18,6 +18,7 @@ from auv_sim.bags.content.recorded_mission import RecordedMission
 from auv_sim.bags.content.topic_facts import TopicFacts
 from auv_sim.flight.flown_share import percent
 from auv_sim.flight.metrics import MissionSummary, SubpathSummary
+from auv_sim.flight.run_record import SpatialRun
 
 #: More events than this are counted, not listed.
 _EVENTS = 40
@@ -50,7 +51,24 @@ def show(flight: RecordedMission, facts: list[TopicFacts], events: list[Event], 
         length = float(np.hypot(np.diff(run.x), np.diff(run.y)).sum())
         seconds = float(run.t[-1] - run.t[0])
         console.print(f"odometry: {seconds:.1f} s, {length:.1f} m, {length / seconds:.2f} m/s on average")
+    if isinstance(flight.run, SpatialRun):
+        console.print(_vertical(flight.run), soft_wrap=True)
     _events(events, first * 1e-9, console)
+
+
+def _vertical(run: SpatialRun) -> str:
+    """Return the ranges of depth, pitch and stern planes as text."""
+    ranges = [
+        ("depth", run.depth, "m"),
+        ("pitch", np.degrees(run.theta), "°"),
+        ("stern planes", np.degrees(run.sternplanes), "°"),
+    ]
+    known = [(name, values[np.isfinite(values)], unit) for name, values, unit in ranges]
+    return "; ".join(
+        f"{name} {values.min():.2f} to {values.max():.2f} {unit}"
+        for name, values, unit in known
+        if values.size
+    )
 
 
 def _topics(facts: list[TopicFacts]) -> Table:

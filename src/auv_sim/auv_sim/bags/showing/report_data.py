@@ -18,8 +18,8 @@ from auv_sim.bags.reading.load import messages_of
 from auv_sim.bags.reading.recording import Bag
 from auv_sim.flight.by_odometry import ByOdometry
 from auv_sim.flight.flown_share import percent
-from auv_sim.flight.metrics import MissionSummary, SubpathSummary
-from auv_sim.flight.run_record import Run
+from auv_sim.flight.metrics import MissionSummary, SpatialMissionSummary, SubpathSummary
+from auv_sim.flight.run_record import Run, SpatialRun
 from auv_sim.flight.signals import ANGLES
 
 
@@ -70,6 +70,8 @@ def _columns(flight: RecordedMission) -> dict[str, NDArray[np.float64]]:
         columns["track_x"], columns["track_y"] = run.track
         heading = np.where(np.isfinite(run.psi_true), run.psi_true, run.psi)
         columns["track_psi"] = np.degrees(heading)
+    if isinstance(run, SpatialRun):
+        columns["height"], columns["height_d"] = -run.depth, -run.depth_d
     if flight.mission is not None and "s" in columns:
         columns["distance"] = _distance(run, flight.mission.path, *run.track)
         if erring:
@@ -125,6 +127,12 @@ def _facts(
             ("rms distance", f"{_number(summary.rms_distance, 3)} m"),
             ("largest", f"{_number(summary.largest_distance, 2)} m"),
             ("rudder", f"{_number(summary.rudder_travel, 1)}°"),
+        ]
+    if isinstance(summary, SpatialMissionSummary):
+        facts += [
+            ("depth rms", f"{_number(summary.rms_depth_error, 3)} m"),
+            ("largest depth error", f"{_number(summary.largest_depth_error, 2)} m"),
+            ("stern planes", f"{_number(summary.sternplane_travel, 1)}°"),
         ]
     if opinion is not None:
         facts.append(("by its odometry", f"rms {opinion.rms:.3f} m, largest {opinion.largest:.2f} m"))
@@ -187,6 +195,7 @@ def _panels(flight: RecordedMission, columns: dict[str, Any]) -> list[dict[str, 
             _series("rudder_cmd", "commanded", "orange", 3.0), _series("rudder", "measured", "blue"),
         ]),
         ("Rudder rate (°/s)", 2.0, rate, [_series("rudder_rate", "from row to row", "blue")]),
+        *_vertical_panels(flight),
         ("Speed through water (m/s)", 0.2, [], [_series("ur", "ur", "blue"), _series("vr", "vr", "orange")]),
         ("Current (m/s)", 0.1, [], [
             _series("Vx_true", "true north", "path", 5.0), _series("Vy_true", "true east", "path", 5.0),
@@ -200,6 +209,25 @@ def _panels(flight: RecordedMission, columns: dict[str, Any]) -> list[dict[str, 
             both = [sign * limit for limit in limits for sign in (1.0, -1.0)]
             shown.append({"title": title, "least": least, "limits": both, "series": there})
     return shown
+
+
+def _vertical_panels(flight: RecordedMission) -> list[Any]:
+    """Return the panels of a vehicle that dives; the columns of others have none of their signals."""
+    planes = flight.vehicle.sternplanes if flight.vehicle is not None else None
+    limits = [math.degrees(planes.max_angle)] if planes is not None else []
+    return [
+        ("Height (m; the surface is 0)", 0.5, [0.0], [
+            _series("height_d", "requested", "orange", 3.0), _series("height", "flown", "blue"),
+        ]),
+        ("Error below the path ze (m)", 0.2, [], [_series("ze", "ze", "blue")]),
+        ("Pitch (°)", 2.0, [], [
+            _series("theta_d", "desired", "path", 4.0), _series("theta", "measured", "blue"),
+        ]),
+        ("Stern planes (°)", 2.0, limits, [
+            _series("sternplanes_cmd", "commanded", "orange", 3.0),
+            _series("sternplanes", "measured", "blue"),
+        ]),
+    ]  # fmt: skip
 
 
 def _diagnostics_panel(flight: RecordedMission, start: float) -> list[dict[str, Any]]:

@@ -20,7 +20,7 @@ from auv_sim.bags.showing.compare_picture import draw
 from auv_sim.bags.verbs.arguments import add_choice
 from auv_sim.command_line import target, to_type
 from auv_sim.flight.by_odometry import ByOdometry
-from auv_sim.flight.metrics import MissionSummary
+from auv_sim.flight.metrics import MissionSummary, SpatialMissionSummary
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, wrote
 
@@ -35,7 +35,12 @@ _FIGURES = (
     ("rudder_travel_per_metre", "rudder °/m", 4),
     ("mean_speed", "speed m/s", 3),
 )
-
+#: The further ones where every run is in three dimensions.
+_VERTICAL = (
+    ("rms_depth_error", "rms depth m", 4),
+    ("largest_depth_error", "largest m", 3),
+    ("sternplane_travel", "planes °", 1),
+)
 
 #: Longer values are cut in the table, characters.
 _LONG = 60
@@ -124,14 +129,16 @@ def _labels(paths: list[Path]) -> list[str]:
 def _table(labels: list[str], summaries: list[MissionSummary], opinions: list[ByOdometry | None]) -> Table:
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     table.add_column("run")
-    for _, heading, _ in _FIGURES:
+    dive = all(isinstance(summary, SpatialMissionSummary) for summary in summaries)
+    figures = _FIGURES + (_VERTICAL if dive else ())
+    for _, heading, _ in figures:
         table.add_column(heading, justify="right")
     if any(opinions):
         table.add_column("rms by odometry m", justify="right")
     first = summaries[0]
     for label, summary, opinion in zip(labels, summaries, opinions, strict=True):
         cells = []
-        for name, _, digits in _FIGURES:
+        for name, _, digits in figures:
             value, base = getattr(summary, name), getattr(first, name)
             text = f"{value:.{digits}f}" if np.isfinite(value) else "-"
             if summary is not first and np.isfinite(value) and np.isfinite(base) and base != 0.0:
