@@ -114,3 +114,6 @@ def test_inspect_and_compare_and_the_page_have_the_vertical(
     assert {"height", "height_d", "sternplanes", "theta_d"} <= set(data["columns"])
     height = np.frombuffer(base64.b64decode(data["columns"]["height"]), "<f4")
     assert (height.min(), height.max()) == pytest.approx((-5.0, -3.0), abs=0.1)
+    distance = np.frombuffer(base64.b64decode(data["columns"]["distance"]), "<f4")
+    summary = json.loads((dive / "summary.json").read_text())
+    assert np.nanmax(distance) == pytest.approx(summary["largest_distance"], abs=1e-4)

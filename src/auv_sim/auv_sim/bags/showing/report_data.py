@@ -74,7 +74,9 @@ def _columns(flight: RecordedMission) -> dict[str, NDArray[np.float64]]:
         columns["height"], columns["height_d"] = -run.depth, -run.depth_d
     if flight.mission is not None and "s" in columns:
         columns["distance"] = _distance(run, flight.mission.path, *run.track)
-        if erring:
+        if isinstance(run, SpatialRun) and (spatial := flight.spatial) is not None:
+            columns["distance"] = spatial.distance(*run.track, run.depth, run.subpath(spatial.n))
+        elif erring:
             columns["distance_by_odometry"] = _distance(run, flight.mission.path, run.x, run.y)
     return columns
 
