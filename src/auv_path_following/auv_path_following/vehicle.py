@@ -139,6 +139,9 @@ class Vehicle:
     rudder: Rudder = setting(doc="limits of the rudder")
     sternplanes: Rudder | None = setting(None, "limits of the stern planes; a planar vehicle has none")
     depth: DepthRange = setting(factory=DepthRange, doc="range of depth, for a vehicle with stern planes")
+    params: str | None = setting(
+        None, "parameter file with gains tuned for it, or the name of a shipped one; without one: the rule"
+    )
     hull: Hull | None = setting(
         None, "coefficients of the hull; not needed for a real vehicle with cruise and turning"
     )

@@ -274,3 +274,16 @@ def test_gains_by_rule_are_those_of_the_vehicles_file(tmp_path):
     slow.write_text(text.replace("max_rate_deg_s: 15", "max_rate_deg_s: 3"), encoding="utf-8")
     notices = mission_plan.make(Options(params="rule", vehicle=str(slow)), tmp_path).verdicts.notices
     assert any("too slow a fin" in notice for notice in notices)
+
+
+def test_a_hull_without_tuned_gains_flies_by_the_rule(tmp_path):
+    """What was asked for comes first, then what the vehicle's file names, then the rule."""
+    own = (config_files.find("vehicles", "remus100")).read_text(encoding="utf-8")
+    (tmp_path / "own.yaml").write_text(own.replace("params: robust", "#"), encoding="utf-8")
+    options = Options(vehicle=str(tmp_path / "own.yaml"))
+    made = mission_plan.make(options, tmp_path)
+    assert made.parameters[topics.AUTOPILOT].autopilot == gains_for(made.vehicle).heading.autopilot
+    assert any("its file names no params" in notice for notice in made.verdicts.notices)
+    for tuned in (Options(), dataclasses.replace(options, params="robust")):
+        made = mission_plan.make(tuned, tmp_path)
+        assert made.parameters[topics.AUTOPILOT].autopilot.nism.k5 == 15.0

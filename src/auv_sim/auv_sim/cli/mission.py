@@ -23,7 +23,7 @@ from auv_sim.command_line import (
     ros_namespace,
     whole,
 )
-from auv_sim.launch.options import BY_RULE, DEFAULT_MISSION, DEFAULT_PARAMS, DEFAULT_VEHICLE, DRIVERS, Options
+from auv_sim.launch.options import BY_RULE, DEFAULT_MISSION, DEFAULT_VEHICLE, DRIVERS, Options
 from auv_sim.launch.processes.adopted import Loader
 
 
@@ -57,9 +57,9 @@ def _add_files(p: argparse.ArgumentParser) -> None:
     model.add_argument("--believed", dest="controller_model", action=Renamed, help=argparse.SUPPRESS)
     p.add_argument(
         "--params",
-        default=DEFAULT_PARAMS,
         metavar="FILE",
-        help=f"file or one of: {shipped['params']}; or {BY_RULE}: gains by rule for the vehicle",
+        help=f"file or one of: {shipped['params']}; or {BY_RULE}: gains by rule for the vehicle"
+        f" (default: what the vehicle's file names, else {BY_RULE})",
     )
 
 

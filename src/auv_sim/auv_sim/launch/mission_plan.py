@@ -152,6 +152,9 @@ def make(options: Options, directory: Path) -> Plan:
     if "controller_model" in sources:
         model = vehicle.load(str(sources["controller_model"]))
     mission = mission_file.load(str(sources["mission"]), model)
+    params = node_settings.params_of(options, model)
+    by_rule = params == BY_RULE
+    sources["params"] = config_files.find("params", DEFAULT_PARAMS if by_rule else params).absolute()
     if (options.simulator or options.emulator) and hull.hull is None and hull.simulated_as is None:
         raise ConfigurationError(
             f"{sources['vehicle']}: hull",
@@ -160,7 +163,7 @@ def make(options: Options, directory: Path) -> Plan:
         )
     _check_start(options, hull)
     notices: list[str] = []
-    settings = node_settings.load(options, sources["params"], model, notices)
+    settings = node_settings.load(options, sources["params"], model, by_rule, notices)
     node_settings.set_mission(settings, options, mission, sources, directory, hull)
     mean = node_settings.set_options(settings, options, sources)
     _check_altimeter(options, mission, settings)
@@ -198,9 +201,6 @@ def _find_files(options: Options) -> node_settings.Sources:
     sources = {
         "mission": config_files.find("missions", options.mission).absolute(),
         "vehicle": config_files.find("vehicles", options.vehicle).absolute(),
-        "params": config_files.find(
-            "params", DEFAULT_PARAMS if options.params == BY_RULE else options.params
-        ).absolute(),
     }
     if options.controller_model is not None:
         sources["controller_model"] = config_files.find("vehicles", options.controller_model).absolute()

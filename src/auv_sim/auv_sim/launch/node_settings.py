@@ -18,7 +18,7 @@ from auv_path_following.control.rule.gain_rule import gains_for
 from auv_path_following.guidance.ruled_guidance import with_gains
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
-from auv_sim.launch.options import BY_RULE, Options
+from auv_sim.launch.options import BY_RULE, DEFAULT_PARAMS, Options
 from auv_sim.sim_parameters import SUITE
 from auv_sim.vehicle import sea
 
@@ -28,21 +28,36 @@ NodeSettings = dict[str, Any]
 Sources = dict[str, Path]
 
 
-def load(options: Options, file: Path, model: Vehicle, notices: list[str]) -> NodeSettings:
+def params_of(options: Options, model: Vehicle) -> str:
+    """Return the parameter file to use: as asked, else the vehicle's, else gains by the rule.
+
+    A vehicle without a hull and without measured responses has the default file.
+    """
+    named = options.params or model.params
+    if named is not None:
+        return named
+    has_response = model.hull is not None or (model.turning is not None and model.turning.effect is not None)
+    return BY_RULE if has_response else DEFAULT_PARAMS
+
+
+def load(options: Options, file: Path, model: Vehicle, by_rule: bool, notices: list[str]) -> NodeSettings:
     """Read the parameter file, set the timing, and validate the autopilot's gains before any node starts.
 
     Args:
         options: the command line.
         file: the parameter file.
         model: the hull that the nodes assume.
+        by_rule: replace the gains by those of the rule.
         notices: a line for each name in a block for all nodes that no node has is appended.
 
     Raises:
         ConfigurationError: a parameter or a gain that its node would refuse.
     """
     settings: NodeSettings = params_file.load(file, SUITE, options.namespace, notices)
-    if options.params == BY_RULE:
+    if by_rule:
         _take_rule(settings, model, notices)
+        if options.params is None:
+            notices.append(f"{model.name}: gains by the rule of docs/tuning.md; its file names no params")
     lockstep = options.simulator and options.speed is None
     for name in settings:
         change(settings, name, lockstep=lockstep, recorded=lockstep)

@@ -26,7 +26,7 @@ class Options:
     mission: str = DEFAULT_MISSION
     vehicle: str = DEFAULT_VEHICLE
     controller_model: str | None = None
-    params: str = DEFAULT_PARAMS
+    params: str | None = None
     current: tuple[float, float] | None = None
     upwelling: float | None = None
     initial: tuple[float, float, float] | None = None

@@ -83,7 +83,7 @@ def _flown(kind: str, name: str, runs: Path, params: str) -> GalleryFlight:
     )
     if not _is_the_same(directory, _configuration(asked, scratch)):
         say(f"flying {asked.mission}, {name}")
-        arguments = ["--mission", asked.mission, "--params", asked.params, "--out", str(scratch), "--quiet"]
+        arguments = ["--mission", asked.mission, "--params", params, "--out", str(scratch), "--quiet"]
         if asked.current is not None:
             arguments += ["--current", *map(str, asked.current)]
         if launch(arguments) != 0:
