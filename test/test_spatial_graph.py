@@ -92,7 +92,7 @@ def test_in_one_process_and_in_ned_the_track_is_the_same(dive: Path, tmp_path: P
 
 def test_an_altitude_is_held_over_the_graph_as_in_closed_loop(tmp_path: Path, domain: int) -> None:
     mission, sea = str(DATA / "short_altitude.yaml"), str(DATA / "bottom.yaml")
-    asked = ["--mission", mission, "--sea", sea, "--composed", "--domain", str(domain), "--flown", "0"]
+    asked = ["--mission", mission, "--sea", sea, "--composed", "--domain", str(domain)]
     run = flown(tmp_path / "run", *asked)
     options = Options(mission=mission, vehicle="remus100_6dof", sea=sea)
     reference = closed_loop.fly(mission_plan.make(options, tmp_path).scenario())

@@ -244,7 +244,9 @@ def test_an_altitude_is_held_within_the_limits(tmp_path):
     options = Options(mission=str(tmp_path / "low.yaml"), vehicle=DIVER)
     with pytest.raises(ConfigurationError, match="altitude: found no sea, without an altimeter"):
         mission_plan.scenario(options)
-    mode = mission_plan.scenario(dataclasses.replace(options, sea="shelf")).mode
+    made = mission_plan.make(dataclasses.replace(options, sea="shelf"), tmp_path)
+    assert made.path is made.mission.path  # the depths are those of the bottom
+    mode = made.scenario().mode
     assert (mode.above, mode.least, mode.surface, mode.deepest) == (5.0, 3.0, 0.5, 60.0)
 
 

@@ -54,9 +54,12 @@ class Plan:
 
     @property
     def path(self) -> CompositePath | SpatialPath:
-        """The path that is flown: in three dimensions by a vehicle that dives."""
+        """The path by which the flight is judged: in three dimensions where the path has the depths.
+
+        A flight at an altitude has the depths of the bottom, and is judged in the plane.
+        """
         mission = self.mission
-        if not self.vehicle.dives:
+        if not self.vehicle.dives or mission.altitude is not None:
             return mission.path
         return flown_path(mission.path, mission.spatial, self.controller_model, mission.thrust)
 
@@ -155,13 +158,7 @@ def make(options: Options, directory: Path) -> Plan:
     params = node_settings.params_of(options, model)
     by_rule = params == BY_RULE
     sources["params"] = config_files.find("params", DEFAULT_PARAMS if by_rule else params).absolute()
-    if (options.simulator or options.emulator) and hull.hull is None and hull.simulated_as is None:
-        raise ConfigurationError(
-            f"{sources['vehicle']}: hull",
-            "nothing",
-            "the hull's coefficients, or --no-sim: the simulator needs them",
-        )
-    _check_start(options, hull)
+    _check_simulated(options, hull, sources["vehicle"])
     notices: list[str] = []
     settings = node_settings.load(options, sources["params"], model, by_rule, notices)
     node_settings.set_mission(settings, options, mission, sources, directory, hull)
@@ -207,8 +204,11 @@ def _find_files(options: Options) -> node_settings.Sources:
     return sources
 
 
-def _check_start(options: Options, hull: Vehicle) -> None:
-    """Refuse a depth or an upwelling for a vehicle in the plane, and a start below the largest depth."""
+def _check_simulated(options: Options, hull: Vehicle, file: Path) -> None:
+    """Refuse what the simulator cannot do with a vehicle: no hull, a depth or an upwelling in the plane."""
+    if (options.simulator or options.emulator) and hull.hull is None and hull.simulated_as is None:
+        expected = "the hull's coefficients, or --no-sim: the simulator needs them"
+        raise ConfigurationError(f"{file}: hull", "nothing", expected)
     for flag, value in (("--depth", options.depth), ("--upwelling", options.upwelling)):
         if value is not None and not hull.dives:
             expected = "a vehicle with stern planes, such as remus100_6dof"

@@ -108,13 +108,13 @@ class RemusPlantNode(SuiteNode):
         self.steps += 1
 
     def _on_command(self, topic: str) -> Callable[[Float64], None]:
-        def callback(message: Float64) -> None:
-            value = message.data
-            self._commands.put(topic, finite(value, topic), self.stamp)
-            if self._lockstep is not None:
-                self._lockstep.on_command(topic, value)
+        return lambda message: self.take_command(topic, message.data)
 
-        return callback
+    def take_command(self, topic: str, value: float) -> None:
+        """Keep a command; in lockstep the last one of a step ends it."""
+        self._commands.put(topic, finite(value, topic), self.stamp)
+        if self._lockstep is not None:
+            self._lockstep.on_command(topic, value)
 
     def _on_mission_state(self, message: String) -> None:
         refused = self._mission.hear(message.data, time.monotonic())

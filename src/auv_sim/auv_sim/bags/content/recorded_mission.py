@@ -54,7 +54,7 @@ class RecordedMission:
         mission, hull = self.mission, self.vehicle
         if mission is None or not isinstance(self.run, SpatialRun):
             return None
-        if mission.spatial is not None or hull is None or not hull.dives:
+        if mission.spatial is not None or mission.altitude is not None or hull is None or not hull.dives:
             return mission.spatial
         # A recorded flight is judged even if the vehicle's file, as it is now, would refuse it.
         with contextlib.suppress(ConfigurationError):

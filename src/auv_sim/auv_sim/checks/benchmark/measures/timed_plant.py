@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from typing import Any
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.node.run import run_nodes
@@ -33,9 +32,10 @@ class LatencyPlantNode(RemusPlantNode):
         self.watch.sent()
         super().publish_step()
 
-    def _on_rudder(self, message: Any) -> None:
-        self.watch.answered()
-        super()._on_rudder(message)
+    def take_command(self, topic: str, value: float) -> None:
+        if topic == topics.RUDDER_CMD.name:
+            self.watch.answered()
+        super().take_command(topic, value)
 
 
 def main(argv: Sequence[str]) -> int:
