@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -68,14 +69,30 @@ def _of_chunk(segment: Segment, t: Array, x: Array, y: Array) -> Array:
 
 def _descend(segment: Segment, x: Array, y: Array, t: Array, low: Array, high: Array) -> Array:
     """Return the t of least distance between `low` and `high`, started at `t`; all of shape (m,)."""
+
+    def slopes(at: Array, rows: Array) -> tuple[Array, Array]:
+        p: Any = segment.evaluate(at)
+        ex, ey = p.x - x[rows], p.y - y[rows]
+        return ex * p.dx + ey * p.dy, p.dx**2 + p.dy**2 + ex * p.ddx + ey * p.ddy
+
+    return descended(slopes, t, low, high)
+
+
+def descended(
+    slopes: Callable[[Array, Any], tuple[Array, Array]], t: Array, low: Array, high: Array
+) -> Array:
+    """Return the minima of m functions, by Newton's method safeguarded by bisection.
+
+    Args:
+        slopes: (t, rows) -> first and second derivative of the functions `rows` there.
+        t: shape (m,), where each begins.
+        low, high: shape (m,), bounds of each.
+    """
     t, low, high = t.copy(), low.copy(), high.copy()
     active = np.arange(len(t))
     for _ in range(_STEPS):
         at, lo, hi = t[active], low[active], high[active]
-        p: Any = segment.evaluate(at)
-        ex, ey = p.x - x[active], p.y - y[active]
-        slope = ex * p.dx + ey * p.dy
-        bend = p.dx**2 + p.dy**2 + ex * p.ddx + ey * p.ddy
+        slope, bend = slopes(at, active)
         lo = np.where(slope <= 0.0, at, lo)
         hi = np.where(slope >= 0.0, at, hi)
         with np.errstate(divide="ignore", invalid="ignore"):

@@ -95,10 +95,12 @@ def followed_path(scenario: Scenario) -> CompositePath | SpatialPath:
     """Return the path that a scenario's vehicle follows, in its own kind of space.
 
     Raises:
-        ConfigurationError: a vehicle in the plane and a path with depths; otherwise as `spatial_path_of`.
+        ConfigurationError: a vehicle in the plane and a path with depths; otherwise as
+            `flown_path`.
     """
     check_kind(scenario)
-    return spatial_path_of(scenario) if scenario.vehicle.dives else scenario.path
+    c = scenario
+    return flown_path(c.path, c.spatial, c.vehicle, c.thrust) if c.vehicle.dives else c.path
 
 
 def check_kind(scenario: Scenario) -> None:
@@ -110,15 +112,6 @@ def check_kind(scenario: Scenario) -> None:
     if scenario.spatial is not None and not scenario.vehicle.dives:
         expected = "stern planes, or a mission without depth"
         raise ConfigurationError(f"{scenario.vehicle.name}: sternplanes", "a path with depth", expected)
-
-
-def spatial_path_of(scenario: Scenario) -> SpatialPath:
-    """Return the path in three dimensions; a planar one at the vehicle's surface depth.
-
-    Raises:
-        ConfigurationError: the path leaves the vehicle's range of depth, or the thrust is too low for it.
-    """
-    return flown_path(scenario.path, scenario.spatial, scenario.vehicle, scenario.thrust)
 
 
 def loop_of(scenario: Scenario) -> Loop:

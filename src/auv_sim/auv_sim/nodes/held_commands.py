@@ -27,17 +27,12 @@ class Orders(NamedTuple):
 
 def orders_of(vehicle: Vehicle) -> Orders:
     """Return the commands that a vehicle obeys."""
-    rudder, thrust = vehicle.rudder.max_angle, vehicle.thrust_max
-    limits = {topics.RUDDER_CMD.name: (-rudder, rudder), topics.THRUST_CMD.name: (0.0, thrust)}
-    if vehicle.sternplanes is None:
-        return Orders(limits, STOP)
-    planes = vehicle.sternplanes.max_angle
-    limits = {
-        topics.RUDDER_CMD.name: (-rudder, rudder),
-        topics.STERNPLANE_CMD.name: (-planes, planes),
-        topics.THRUST_CMD.name: (0.0, thrust),
-    }
-    return Orders(limits, SPATIAL_STOP)
+    fins = {topics.RUDDER_CMD.name: vehicle.rudder}
+    if vehicle.sternplanes is not None:
+        fins[topics.STERNPLANE_CMD.name] = vehicle.sternplanes
+    limits = {name: (-fin.max_angle, fin.max_angle) for name, fin in fins.items()}
+    limits[topics.THRUST_CMD.name] = (0.0, vehicle.thrust_max)
+    return Orders(limits, SPATIAL_STOP if vehicle.dives else STOP)
 
 
 class HeldCommands:

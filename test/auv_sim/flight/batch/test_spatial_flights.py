@@ -34,8 +34,8 @@ FLIGHTS: dict[str, dict[str, Any]] = {
 
 def scenario(mission: str = "helix", hull: str = "remus100_6dof", **changes: Any) -> Scenario:
     loaded = mission_file.load(mission)
-    told = {"thrust": 6.48, "current": UPWELLING} | changes
-    return Scenario(path=loaded.path, spatial=loaded.spatial, vehicle=vehicle.load(hull), **told)
+    asked = {"thrust": 6.48, "current": UPWELLING} | changes
+    return Scenario(path=loaded.path, spatial=loaded.spatial, vehicle=vehicle.load(hull), **asked)
 
 
 def largest_difference(run: SpatialRun, other: SpatialRun) -> float:
@@ -47,11 +47,11 @@ def largest_difference(run: SpatialRun, other: SpatialRun) -> float:
 
 @pytest.mark.parametrize("name", FLIGHTS)
 def test_a_flight_is_that_of_the_closed_loop(name: str) -> None:
-    told = scenario(**FLIGHTS[name])
-    reference = closed_loop.fly(told)
+    asked = scenario(**FLIGHTS[name])
+    reference = closed_loop.fly(asked)
     assert isinstance(reference, SpatialRun)
-    assert largest_difference(engine.track(told), reference) < 1e-9
-    flights, wanted = engine.fly([told]), judged(reference, told)
+    assert largest_difference(engine.track(asked), reference) < 1e-9
+    flights, wanted = engine.fly([asked]), judged(reference, asked)
     assert set(wanted) == {field.name for field in dataclasses.fields(SpatialFlights)}
     for figure, value in wanted.items():
         found = getattr(flights, figure)[0]
@@ -76,9 +76,9 @@ def test_planar_flights_among_them_keep_their_figures() -> None:
 
 def test_a_depth_error_has_the_size_of_the_offset() -> None:
     """Started 3 m too deep on the level line that the helix begins with."""
-    told = scenario(time_limit=2.0, current=SpatialCurrent(0.0, 0.0, 0.0))
-    x, y, z, _, chi = told.spatial.start_pose  # type: ignore[union-attr]
-    below = dataclasses.replace(told, initial=body_at(x, y, z + 3.0, 0.0, 0.1, chi, 1.9))
+    asked = scenario(time_limit=2.0, current=SpatialCurrent(0.0, 0.0, 0.0))
+    x, y, z, _, chi = asked.spatial.start_pose  # type: ignore[union-attr]
+    below = dataclasses.replace(asked, initial=body_at(x, y, z + 3.0, 0.0, 0.1, chi, 1.9))
     flights = engine.fly([below])
     assert flights.largest_depth_error[0] == pytest.approx(3.0, abs=0.2)  # type: ignore[attr-defined]
     assert flights.largest_distance[0] == pytest.approx(3.0, abs=0.2)

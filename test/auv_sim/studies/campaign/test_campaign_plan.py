@@ -198,13 +198,13 @@ def test_starts_and_currents_have_a_vertical_part(tmp_path: Path) -> None:
         "  current.east: {choice: [0.2]}\n  pitch.nism.k1: {choice: [0.3]}\n"
     )
     plan = study(tmp_path, text)
-    told = plan.scenario(0)
-    x, y, z, _, chi = told.spatial.start_pose
-    _, theta, psi = angles_of(told.initial)
-    assert (told.initial.z, theta, psi) == pytest.approx((z + 4.0, math.radians(-15.0), chi))
-    assert math.hypot(told.initial.x - x, told.initial.y - y) == pytest.approx(3.0)
-    assert told.current == pytest.approx((0.0, 0.2, 0.1))
-    assert told.pitch.nism.k1 == 0.3
+    asked = plan.scenario(0)
+    x, y, z, _, chi = asked.spatial.start_pose
+    _, theta, psi = angles_of(asked.initial)
+    assert (asked.initial.z, theta, psi) == pytest.approx((z + 4.0, math.radians(-15.0), chi))
+    assert math.hypot(asked.initial.x - x, asked.initial.y - y) == pytest.approx(3.0)
+    assert asked.current == pytest.approx((0.0, 0.2, 0.1))
+    assert asked.pitch.nism.k1 == 0.3
     assert plan.dives
 
 

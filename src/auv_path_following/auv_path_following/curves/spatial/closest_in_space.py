@@ -7,15 +7,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from auv_path_following.curves.closest import samples
+from auv_path_following.curves.closest import descended, samples
 from auv_path_following.curves.spatial.spatial_point import SpatialPoint
 from auv_path_following.curves.spatial.spatial_segment import SpatialSegment, depths_at
 
 Array = npt.NDArray[np.float64]
 
 _CHUNK = 2048
-_STEPS = 60
-_CLOSE = 1e-13
 
 
 def points_of(segment: SpatialSegment, t: Array) -> SpatialPoint:
@@ -76,22 +74,11 @@ def _axes(point: Any, derivative: int) -> Array:
 
 def _descend(segment: SpatialSegment, places: Array, t: Array, low: Array, high: Array) -> Array:
     """Return the t of least distance between `low` and `high`, started at `t`; all of shape (m,)."""
-    t, low, high = t.copy(), low.copy(), high.copy()
-    active = np.arange(len(t))
-    for _ in range(_STEPS):
-        at, lo, hi = t[active], low[active], high[active]
+
+    def slopes(at: Array, rows: Array) -> tuple[Array, Array]:
         point = points_of(segment, at)
-        offset, along = _axes(point, 0) - places[active], _axes(point, 1)
-        slope = (offset * along).sum(axis=1)
+        offset, along = _axes(point, 0) - places[rows], _axes(point, 1)
         bend = (along**2).sum(axis=1) + (offset * _axes(point, 2)).sum(axis=1)
-        lo = np.where(slope <= 0.0, at, lo)
-        hi = np.where(slope >= 0.0, at, hi)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            newton = at - slope / bend
-        good = (bend > 0.0) & (newton >= lo) & (newton <= hi)
-        new = np.where(good, newton, 0.5 * (lo + hi))
-        t[active], low[active], high[active] = new, lo, hi
-        active = active[np.abs(new - at) > _CLOSE]
-        if not len(active):
-            break
-    return t
+        return (offset * along).sum(axis=1), bend
+
+    return descended(slopes, t, low, high)
