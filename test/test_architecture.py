@@ -21,7 +21,8 @@ ROOMS = (
         "auv_path_following",
         (
             "config_files", "registry", "abilities", "vertical_hull", "vehicle", "curves", "navigation",
-            "missions", "control", "guidance", "parameters", "pilot", "spatial_pilot", "comparators", "nodes",
+            "missions", "control", "guidance", "parameters", "pilot", "spatial_pilot", "pilots", "course",
+            "comparators", "nodes",
         ),
     ),
 )  # fmt: skip

@@ -7,7 +7,6 @@ from typing import Any
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import PATH_FRAME, fill_pose, path_message, set_stamp
-from auv_msgs_py.contract.frames import flip_yaw
 from auv_msgs_py.contract.spatial_conversions import fill_error, fill_spatial_pose, spatial_path_message
 from auv_msgs_py.contract.wire import Float64, PoseStamped, Vector3Stamped
 from auv_msgs_py.node.runtime import SuiteNode
@@ -15,6 +14,7 @@ from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_path_following.curves.spatial.spatial_point import tangent_of
 from auv_path_following.guidance.follow import GuidanceOutput
+from auv_path_following.nodes.readings import PLANAR, SPATIAL, Readings
 
 #: Distance between the poses of `path`, m.
 _PATH_SPACING = 1.0
@@ -43,6 +43,8 @@ class GuidanceMessages:
         output: the latest result.
     """
 
+    _wire: Readings = PLANAR
+
     def __init__(self, node: SuiteNode) -> None:
         self.output: GuidanceOutput | None = None
         self._floats = {
@@ -66,10 +68,8 @@ class GuidanceMessages:
             stamp: of the answered odometry, ns.
         """
         self.output, floats = output, self._floats
-        floats[topics.DESIRED_YAW][1].data = flip_yaw(output.psi_d)
-        floats[topics.DESIRED_YAW_RATE][1].data = -output.r_d
-        floats[topics.DESIRED_THRUST][1].data = thrust
-        floats[topics.PATH_PARAMETER][1].data = output.s
+        for topic, value in zip(self._wire.references, self._wire.sent(output, thrust), strict=True):
+            floats[topic][1].data = value
         floats[topics.DISTANCE_TO_GO][1].data = to_go
         fill_pose(self._pose, output.x_p, output.y_p, output.chi_p, stamp)
         set_stamp(self._error.header.stamp, stamp)
@@ -105,6 +105,8 @@ def whole_spatial_path(path: SpatialPath, stamp: int) -> Any:
 class SpatialGuidanceMessages(GuidanceMessages):
     """The messages of one step of a vehicle that dives, reused."""
 
+    _wire = SPATIAL
+
     def __init__(self, node: SuiteNode) -> None:
         super().__init__(node)
         self._floats |= {
@@ -116,10 +118,6 @@ class SpatialGuidanceMessages(GuidanceMessages):
     def fill(self, output: Any, thrust: float, to_go: float, stamp: int) -> None:
         """Write a `SpatialOutput` into the messages; arguments as those of `GuidanceMessages.fill`."""
         super().fill(output, thrust, to_go, stamp)
-        floats = self._floats
-        floats[topics.DESIRED_PITCH][1].data = -output.theta_d
-        floats[topics.DESIRED_PITCH_RATE][1].data = -output.q_d
-        floats[topics.DESIRED_DEPTH][1].data = output.depth
         place = (output.x_p, output.y_p, output.z_p)
         fill_spatial_pose(self._pose, place, output.gamma_p, output.chi_p, stamp)
         fill_error(self._errors, (output.xe, output.ye, output.ze), stamp)

@@ -11,6 +11,7 @@ from std_srvs.srv import Trigger
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.mission_word import MissionState
 from auv_msgs_py.node.runtime import SuiteNode
+from auv_path_following.course import PlanarCourse
 from auv_path_following.guidance.approach import empty_approach
 from auv_path_following.guidance.guide import (
     Guide,
@@ -22,7 +23,6 @@ from auv_path_following.guidance.guide import (
 )
 from auv_path_following.missions import mission_state as states
 from auv_path_following.missions.mission_state import MissionStatus, Reason
-from auv_path_following.nodes.mission_course import PlanarCourse
 from auv_path_following.nodes.mission_report import MissionReport
 
 

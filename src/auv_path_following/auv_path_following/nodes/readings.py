@@ -1,17 +1,17 @@
-"""How a node reads its vehicle: as one in the plane, or as one with stern planes."""
+"""A vehicle on the wire, planar or with stern planes: how its messages are read, and what it is sent."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from auv_msgs_py.contract import conversions, spatial_conversions
+from auv_msgs_py.contract import conversions, spatial_conversions, topics
+from auv_msgs_py.contract.frames import flip_yaw
+from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.values.attitude import level_of
 from auv_msgs_py.values.types import (
     NO_CURRENT,
     NO_SPATIAL_CURRENT,
-    NO_SPATIAL_WATER,
-    NO_WATER,
     Navigation,
 )
 from auv_path_following.vehicle import Vehicle
@@ -24,19 +24,34 @@ class Readings(NamedTuple):
         navigation, water: (message, frame table, topic) -> value.
         current: (message, topic) -> value.
         level: navigation -> place and heading, NED, for checks that are planar.
-        no_water, no_current: placeholders for values that are not known.
+        no_current: placeholder for a current that is not known.
+        commands: topics, in the order of a command's fields.
+        references: topics of guidance's results.
+        sent: (result of guidance, desired thrust in N) -> values on the wire, in the order of `references`.
     """
 
     navigation: Callable[..., Any]
     water: Callable[..., Any]
     current: Callable[..., Any]
     level: Callable[[Any], Navigation]
-    no_water: Any
     no_current: Any
+    commands: tuple[Topic, ...]
+    references: tuple[Topic, ...]
+    sent: Callable[[Any, float], tuple[float, ...]]
 
 
 def _itself(navigation: Navigation) -> Navigation:
     return navigation
+
+
+def _sent(output: Any, thrust: float) -> tuple[float, ...]:
+    return flip_yaw(output.psi_d), -output.r_d, thrust, output.s
+
+
+def _spatially_sent(output: Any, thrust: float) -> tuple[float, ...]:
+    return (
+        flip_yaw(output.psi_d), -output.r_d, -output.theta_d, -output.q_d, output.depth, thrust, output.s,
+    )  # fmt: skip
 
 
 PLANAR = Readings(
@@ -44,17 +59,24 @@ PLANAR = Readings(
     conversions.water_velocity_from,
     conversions.current_from,
     _itself,
-    NO_WATER,
     NO_CURRENT,
+    (topics.RUDDER_CMD, topics.THRUST_CMD),
+    (topics.DESIRED_YAW, topics.DESIRED_YAW_RATE, topics.DESIRED_THRUST, topics.PATH_PARAMETER),
+    _sent,
 )
 SPATIAL = Readings(
     spatial_conversions.spatial_navigation_from,
     spatial_conversions.spatial_water_from,
     spatial_conversions.spatial_current_from,
     level_of,
-    NO_SPATIAL_WATER,
     NO_SPATIAL_CURRENT,
-)
+    (topics.RUDDER_CMD, topics.STERNPLANE_CMD, topics.THRUST_CMD),
+    (
+        topics.DESIRED_YAW, topics.DESIRED_YAW_RATE, topics.DESIRED_PITCH, topics.DESIRED_PITCH_RATE,
+        topics.DESIRED_DEPTH, topics.DESIRED_THRUST, topics.PATH_PARAMETER,
+    ),
+    _spatially_sent,
+)  # fmt: skip
 
 
 def readings_of(vehicle: Vehicle) -> Readings:

@@ -10,6 +10,7 @@ from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.values.types import SPATIAL_STOP, STOP, Reference, SpatialReference
 from auv_path_following.control.autopilot import HeadingAutopilot
 from auv_path_following.control.diving_autopilot import SpatialAutopilot
+from auv_path_following.nodes.readings import PLANAR, SPATIAL
 from auv_path_following.parameters import AutopilotParameters
 from auv_path_following.vehicle import Vehicle
 
@@ -30,7 +31,7 @@ class PlanarSteering:
         ConfigurationError: the gains do not fit the vehicle.
     """
 
-    commands: tuple[Topic, ...] = (topics.RUDDER_CMD, topics.THRUST_CMD)
+    commands: tuple[Topic, ...] = PLANAR.commands
     stop: Any = STOP
 
     def __init__(self, vehicle: Vehicle, parameters: AutopilotParameters) -> None:
@@ -83,7 +84,7 @@ class SpatialSteering(PlanarSteering):
     together, and a step has no further process.
     """
 
-    commands = (topics.RUDDER_CMD, topics.STERNPLANE_CMD, topics.THRUST_CMD)
+    commands = SPATIAL.commands
     stop = SPATIAL_STOP
 
     def __init__(self, vehicle: Vehicle, parameters: AutopilotParameters) -> None:

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from auv_msgs_py.contract.frames import heading_over_the_wire
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import SpatialCurrent
-from auv_path_following.control import autopilot, diving_autopilot
+from auv_path_following import pilots
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_path_following.curves.spatial.spatial_rows import spatial_rows
@@ -18,8 +18,8 @@ from auv_path_following.guidance.approach import agility_of
 from auv_path_following.guidance.measured import Measured, SpatialMeasured
 from auv_path_following.guidance.spatial.flown_path import flown_path
 from auv_path_following.navigation import current_observer
-from auv_path_following.pilot import Pilot, begun, pilot
-from auv_path_following.spatial_pilot import SpatialPilot, spatial_begun, spatial_pilot
+from auv_path_following.pilot import Pilot, pilot
+from auv_path_following.spatial_pilot import SpatialPilot, spatial_pilot
 from auv_sim.flight.scenario import Scenario, spatial_start_of, start_of
 from auv_sim.flight.signals import SPATIAL_TRUTH, TRUTH
 from auv_sim.vehicle.diving.ideal_diver import SpatialSeen
@@ -32,7 +32,7 @@ class Loop(NamedTuple):
     """One flight, wired.
 
     Attributes:
-        pilot, begun: configuration of the pilot, and what makes its first state.
+        pilot: configuration.
         path: as rows.
         vehicle: simulated.
         answer: (pilot, path, state, seen, at_sea, now, dt) -> (state, command, s, finished, row).
@@ -40,7 +40,6 @@ class Loop(NamedTuple):
     """
 
     pilot: Any
-    begun: Callable[..., Any]
     path: Any
     vehicle: Any
     answer: Callable[..., Any]
@@ -59,36 +58,20 @@ _SPATIAL_COLUMNS = (
 )  # fmt: skip
 
 
-def pilot_of(scenario: Scenario) -> Pilot:
-    """Return the pilot of a planar scenario: no limits, no holds, over the wire's last bits only at sea.
+def pilot_of(scenario: Scenario) -> Pilot | SpatialPilot:
+    """Return the pilot of a scenario: no limits, no holds, over the wire's last bits only at sea.
 
     Raises:
         ConfigurationError: a law or gain needs a key that the vehicle's file lacks.
     """
     c = scenario
     hull = c.controller_vehicle or c.vehicle
-    guidance = guide.prepare(c.guidance, agility_of(hull, c.thrust), c.thrust)
-    steering = autopilot.prepare(c.autopilot, hull)
+    if c.vehicle.dives:
+        guiding = guide.prepare_spatial(c.guidance, hull, c.thrust, c.mode)
+    else:
+        guiding = guide.prepare(c.guidance, agility_of(hull, c.thrust), c.thrust)
     observer = current_observer.prepare(c.observer, c.dt)
-    return Pilot(observer, guidance, steering, math.inf, c.sea is not None)
-
-
-def spatial_pilot_of(scenario: Scenario) -> SpatialPilot:
-    """Return the pilot of a scenario in three dimensions, otherwise as `pilot_of`.
-
-    Raises:
-        ConfigurationError: the vehicle's file lacks a key that a law or a gain needs.
-    """
-    c = scenario
-    hull = c.controller_vehicle or c.vehicle
-    guiding = guide.prepare_spatial(c.guidance, hull, c.thrust, c.mode)
-    return SpatialPilot(
-        current_observer.prepare(c.observer, c.dt),
-        guiding,
-        diving_autopilot.prepare(c.autopilot, c.pitch, hull),
-        math.inf,
-        c.sea is not None,
-    )
+    return pilots.prepare(observer, guiding, c.autopilot, c.pitch, hull, math.inf, c.sea is not None)
 
 
 def followed_path(scenario: Scenario) -> CompositePath | SpatialPath:
@@ -126,12 +109,12 @@ def loop_of(scenario: Scenario) -> Loop:
         start: Any = c.initial or start_of(c.path)
         vehicle: Any = SimulatedVehicle(c.plant_vehicle, start, c.sea, c.seed, c.current, c.dt)  # type: ignore[arg-type]
         names: tuple[str, ...] = (*_COLUMNS, *TRUTH) if c.sea else _COLUMNS
-        return Loop(pilot_of(c), begun, path.rows, vehicle, answer, names)
+        return Loop(pilot_of(c), path.rows, vehicle, answer, names)
     start = c.initial or spatial_start_of(path, c.vehicle)
     current = SpatialCurrent(*c.current, *(0.0,) * (3 - len(c.current)))
     vehicle = SimulatedDiver(c.plant_vehicle, start, c.sea, c.seed, current, c.dt)
     names = (*_SPATIAL_COLUMNS, *SPATIAL_TRUTH) if c.sea else _SPATIAL_COLUMNS
-    return Loop(spatial_pilot_of(c), spatial_begun, spatial_rows(path), vehicle, spatial_answer, names)
+    return Loop(pilot_of(c), spatial_rows(path), vehicle, spatial_answer, names)
 
 
 def answer(

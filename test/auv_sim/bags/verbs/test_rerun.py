@@ -172,7 +172,7 @@ def test_after_a_gap_the_chain_rejoins_as_the_nodes_did(resumes: bool) -> None:
         through = make(TYPES["velocity_through_water"], stamped(stamp, "base_link"), twist(vector(1.9, 0.0)))
         answer = rerun_pilot.step(_Step(odometry, stamp, stamp, through), phase)
         assert answer is not None
-        return answer.path_parameter
+        return answer[rerun_pilot.answered.index("path_parameter")]
 
     for k in range(26):
         step(1.0 + 0.1 * k, 0.19 * k, _Phase(True, k == 0, False))

@@ -26,7 +26,7 @@ from auv_path_following.guidance.guide import at_the_beginning
 from auv_path_following.missions import mission_state as states
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
-from auv_sim.bags.content.rerun_chain import chain_of
+from auv_sim.bags.content.rerun_chain import Chain, Sensed
 from auv_sim.bags.reading.beside import Beside
 from auv_sim.bags.reading.deserialize import deserializer
 from auv_sim.bags.reading.load import messages_of
@@ -108,17 +108,16 @@ class _RerunPilot:
 
     def __init__(self, parameters: dict[str, Any], mission: Mission, vehicle: Vehicle) -> None:
         guidance = parameters[topics.GUIDANCE].with_mission_overrides(mission)
-        self._chain = chain_of(parameters, guidance, mission, vehicle)
+        self._chain = Chain(parameters, guidance, mission, vehicle)
         self._frames = FrameTable(guidance.frames)
         self._guard = StampGuard(ordered=guidance.lockstep)
 
     @property
     def answered(self) -> tuple[str, ...]:
         """Names of the topics of an answer."""
-        names: tuple[str, ...] = self._chain.answer._fields
-        return names
+        return self._chain.answered
 
-    def step(self, step: _Step, phase: _Phase) -> Any | None:
+    def step(self, step: _Step, phase: _Phase) -> tuple[float, ...] | None:
         """Return the answer; None for an odometry that the nodes refuse, too."""
         chain = self._chain
         if phase.begins:
@@ -126,8 +125,7 @@ class _RerunPilot:
             chain.guiding = at_the_beginning(chain.guide, running, empty_approach())
         try:
             navigation = chain.readings.navigation(step.odometry, self._frames, topics.ODOM.name)
-            water = self._water(step.water)
-            altitude = self._altitude(step.altitude)
+            inputs = Sensed(navigation, self._water(step.water), self._altitude(step.altitude))
         except MessageRefused:
             return None
         verdict, dt = self._guard.judge(step.stamp)
@@ -137,7 +135,7 @@ class _RerunPilot:
         if verdict is StampVerdict.RESTART:
             chain.restart()
         chain.guiding = chain.guiding._replace(mission=_in_phase(mission, phase))
-        return chain.step(navigation, water, altitude, step.stamp * 1e-9, dt)
+        return chain.step(inputs, step.stamp * 1e-9, dt)
 
     def _water(self, message: Any | None) -> Any | None:
         if message is None:

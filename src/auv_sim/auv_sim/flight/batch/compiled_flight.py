@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from auv_path_following.guidance.approach import empty_approach
+from auv_path_following.pilots import pilot_begins
 from auv_sim.flight.batch import same_bits, tally  # noqa: F401 - before anything is compiled
 from auv_sim.flight.batch.compiled import compiled, take_over_pure
 from auv_sim.flight.batch.config_rows import unpack
@@ -16,7 +17,6 @@ from auv_sim.flight.batch.kinds.chosen import (
     at_rest,
     count_extras,
     count_motion,
-    first_of_pilot,
     is_finite,
     largest_angle,
     mark_cells,
@@ -130,7 +130,7 @@ def fly_one(
     flown = scratch.flown
     flown[:] = False
     tally.begin(whole, subpaths)
-    flying = first_of_pilot(c.pilot, scratch.approach)
+    flying = pilot_begins(c.pilot, scratch.approach)
     commanded, stop = 0.0, largest_angle(c.pilot)
     i, clear, s, finite, nearest, covered = -1, 0.0, 0.0, True, UNTRACKED, 0.0
     odometries = c.steps

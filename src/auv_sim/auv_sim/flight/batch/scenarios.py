@@ -15,7 +15,7 @@ from auv_sim.flight.batch.compiled_flight import Course, FlightConfig
 from auv_sim.flight.batch.config_rows import flat, layout_of
 from auv_sim.flight.batch.distance import outlines_of, rows_of
 from auv_sim.flight.batch.kinds.nearest import spatial_arrays_of, spatial_outlines_of
-from auv_sim.flight.loops import check_kind, followed_path, pilot_of, spatial_pilot_of
+from auv_sim.flight.loops import check_kind, followed_path, pilot_of
 from auv_sim.flight.path_cells import cells_of
 from auv_sim.flight.scenario import Scenario, spatial_start_of, start_of
 from auv_sim.vehicle.actuator import ring_size, servo_of
@@ -33,7 +33,7 @@ def flight_of(scenario: Scenario) -> FlightConfig:
         raise ConfigurationError("thrust", f"{scenario.thrust:g}", "a number greater than 0")
     dives = scenario.vehicle.dives
     return FlightConfig(
-        pilot=spatial_pilot_of(scenario) if dives else pilot_of(scenario),
+        pilot=pilot_of(scenario),
         plant=(spatial_plant_of if dives else plant_of)(scenario.plant_vehicle),
         dt=scenario.dt,
         steps=int(scenario.time_limit / scenario.step) + 1,

@@ -6,8 +6,8 @@ from auv_msgs_py.values.pure import dispatched
 from auv_msgs_py.values.types import Current, Navigation, SpatialCurrent, SpatialNavigation
 from auv_path_following.curves.rows import PathRows
 from auv_path_following.curves.spatial.spatial_rows import SpatialRows
-from auv_path_following.pilot import Pilot, begun
-from auv_path_following.spatial_pilot import SpatialPilot, spatial_begun
+from auv_path_following.pilot import Pilot
+from auv_path_following.spatial_pilot import SpatialPilot
 from auv_sim.flight.batch.kinds import planar_kind as planar
 from auv_sim.flight.batch.kinds import spatial_kind as spatial
 from auv_sim.flight.batch.track_row import fill_row, fill_spatial_row
@@ -19,8 +19,6 @@ from auv_sim.vehicle.remus import Plant, PlantState
 
 #: First state of a vehicle and the constant current, from rows of numbers.
 start_from = dispatched({Plant: planar.planar_start, SpatialPlant: spatial.spatial_start})
-#: First state of a pilot whose mission has just been started.
-first_of_pilot = dispatched({Pilot: begun, SpatialPilot: spatial_begun})
 #: The command of a vehicle at rest.
 at_rest = dispatched({Pilot: planar.planar_stop, SpatialPilot: spatial.spatial_stop})
 #: (pilot, path, state, seen, now, dt) -> (state, navigation, estimate, guidance's output, command).
