@@ -13,7 +13,6 @@ from rosbags.highlevel import AnyReader
 from auv_msgs_py.contract import topics
 from auv_path_following import config_files
 from auv_sim.bags.reading.load import load
-from auv_sim.cli import bag as bag_command
 from auv_sim.cli.mission import main
 from auv_sim.flight import closed_loop
 from auv_sim.flight.run_record import SpatialRun
@@ -72,14 +71,6 @@ def test_every_topic_of_a_step_is_recorded_once_a_step(dive: Path) -> None:
     with AnyReader([dive / "bag"]) as reader:
         counts = {c.topic: c.msgcount for c in reader.connections if c.topic in wanted}
     assert counts == dict.fromkeys(wanted, steps)
-
-
-def test_a_rerun_of_a_dive_repeats_it_bit_for_bit(dive: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert bag_command.main(["rerun", str(dive), "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)["topics"]
-    sent = {"sternplane_cmd", "desired_pitch", "desired_pitch_rate", "desired_depth", "rudder_cmd"}
-    assert sent <= found.keys()
-    assert all(topic["identical"] == topic["compared"] > 0 for topic in found.values())
 
 
 def test_in_one_process_and_in_ned_the_track_is_the_same(dive: Path, tmp_path: Path, domain: int) -> None:

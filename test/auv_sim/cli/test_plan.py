@@ -189,3 +189,15 @@ def test_a_number_that_is_none_ends_with_code_2(capsys):
         plan_command.main(["loiter", "--current", "nan", "0"])
     assert caught.value.code == 2
     assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_upwelling_is_for_a_vehicle_with_stern_planes_and_flown_as_planned(tmp_path, capsys):
+    asked = ["--upwelling", "-0.05", "--out", str(tmp_path / "plan.png")]
+    assert plan_command.main(["paper_composite", *asked]) == 2
+    assert "--upwelling: found vehicle REMUS 100 without stern planes" in capsys.readouterr().err
+    assert plan_command.main(["helix", "--vehicle", "remus100_6dof", *asked]) == 0
+    (line,) = (line for line in capsys.readouterr().out.splitlines() if line.startswith("Fly it:"))
+    same = mission_cli.parser().parse_args(shlex.split(line)[4:])
+    assert (same.mission, same.vehicle, same.upwelling) == ("helix", "remus100_6dof", -0.05)
+    assert plan_command.main(["helix", "--vehicle", "remus100_6dof", "--quiet", "--upwelling", "1"]) == 2
+    assert "deg in 1 m/s of water up" in capsys.readouterr().err

@@ -35,6 +35,9 @@ def parser() -> argparse.ArgumentParser:
         metavar=("VX", "VY"),
         help="current towards north and east, m/s",
     )
+    p.add_argument(
+        "--upwelling", type=finite, metavar="V", help="current upwards, for a vehicle with stern planes, m/s"
+    )
     p.add_argument("--switching", choices=MODES, help="joints with a circle of acceptance")
     p.add_argument("--out", type=Path, metavar="PNG", help="the picture (default: plan-MISSION.png here)")
     p.add_argument("--export", type=Path, metavar="FILE", help="write the path for a chart: .geojson or .kml")

@@ -12,7 +12,7 @@ from auv_msgs_py.contract.claim import Claim
 from auv_msgs_py.settings import params_file, result_files, yaml_file
 from auv_msgs_py.settings.schema import Pair
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_msgs_py.values.types import NO_CURRENT, Current
+from auv_msgs_py.values.types import NO_SPATIAL_CURRENT, SpatialCurrent
 from auv_path_following import config_files, vehicle
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
@@ -21,7 +21,7 @@ from auv_path_following.guidance.spatial.spatial_follower import mode_of
 from auv_path_following.missions import mission_file
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
-from auv_sim.checks.mission_check.flyable import Findings, check, refusal
+from auv_sim.checks.mission_check.flyable import Findings, check, refusal, require_planes
 from auv_sim.flight.scenario import Scenario
 from auv_sim.launch import node_settings
 from auv_sim.launch.options import BY_RULE, DEFAULT_PARAMS, DRIVERS, Options
@@ -209,10 +209,7 @@ def _check_simulated(options: Options, hull: Vehicle, file: Path) -> None:
     if (options.simulator or options.emulator) and hull.hull is None and hull.simulated_as is None:
         expected = "the hull's coefficients, or --no-sim: the simulator needs them"
         raise ConfigurationError(f"{file}: hull", "nothing", expected)
-    for flag, value in (("--depth", options.depth), ("--upwelling", options.upwelling)):
-        if value is not None and not hull.dives:
-            expected = "a vehicle with stern planes, such as remus100_6dof"
-            raise ConfigurationError(flag, f"vehicle {hull.name} without stern planes", expected)
+    require_planes(hull, {"--depth": options.depth, "--upwelling": options.upwelling})
     if options.depth is not None and options.depth > hull.depth.max:
         expected = f"at most {hull.depth.max:g} m, depth.max of {hull.name}"
         raise ConfigurationError("--depth", f"{options.depth:g} m", expected)
@@ -233,9 +230,9 @@ def _check(
     options: Options, mission: Mission, hull: Vehicle, settings: node_settings.NodeSettings, mean: Pair
 ) -> Findings:
     """Check whether the mission can be flown in the current that is configured (m/s, NED)."""
-    current = NO_CURRENT
+    current = NO_SPATIAL_CURRENT
     if options.simulator or options.emulator:
-        constant = settings[topics.PLANT].current.value
-        current = Current(constant.Vx + mean[0], constant.Vy + mean[1])
+        constant = settings[topics.PLANT].current.spatial_value
+        current = SpatialCurrent(constant.Vx + mean[0], constant.Vy + mean[1], constant.Vz)
     guidance = settings[topics.GUIDANCE].guidance
     return check(mission, hull, current, guidance.switching, guidance.lookahead)

@@ -7,14 +7,17 @@ import re
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from auv_msgs_py.values.errors import ConfigurationError
+from auv_msgs_py.values.types import SpatialCurrent
 from auv_path_following import vehicle
 from auv_path_following.curves.spatial.spatial_point import curvatures_of, tangent_of
 from auv_path_following.guidance.switching import SwitchingConfig
 from auv_path_following.missions import mission_file
 from auv_sim.checks.mission_check.depth_survey import survey_of
-from auv_sim.checks.mission_check.depths import bounds_of
+from auv_sim.checks.mission_check.depths import bounds_of, through_water
 from auv_sim.checks.mission_check.drawing import draw
 from auv_sim.checks.mission_check.flyable import check, refusals
 
@@ -181,3 +184,34 @@ def test_a_refused_and_a_planar_vehicles_plan_are_drawn(loaded, tmp_path):
     for hull in (DIVER, vehicle.load("remus100")):
         draw(mission, check(mission, hull), hull, tmp_path / "plan.png")
         assert (tmp_path / "plan.png").read_bytes().startswith(b"\x89PNG")
+
+
+@given(
+    gamma=st.floats(-1.2, 1.2),
+    speed=st.floats(0.5, 4.0),
+    share=st.floats(-0.5, 0.5).filter(lambda v: abs(v) > 1e-9),
+)
+def test_the_elevation_through_the_water_holds_that_of_the_path(gamma, speed, share):
+    sinking = share * speed
+    (pitch,) = through_water(np.array([gamma]), speed, sinking)
+    ahead, down = speed * math.cos(pitch), -speed * math.sin(pitch) + sinking
+    assert math.atan2(-down, ahead) == pytest.approx(gamma, abs=1e-9)
+    assert (pitch > gamma) == (sinking > 0.0), "water that sinks is climbed against"
+
+
+@pytest.mark.parametrize(("way", "sinking"), [("down", -0.1), ("up", 0.1)])
+def test_a_vertical_current_against_a_ramp_needs_more_pitch(loaded, way, sinking):
+    near, far = (5, 30) if way == "down" else (30, 5)
+    mission = loaded(profile(f"[[0, {near}], [105, {far}], [400, {far}]]"))
+    assert refused(mission) == refused_in(mission, -sinking) == []
+    (found,) = refused_in(mission, sinking)
+    pitch = 24.0 + math.degrees(0.1 / 2.0)
+    sign = "-" if way == "down" else ""
+    assert re.search(rf"a slope of 2[34]\.\d deg {way}, a pitch of {sign}2[67]\.\d deg in 0\.1 m/s", found)
+    assert float(re.search(r"a pitch of -?([\d.]+) deg", found)[1]) == pytest.approx(pitch, abs=0.8)
+    assert "at most 25.0 deg: the pitch of up to 30.0 deg" in found
+
+
+def refused_in(mission, sinking) -> list[str]:
+    findings = check(mission, DIVER, SpatialCurrent(0.0, 0.0, sinking))
+    return [str(finding) for finding in findings.refusals]

@@ -83,13 +83,16 @@ def _pitch_rate(vehicle: Vehicle, speed: float) -> float:
     return min(rate, steady)
 
 
-def depths(mission: Mission, vehicle: Vehicle, switching: SwitchingConfig, speed: float) -> Iterator[Finding]:
+def depths(
+    mission: Mission, vehicle: Vehicle, switching: SwitchingConfig, speed: float, sinking: float = 0.0
+) -> Iterator[Finding]:
     """Judge the depths of a mission, or its altitude; nothing of a planar one.
 
     Args:
         mission, vehicle: what is flown, and what flies it.
         switching: which joints have a circle of acceptance.
         speed: through the water, m/s.
+        sinking: current downwards, m/s.
     """
     if mission.spatial is None and mission.altitude is None:
         return
@@ -110,9 +113,22 @@ def depths(mission: Mission, vehicle: Vehicle, switching: SwitchingConfig, speed
         judge = _Judge(mission.spatial, survey_of(mission.spatial, mission.once), vehicle)
         bounds = bounds_of(mission, vehicle, speed)
         yield from judge.range_of_depth(bounds)
-        yield from judge.slope(bounds, speed)
+        yield from judge.slope(bounds, speed, sinking)
         yield from judge.curvature(bounds, speed)
         yield from judge.corners(mission.once, switching)
+
+
+def through_water(gamma: npt.NDArray[np.float64], speed: float, sinking: float) -> npt.NDArray[np.float64]:
+    """Return the elevation through the water that holds a path's in a vertical current, rad, up positive.
+
+    Args:
+        gamma: elevation of the path, rad, up positive.
+        speed: through the water, m/s.
+        sinking: current downwards, m/s; at most `speed`.
+    """
+    down = -np.sin(gamma)
+    along = down * sinking + np.sqrt(np.maximum(speed**2 - sinking**2 * np.cos(gamma) ** 2, 0.0))
+    return np.arcsin(np.clip((sinking - along * down) / speed, -1.0, 1.0))
 
 
 class _Judge:
@@ -152,16 +168,26 @@ class _Judge:
             expected = f"at least {bounds.surface:g} m, depth.surface of {self._vehicle.name}"
             yield self._finding(k, f"a depth of {z[k]:.2f} m between start and end", expected)
 
-    def slope(self, bounds: DepthBounds, speed: float) -> Iterator[Finding]:
-        """Judge the steepest place."""
-        gamma = np.abs(self._survey.gamma)
-        k = int(np.argmax(gamma))
-        if gamma[k] <= max(bounds.slope, 0.0) * (1.0 + 1e-6) + 1e-9:
+    def slope(self, bounds: DepthBounds, speed: float, sinking: float) -> Iterator[Finding]:
+        """Judge the steepest place: as a slope, and as the pitch that it takes in a vertical current."""
+        gamma, pitch = np.abs(self._survey.gamma), self._survey.gamma
+        if sinking != 0.0:
+            pitch = through_water(pitch, speed, sinking)
+        slope, is_limited = max(bounds.slope, 0.0), bounds.slope < bounds.steepest - SPARE
+        excess = np.abs(pitch) - max(bounds.steepest - SPARE, 0.0)
+        if is_limited:
+            excess = np.maximum(excess, gamma - slope)
+        k = int(np.argmax(excess))
+        if excess[k] <= slope * 1e-6 + 1e-9:
             return
         way = "up" if self._survey.gamma[k] > 0.0 else "down"
-        found = f"a slope of {math.degrees(gamma[k]):.1f} deg {way}{self._others(gamma > bounds.slope)}"
+        found = f"a slope of {math.degrees(gamma[k]):.1f} deg {way}"
+        if sinking != 0.0:
+            water = f"{abs(sinking):g} m/s of water {'down' if sinking > 0.0 else 'up'}"
+            found += f", a pitch of {math.degrees(pitch[k]):.1f} deg in {water}"
+        found += self._others(excess > 0.0)
         expected = f"at most {math.degrees(bounds.slope):.1f} deg, limits.max_slope_deg"
-        if bounds.slope == bounds.steepest - SPARE:
+        if not is_limited or gamma[k] <= slope:
             steepest = math.degrees(bounds.steepest)
             expected = (
                 f"at most {steepest - 5.0:.1f} deg: the pitch of up to {steepest:.1f} deg at {speed:.2f} m/s"

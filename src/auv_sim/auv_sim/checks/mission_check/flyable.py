@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_msgs_py.values.types import NO_CURRENT, Current
+from auv_msgs_py.values.types import NO_CURRENT, Current, SpatialCurrent
 from auv_path_following.control.hull_model import SteadyTurn, tightest_turn
 from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.guidance.switching import SwitchingConfig
@@ -52,7 +52,7 @@ class Findings:
 def check(
     mission: Mission,
     vehicle: Vehicle,
-    current: Current = NO_CURRENT,
+    current: Current | SpatialCurrent = NO_CURRENT,
     switching: SwitchingConfig | None = None,
     lookahead: float | None = None,
 ) -> Findings:
@@ -61,7 +61,7 @@ def check(
     Args:
         mission: what to fly.
         vehicle: the vehicle that flies it.
-        current: constant current, NED, m/s.
+        current: constant current, NED, m/s; without a third component its vertical one is 0.
         switching: circles of acceptance as they will be; the parameters' defaults if None.
         lookahead: Delta of guidance, m; the parameters' default if None.
 
@@ -71,16 +71,17 @@ def check(
     speed = vehicle.speed_at(mission.thrust)
     lookahead = lookahead or PathFollowerConfig().lookahead
     turn = tightest_turn(vehicle)
-    survey = LapSurvey(mission, current, speed)
+    level, sinking = Current(*current[:2]), sum(current[2:])
+    survey = LapSurvey(mission, level, speed)
     found = [
         *_thrust(mission, vehicle),
-        *depths(mission, vehicle, switching or SwitchingConfig(), speed),
+        *depths(mission, vehicle, switching or SwitchingConfig(), speed, sinking),
         *_geofence(mission),
-        *survey.way(current),
+        *survey.way(level),
         *survey.turns(turn, vehicle.name),
         *_corners(mission),
         *curvature_steps(mission, vehicle, speed),
-        *circles(mission, vehicle, switching or SwitchingConfig(), lookahead, speed, current),
+        *circles(mission, vehicle, switching or SwitchingConfig(), lookahead, speed, level),
         *_crossings(mission),
     ]
     refusals, warnings = (
@@ -88,6 +89,22 @@ def check(
     )
     stretch = 1.0 if mission.spatial is None else mission.spatial.length / mission.path.length
     return Findings(refusals, warnings, turn, speed, survey.duration * stretch, mission.notices)
+
+
+def require_planes(vehicle: Vehicle, options: Mapping[str, float | None]) -> None:
+    """Refuse options that need stern planes.
+
+    Args:
+        vehicle: the hull.
+        options: flag -> value; None where it was not given.
+
+    Raises:
+        ConfigurationError: the vehicle has none.
+    """
+    for flag, value in options.items():
+        if value is not None and not vehicle.dives:
+            expected = "a vehicle with stern planes, such as remus100_6dof"
+            raise ConfigurationError(flag, f"vehicle {vehicle.name} without stern planes", expected)
 
 
 def refusal(mission: Mission, findings: Findings, advice: str) -> ConfigurationError:

@@ -21,7 +21,7 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.settings import params_file
 from auv_msgs_py.settings.result_files import NotWritten
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_msgs_py.values.types import Current
+from auv_msgs_py.values.types import Current, SpatialCurrent
 from auv_path_following import config_files, vehicle
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_path_following.guidance.path_follower import PathFollowerConfig
@@ -31,7 +31,7 @@ from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.mission_check import chart, drawing
 from auv_sim.checks.mission_check.depth_survey import survey_of
-from auv_sim.checks.mission_check.flyable import Findings, check, refusal, refusals
+from auv_sim.checks.mission_check.flyable import Findings, check, refusal, refusals, require_planes
 from auv_sim.command_line import EXIT_BAD_INPUT, EXIT_DONE, say, to_type
 from auv_sim.sim_parameters import SUITE
 from auv_sim.terminal import console as terminal
@@ -42,7 +42,7 @@ _ROWS = 40
 
 _ALL_THE_SAME = "scripts/mission.py --force would fly it all the same"
 #: Options of this command that `scripts/mission.py` has as well.
-_FLOWN_WITH = ("mission", "vehicle", "params", "current", "switching")
+_FLOWN_WITH = ("mission", "vehicle", "params", "current", "upwelling", "switching")
 
 
 def plan(options: argparse.Namespace, not_default: Mapping[str, Any]) -> int:
@@ -62,7 +62,9 @@ def plan(options: argparse.Namespace, not_default: Mapping[str, Any]) -> int:
     mission = mission_file.load(options.mission, hull)
     guidance = _guidance(options, mission)
     switching = with_overrides(guidance.switching, options.switching, None)
-    current = Current(*options.current)
+    require_planes(hull, {"--upwelling": options.upwelling})
+    north, east = options.current
+    current = SpatialCurrent(north, east, -(options.upwelling or 0.0))
     findings = check(mission, hull, current, switching, guidance.lookahead)
     console = terminal(options.quiet, soft_wrap=True, width=None if sys.stdout.isatty() else 110)
     _show(console, mission, hull, findings)
@@ -76,11 +78,8 @@ def plan(options: argparse.Namespace, not_default: Mapping[str, Any]) -> int:
         for one in refusals(mission, findings, _ALL_THE_SAME):
             say(one, error=True)
         return EXIT_BAD_INPUT
-    if mission.spatial is None and mission.altitude is None:
-        same = {name: not_default[name] for name in _FLOWN_WITH if name in not_default}
-        go_on(console, "Fly it", to_type("mission.py", **same))
-    else:
-        console.print("A mission with a depth flies in closed loop and campaigns only.")
+    same = {name: not_default[name] for name in _FLOWN_WITH if name in not_default}
+    go_on(console, "Fly it", to_type("mission.py", **same))
     return EXIT_DONE
 
 
