@@ -124,7 +124,7 @@ def test_free_running_follows_the_mission_too_and_one_forged_state_ends_nothing(
     spawn([sys.executable, "-c", FORGER])
     asked = ["--mission", str(short_mission), "--quiet", "--domain", str(domain)]
     before = signal.getsignal(signal.SIGINT)
-    assert main([*asked, "--out", str(tmp_path / "free"), "--speed", "2", "--flown", "0.9"]) == 0
+    assert main([*asked, "--out", str(tmp_path / "free"), "--speed", "4", "--flown", "0.9"]) == 0
     assert signal.getsignal(signal.SIGINT) is before  # Ctrl-C is the caller's again
     summary = json.loads((tmp_path / "free" / "summary.json").read_text())
     assert (summary["completed"], summary["timing"]) == (True, "free running")
@@ -137,7 +137,7 @@ def test_a_vehicle_of_another_project_is_driven_through_the_same_mission(
     short_mission: Path, tmp_path: Path, domain: int, command_line: CommandLine, spawn: Callable[..., object]
 ) -> None:
     """--no-sim: a simulator started by hand stands in for the vehicle, at rest, with its own clock."""
-    overrides = {"speed": "2.0", "hold_until_running": "false", "initial.surge": "0.0"}
+    overrides = {"speed": "4.0", "hold_until_running": "false", "initial.surge": "0.0"}
     parameters = [word for name, value in overrides.items() for word in ("-p", f"{name}:={value}")]
     spawn(command_line("auv_sim.nodes.plant_node", "--ros-args", "-r", "__ns:=/auv", *parameters))
     asked = ["--mission", str(short_mission), "--no-sim", "--use-sim-time", "--quiet"]

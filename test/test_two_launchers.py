@@ -83,7 +83,7 @@ def test_the_first_mission_ends_as_if_alone(
     request: pytest.FixtureRequest,
 ) -> None:
     if first == "no-sim":  # the vehicle: a simulator that was started by hand
-        overrides = ("speed:=3.0", "initial.surge:=0.0")
+        overrides = ("speed:=5.0", "initial.surge:=0.0")
         parameters = [word for value in overrides for word in ("-p", value)]
         spawn(command_line("auv_sim.nodes.plant_node", "--ros-args", "-r", "__ns:=/auv", *parameters))
     # In lockstep long enough for a second launcher to come up beside it.

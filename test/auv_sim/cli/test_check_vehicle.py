@@ -130,7 +130,7 @@ def test_it_does_not_take_the_rudder_from_another_node(
         seen = [info.node_name for info in node.get_publishers_info_by_topic("/auv/rudder_cmd")]
         node.destroy_node()
         rclpy.try_shutdown()
-    assert main(CONSENT) == 2
+    assert main([*CONSENT, "--wait", "2"]) == 2
     assert "heading_autopilot sending commands" in capsys.readouterr().err
 
 

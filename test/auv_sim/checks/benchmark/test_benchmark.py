@@ -127,7 +127,7 @@ def test_what_a_flight_takes_once_is_told_apart_from_its_steps(monkeypatch: pyte
 
 def test_two_checkouts_fly_in_turns() -> None:
     one = against.Contender(sys.executable, "closed_loop", "-", 2, 0.5, 1)
-    other = against.Contender(sys.executable, "batch", "rough", 2, 0.5, 1)
+    other = against.Contender(sys.executable, "batch", "-", 2, 0.5, 1)
     try:
         for side in (one, other):
             side.fly(counts=False)

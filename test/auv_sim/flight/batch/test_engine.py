@@ -36,7 +36,8 @@ ASIDE = PlantState(-35.0, 28.0, 2.5, 1.2, 0.1, -0.05)
 #: The laws alone; and a start from which guidance leads to the path first.
 BARE = {"approach": ApproachConfig(enabled=False)}
 FAR = PlantState(124.0, 301.0, 1.344, 1.2, 0.1, -0.05)
-#: Flights that between them take every branch of every law: name -> what is told.
+#: Flights that between them take every branch of every law: name -> arguments of `scenario`. Each law of
+#: guidance has one controller: a further pair would be compiled, which takes longer than its flight.
 FLIGHTS = {
     "robust, aside": {"initial": ASIDE, "current": CURRENT, "time_limit": 900.0, "guidance": BARE},
     "approach": {"initial": FAR, "current": CURRENT, "mission": "course_fermat", "time_limit": 300.0},
@@ -45,13 +46,14 @@ FLIGHTS = {
     "table 2, limit cycle": {"params": "paper", "hull": "remus100_table2", "guidance": BARE,
                              "initial": ASIDE},
     "weak rudder": {"hull": "remus100_mismatch", "controller_model": "remus100", "current": CURRENT},
-    "pid": {"params": "paper", "autopilot": {"controller": "pid"}, "current": CURRENT},
-    "smc": {"params": "paper", "autopilot": {"controller": "smc"}, "controller_model": "remus100_table2"},
-    "smc, shaped": {"autopilot": {"controller": "smc"}, "current": CURRENT},
+    "ilos, smc": {"params": "paper", "guidance": {"law": "ilos"}, "autopilot": {"controller": "smc"},
+                  "controller_model": "remus100_table2"},
+    "ilos, smc, shaped": {"guidance": {"law": "ilos", **BARE}, "autopilot": {"controller": "smc"},
+                          "current": CURRENT, "initial": ASIDE},
     "filtered dr/dt": {"autopilot": {"derivative": DerivativeConfig(bandwidth=4.0)},
                        "initial": ASIDE, "guidance": BARE},
-    "los": {"guidance": {"law": "los"}, "current": CURRENT},
-    "ilos": {"guidance": {"law": "ilos", **BARE}, "current": CURRENT, "initial": ASIDE},
+    "los, pid": {"params": "paper", "guidance": {"law": "los"}, "autopilot": {"controller": "pid"},
+                 "current": CURRENT},
     "no compensation": {"guidance": {"compensate_current": False}, "current": CURRENT},
     "circles everywhere, 8 Hz": {"mode": "all", "step": 0.125, "time_limit": 900.0},
     "50 Hz": {"step": 0.02, "mission": "course_clothoid", "time_limit": 130.0},
