@@ -55,7 +55,8 @@ class Bench:
         self.executor.add_node(node)
         role = role or node.get_name()
         heard = {subscription.topic_name for subscription in node.subscriptions}
-        for topic in topics.CONTRACT:
+        spatial = [topic for topic in topics.SPATIAL_CONTRACT if topic in node.publishers_by_topic]
+        for topic in (*topics.CONTRACT, *spatial, topics.STERNPLANE_CMD):
             if topic.publisher == role or topic is topics.DIAGNOSTICS:
                 self._listen(topic)
             elif role in topic.subscribers and node.resolve_topic_name(topic.name) in heard:

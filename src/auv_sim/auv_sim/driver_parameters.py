@@ -49,8 +49,15 @@ class MavlinkDriverParameters(NodeParameters):
     turn_axis: Literal["clockwise", "counter-clockwise"] = setting(
         "clockwise", "direction in which a positive r axis of MANUAL_CONTROL turns the vehicle"
     )
+    pitch_axis: Literal["bow-down", "bow-up"] = setting(
+        "bow-down",
+        "direction in which a positive s axis of MANUAL_CONTROL pitches a vehicle with stern planes",
+    )
     rudder_servo: int = setting(
         1, "output of SERVO_OUTPUT_RAW that moves the rudder, for rudder_state; 0: none", ge=0, le=8
+    )
+    sternplane_servo: int = setting(
+        2, "output that moves the stern planes, for sternplane_state; 0: none", ge=0, le=8
     )
     command_timeout: float = setting(
         1.0, "age of the newest command after which the vehicle is stopped", unit="s", ge=0.1, le=10.0

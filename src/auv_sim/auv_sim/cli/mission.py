@@ -162,12 +162,12 @@ def _options(argv: Sequence[str] | None) -> Options:
         parse_address(options.vehicle_address, "--vehicle-address")
     if options.no_sim and options.vehicle_driver is not None:
         raise ConfigurationError("--vehicle-driver", "together with --no-sim", "one of them")
-    conflicts: dict[str, Any] = {
-        "--sea": options.sea, "--seed": options.seed, "--depth": options.depth,
-        "--upwelling": options.upwelling,
-    }  # fmt: skip
+    conflicts: dict[str, Any] = {"--sea": options.sea, "--seed": options.seed}
     if not options.emulator:
-        conflicts |= {"--speed": options.speed, "--initial": options.initial, "--current": options.current}
+        conflicts |= {
+            "--speed": options.speed, "--initial": options.initial, "--current": options.current,
+            "--depth": options.depth, "--upwelling": options.upwelling,
+        }  # fmt: skip
     if not options.simulator:
         reason = (
             "--no-sim" if options.no_sim

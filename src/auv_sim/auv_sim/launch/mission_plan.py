@@ -171,7 +171,8 @@ def make(options: Options, directory: Path) -> Plan:
     emulator, driver = None, DRIVERS.get(options.vehicle_driver or "")
     if driver is not None:
         file = str(sources["vehicle"])
-        emulator = configure_driver(driver, options.vehicle_address, options.speed, file, settings)
+        address, speed = options.vehicle_address, options.speed
+        emulator = configure_driver(driver, address, speed, file, hull.dives, settings)
     for name in {topics.PLANT, *DRIVERS.values()} - {topics.PLANT if options.simulator else driver}:
         del settings[name]
     return Plan(options, mission, hull, settings, sources, verdicts, model, emulator)

@@ -20,8 +20,9 @@ EMULATOR, EMULATOR_MODULE = "vehicle_emulator", "auv_sim.nodes.mavlink.emulator"
 
 
 def configure_driver(
-    driver: str, address: str | None, speed: float | None, vehicle: str, parameters: dict[str, Any]
-) -> tuple[str, ...] | None:
+    driver: str, address: str | None, speed: float | None, vehicle: str, dives: bool,
+    parameters: dict[str, Any],
+) -> tuple[str, ...] | None:  # fmt: skip
     """Set the driver's vehicle address and clock.
 
     Args:
@@ -29,6 +30,7 @@ def configure_driver(
         address: of the vehicle; None for an emulated one.
         speed: of the emulated vehicle, times real time; None for real time on the wall clock.
         vehicle: its file.
+        dives: whether it has stern planes.
         parameters: node name -> settings, changed in place; the emulator starts in the simulator's state.
 
     Returns:
@@ -52,7 +54,9 @@ def configure_driver(
     else:
         port = free_port()
         changes |= {"address": f"udpin:127.0.0.1:{port}", "clock_speed": speed or 0.0}
-        emulator = _emulator(port, vehicle, parameters[topics.PLANT], speed or 1.0, given.signing_key)
+        plant = parameters[topics.PLANT]
+        emulator = _emulator(port, vehicle, plant, speed or 1.0, given.signing_key)
+        emulator += _diving(plant) if dives else ()
     parameters[driver] = dataclasses.replace(given, **changes)
     return emulator
 
@@ -71,6 +75,12 @@ def _emulator(
         "--speed", repr(speed),
         "--signing-key", signing_key,
     )  # fmt: skip
+
+
+def _diving(plant: PlantParameters) -> tuple[str, ...]:
+    """Return the emulator's options for the depth, pitch and upwelling of a vehicle with stern planes."""
+    depth, pitch, up = plant.initial.depth, math.degrees(plant.initial.theta), -plant.current.Vz
+    return "--depth", repr(depth), "--pitch", repr(pitch), "--upwelling", repr(up)
 
 
 def free_port() -> int:

@@ -8,17 +8,17 @@ import pytest
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.values.errors import MessageRefused
-from auv_msgs_py.values.types import STOP, Command
+from auv_msgs_py.values.types import SPATIAL_STOP, STOP, Command, SpatialCommand
+from auv_sim.nodes.held_commands import Orders
 from auv_sim.nodes.mavlink.commands import Commands
-from auv_sim.nodes.mavlink.mapping import CommandLimits
 
-RUDDER, THRUST = topics.RUDDER_CMD.name, topics.THRUST_CMD.name
+RUDDER, PLANES, THRUST = topics.RUDDER_CMD.name, topics.STERNPLANE_CMD.name, topics.THRUST_CMD.name
 SECOND = 1_000_000_000
 
 
 @pytest.fixture
 def commands() -> Commands:
-    return Commands(CommandLimits(rudder=0.6, thrust=100.0), timeout=1.0)
+    return Commands(Orders({RUDDER: (-0.6, 0.6), THRUST: (0.0, 100.0)}, STOP), timeout=1.0)
 
 
 def test_a_pair_is_complete_with_its_thrust(commands: Commands) -> None:
@@ -67,3 +67,19 @@ def test_a_single_forged_state_stops_nothing(commands: Commands) -> None:
 def test_what_the_vehicle_cannot_do_is_refused(commands: Commands, topic: str, value: float) -> None:
     with pytest.raises(MessageRefused):
         commands.put(topic, value, 0)
+
+
+def test_silent_planes_stop_everything() -> None:
+    limits = {RUDDER: (-0.6, 0.6), PLANES: (-0.3, 0.3), THRUST: (0.0, 100.0)}
+    commands = Commands(Orders(limits, SPATIAL_STOP), timeout=1.0)
+    commands.put(RUDDER, 0.1, 0)
+    assert not commands.put(THRUST, 60.0, 0)
+    commands.put(PLANES, -0.2, 0)
+    assert commands.put(THRUST, 60.0, 0)
+    assert commands.command(0, 0.0) == SpatialCommand(0.1, -0.2, 60.0)
+    commands.put(RUDDER, 0.1, SECOND)
+    commands.put(THRUST, 60.0, SECOND)
+    assert commands.command(SECOND, 0.0) == SpatialCommand(0.1, -0.2, 60.0)
+    assert commands.command(SECOND + 1, 0.0) == SPATIAL_STOP
+    with pytest.raises(MessageRefused):
+        commands.put(PLANES, 0.31, 0)

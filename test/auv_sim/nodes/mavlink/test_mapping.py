@@ -8,17 +8,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from auv_msgs_py.values.types import STOP, Command
+from auv_msgs_py.values.types import SPATIAL_STOP, STOP, Command, SpatialCommand
 from auv_sim.nodes.mavlink.mapping import (
     CommandLimits,
+    angle_of_pulse,
     command_of,
     manual_control,
-    pulse_of_rudder,
-    rudder_of_pulse,
+    pulse_of,
     water_track,
 )
 
 LIMITS = CommandLimits(math.radians(35.0), 6.48)
+DIVING = CommandLimits(math.radians(35.0), 6.48, math.radians(20.0))
 
 
 def test_a_rudder_to_port_is_a_counter_clockwise_axis() -> None:
@@ -36,12 +37,36 @@ def test_the_specification_has_the_other_sign() -> None:
 def test_a_stop_is_neutral() -> None:
     message = manual_control(STOP, LIMITS, clockwise=True, target=1)
     assert (message.x, message.y, message.z, message.r, message.buttons) == (0, 0, 0, 0, 0)
+    message = manual_control(SPATIAL_STOP, DIVING, clockwise=True, target=1)
+    assert (message.x, message.r, message.s, message.enabled_extensions) == (0, 0, 0, 1)
 
 
-def test_a_servo_is_neutral_at_1500_and_longer_to_starboard() -> None:
-    assert pulse_of_rudder(0.0, LIMITS) == 1500
-    assert pulse_of_rudder(math.radians(-35.0), LIMITS) == 1900
-    assert rudder_of_pulse(1100, LIMITS) == pytest.approx(math.radians(35.0))
+def test_stern_planes_are_the_pitch_axis_positive_bow_down() -> None:
+    """The specification's table of directional control has s positive nose-down, as PX4's stick has it."""
+    down, up = (SpatialCommand(0.0, math.radians(angle), 0.0) for angle in (10.0, -20.0))
+    message = manual_control(down, DIVING, clockwise=True, target=1)
+    assert (message.s, message.enabled_extensions & 1, message.r) == (500, 1, 0)
+    assert manual_control(up, DIVING, clockwise=True, target=1).s == -1000
+    assert manual_control(down, DIVING, clockwise=True, target=1, bow_down=False).s == -500
+
+
+def test_a_planar_vehicle_gets_no_pitch_axis() -> None:
+    message = manual_control(Command(0.1, 1.0), LIMITS, clockwise=True, target=1)
+    assert (message.s, message.enabled_extensions) == (0, 0)
+
+
+def test_a_pitch_axis_that_is_not_enabled_is_neutral() -> None:
+    message = manual_control(SpatialCommand(0.0, 0.1, 1.0), DIVING, clockwise=True, target=1)
+    message.enabled_extensions = 0
+    assert command_of(message, DIVING, clockwise=True).sternplanes == 0.0  # type: ignore[union-attr]
+
+
+@pytest.mark.parametrize("largest", [35.0, 20.0], ids=["rudder", "stern planes"])
+def test_a_servo_is_neutral_at_1500_and_longer_to_starboard_and_bow_up(largest: float) -> None:
+    limit = math.radians(largest)
+    assert pulse_of(0.0, limit) == 1500
+    assert pulse_of(-limit, limit) == 1900
+    assert angle_of_pulse(1100, limit) == pytest.approx(limit)
 
 
 def test_the_water_track_speaks_of_nothing_else() -> None:
@@ -54,11 +79,17 @@ def test_the_water_track_speaks_of_nothing_else() -> None:
 
 
 @given(
-    st.floats(-LIMITS.rudder, LIMITS.rudder), st.floats(0.0, LIMITS.thrust), st.booleans()
+    st.floats(-1.0, 1.0), st.floats(-1.0, 1.0), st.floats(0.0, 1.0),
+    st.booleans(), st.booleans(), st.booleans(),
 )  # fmt: skip
 def test_what_arrives_is_what_was_sent_but_for_the_steps_of_an_axis(
-    rudder: float, thrust: float, clockwise: bool
+    rudder: float, planes: float, thrust: float, dives: bool, clockwise: bool, bow_down: bool
 ) -> None:
-    arrived = command_of(manual_control(Command(rudder, thrust), LIMITS, clockwise, 1), LIMITS, clockwise)
-    assert arrived.rudder == pytest.approx(rudder, abs=0.5e-3 * LIMITS.rudder)
-    assert arrived.thrust == pytest.approx(thrust, abs=0.5e-3 * LIMITS.thrust)
+    limits = DIVING if dives else LIMITS
+    rudder, thrust, planes = rudder * DIVING.rudder, thrust * DIVING.thrust, planes * math.radians(20.0)
+    sent = SpatialCommand(rudder, planes, thrust) if dives else Command(rudder, thrust)
+    message = manual_control(sent, limits, clockwise, 1, bow_down)
+    arrived = command_of(message, limits, clockwise, bow_down)
+    steps = (limits.rudder, math.radians(20.0), limits.thrust) if dives else limits[:2]
+    for value, expected, largest in zip(arrived, sent, steps, strict=True):
+        assert value == pytest.approx(expected, abs=0.5e-3 * largest)

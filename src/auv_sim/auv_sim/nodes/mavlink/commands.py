@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.mission_word import MissionState, MissionWord
 from auv_msgs_py.values.errors import MessageRefused
-from auv_msgs_py.values.types import STOP, Command
-from auv_sim.nodes.mavlink.mapping import CommandLimits
+from auv_sim.nodes.held_commands import Orders
 
 #: States of the mission in which no command moves the vehicle, whatever its sender.
 _OVER = (MissionState.HOLDING, MissionState.COMPLETE, MissionState.ABORTED)
@@ -15,24 +16,21 @@ _ROUNDING = 1e-9
 
 
 class Commands:
-    """Keeps the newest rudder and thrust.
+    """Keeps the newest command of each kind.
 
     Args:
-        limits: of the vehicle.
+        orders: the vehicle's commands and their limits.
         timeout: age beyond which a command is a stop, s of ROS time.
     """
 
-    def __init__(self, limits: CommandLimits, timeout: float) -> None:
-        self._range = {
-            topics.RUDDER_CMD.name: (-limits.rudder, limits.rudder),
-            topics.THRUST_CMD.name: (0.0, limits.thrust),
-        }
+    def __init__(self, orders: Orders, timeout: float) -> None:
+        self._range, self._stop = orders.limits, orders.stop
         self._timeout = timeout * 1e9
         self._newest: dict[str, tuple[float, int]] = {}
         self._mission = MissionWord()
 
     def put(self, topic: str, value: float, now: int) -> bool:
-        """Keep a command; return whether a pair is complete, since the autopilot sends the thrust last.
+        """Keep a command; return whether all are there, since the autopilot sends the thrust last.
 
         Raises:
             MessageRefused: beyond the vehicle's limits.
@@ -41,7 +39,7 @@ class Commands:
         if not lowest - _ROUNDING <= value <= highest + _ROUNDING:
             raise MessageRefused(topic, f"{value:g}", f"from {lowest:g} to {highest:g}")
         self._newest[topic] = value, now
-        return topic == topics.THRUST_CMD.name and topics.RUDDER_CMD.name in self._newest
+        return topic == topics.THRUST_CMD.name and len(self._newest) == len(self._range)
 
     def mission_is(self, state: str, wall: float) -> None:
         """Process `mission_state` that arrived at `wall`, s of steady time.
@@ -54,15 +52,15 @@ class Commands:
             raise refused
 
     def silent(self, now: int) -> bool:
-        """Return whether one of the two commands is overdue, once any has arrived."""
+        """Return whether one of the commands is overdue, once any has arrived."""
         arrivals = [self._newest.get(topic, (0.0, 0))[1] for topic in self._range]
         return bool(self._newest) and min(arrivals) < now - self._timeout
 
     def none_since(self, now: int) -> bool:
-        """Return whether both commands are overdue, once any has arrived."""
+        """Return whether all commands are overdue, once any has arrived."""
         return bool(self._newest) and max(at for _, at in self._newest.values()) < now - self._timeout
 
-    def command(self, now: int, wall: float) -> Command:
+    def command(self, now: int, wall: float) -> Any:
         """Return the newest commands; a stop when one of them is overdue or the mission is over.
 
         Args:
@@ -70,5 +68,5 @@ class Commands:
             wall: steady time, s.
         """
         if self._mission.at(wall) in _OVER or self.silent(now):
-            return STOP
-        return Command(*(self._newest.get(topic, (0.0, 0))[0] for topic in self._range))
+            return self._stop
+        return type(self._stop)(*(self._newest.get(topic, (0.0, 0))[0] for topic in self._range))

@@ -17,9 +17,10 @@ from auv_msgs_py.contract.conversions import finite
 from auv_msgs_py.node.run import run_nodes
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
-from auv_msgs_py.values.types import STOP
+from auv_msgs_py.values.types import Command, SpatialCommand
 from auv_path_following import vehicle
 from auv_sim.driver_parameters import MavlinkDriverParameters
+from auv_sim.nodes.held_commands import orders_of
 from auv_sim.nodes.mavlink.commands import Commands
 from auv_sim.nodes.mavlink.mapping import CommandLimits, heartbeat, manual_control
 from auv_sim.nodes.mavlink.transport.link import MavlinkLink
@@ -45,17 +46,21 @@ class MavlinkDriverNode(SuiteNode):
         where = f"{self.get_name()}: parameter"
         if p.lockstep:
             raise ConfigurationError(f"{where} lockstep", "true", "false: vehicles never wait")
-        self.limits = CommandLimits.of(vehicle.load(p.vehicle))
+        hull = vehicle.load(p.vehicle)
+        self.limits = CommandLimits.of(hull)
         allowed = Configured(p.peer, f"{where} peer") if p.peer else None
         peer = Peer(p.vehicle_system, p.peer_timeout, allowed)
         key = load_key(p.signing_key, f"{where} signing_key")
         self.link = MavlinkLink(p.address, p.system, p.component, f"{where} address", peer, key)
         self._link_watch = LinkWatch(self.link, p.vehicle_system)
         self._vehicle = VehicleMessages(self, self.limits)
-        self._commands = Commands(self.limits, p.command_timeout)
+        orders = orders_of(hull)
+        self._stop = orders.stop
+        self._commands = Commands(orders, p.command_timeout)
         self._due = dict.fromkeys((_HEARTBEAT, _TIMESYNC), 0)
-        for topic in (topics.RUDDER_CMD, topics.THRUST_CMD):
-            self.listen(topic, partial(self._on_command, topic.name))
+        for topic in (topics.RUDDER_CMD, topics.THRUST_CMD, topics.STERNPLANE_CMD):
+            if topic.name in orders.limits:
+                self.listen(topic, partial(self._on_command, topic.name))
         self.listen(topics.MISSION_STATE, self._on_mission_state)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         for period, callback in ((_LISTEN, self._read_link), (_SUPERVISE, self._supervise)):
@@ -74,7 +79,7 @@ class MavlinkDriverNode(SuiteNode):
         return self._vehicle.time_ns()
 
     def close(self) -> None:
-        self.link.send(manual_control(STOP, self.limits, True, self.parameters.vehicle_system))
+        self._order(self._stop)
         self.link.close()
 
     def _read_link(self) -> None:
@@ -96,12 +101,16 @@ class MavlinkDriverNode(SuiteNode):
         self._commands.mission_is(message.data, time.monotonic())
 
     def _send_command(self) -> None:
-        p, now = self.parameters, self.time_ns()
+        now = self.time_ns()
         silent = self._commands.silent(now)
         self.health.error("commands", "no commands: the vehicle is stopped" if silent else "")
-        command = self._commands.command(now, time.monotonic())
-        clockwise = p.turn_axis == "clockwise"
-        self.link.send(manual_control(command, self.limits, clockwise, p.vehicle_system))
+        self._order(self._commands.command(now, time.monotonic()))
+
+    def _order(self, command: Command | SpatialCommand) -> None:
+        """Send a command to the vehicle."""
+        p = self.parameters
+        signs = p.turn_axis == "clockwise", p.vehicle_system, p.pitch_axis == "bow-down"
+        self.link.send(manual_control(command, self.limits, *signs))
 
     def _supervise(self) -> None:
         """Watch for silence, report the link, send what is due."""

@@ -7,12 +7,14 @@ from typing import Any
 
 from pymavlink.dialects.v20 import common as mavlink
 
-from auv_msgs_py.values.types import STOP, Command, Current
+from auv_msgs_py.values.types import Current, SpatialCurrent
 from auv_path_following.vehicle import Vehicle
+from auv_sim.nodes.held_commands import orders_of
 from auv_sim.nodes.mavlink.delay_line import MessageKind
-from auv_sim.nodes.mavlink.mapping import CommandLimits, command_of, pulse_of_rudder, water_track
+from auv_sim.nodes.mavlink.mapping import CommandLimits, command_of, pulse_of, water_track
+from auv_sim.vehicle.diving.simulated_diver import simulated_vehicle
+from auv_sim.vehicle.hulls.rigid_body import BodyState
 from auv_sim.vehicle.remus import PlantState
-from auv_sim.vehicle.simulated import SimulatedVehicle
 
 #: One step, ms; every period below is a multiple of it.
 STEP_MS = 10
@@ -32,6 +34,9 @@ KINDS = {
 ANSWERS = MessageKind(0, 20.0, 0.0)
 #: Link id of each kind: signatures must rise on a link, and messages of different kinds overtake each other.
 LINKS = {kind: number for number, kind in enumerate((*KINDS.values(), ANSWERS))}
+#: Of a vehicle that dives above a bottom.
+ALTITUDE = MessageKind(100, 40.0, 5.0)
+LINKS[ALTITUDE] = len(LINKS)
 #: Commands and requests to the vehicle.
 UPLINK = MessageKind(0, 20.0, 5.0)
 
@@ -47,16 +52,20 @@ class Emulator:
         current: of the water, m/s, NED.
     """
 
-    def __init__(self, hull: Vehicle, initial: PlantState, current: Current) -> None:
-        self.plant = SimulatedVehicle(hull, initial, current=current)
+    def __init__(
+        self, hull: Vehicle, initial: PlantState | BodyState, current: Current | SpatialCurrent
+    ) -> None:
+        self.plant: Any = simulated_vehicle(hull, initial, current=current)
         self.limits = CommandLimits.of(hull)
+        self.kinds = dict(KINDS)
         self.now_ms = BOOT_MS
         self.in_tube = True
         self.failsafe = True
         self.failsafes = 0
         #: Messages sent since this was last cleared: (kind, message).
         self.sent: list[tuple[MessageKind, Any]] = []
-        self._command, self._commanded_at = STOP, -COMMAND_TIMEOUT_MS
+        self._stop: Any = orders_of(hull).stop
+        self._command, self._commanded_at = self._stop, -COMMAND_TIMEOUT_MS
 
     def hear(self, message: Any) -> None:
         """Process a message of the driver."""
@@ -72,7 +81,7 @@ class Emulator:
 
     def step(self) -> None:
         """Measure and send, then advance by one step."""
-        for name, kind in KINDS.items():
+        for name, kind in self.kinds.items():
             if self.now_ms % kind.period == 0:
                 self.sent.append((kind, getattr(self, f"_{name}")()))
         if not self.failsafe and self.now_ms - self._commanded_at > COMMAND_TIMEOUT_MS:
@@ -81,7 +90,7 @@ class Emulator:
             text = f"failsafe: no command for {COMMAND_TIMEOUT_MS / 1000:g} s".encode()
             message = mavlink.MAVLink_statustext_message(mavlink.MAV_SEVERITY_CRITICAL, text)
             self.sent.append((ANSWERS, message))
-        command: Command = STOP if self.failsafe else self._command
+        command = self._stop if self.failsafe else self._command
         if not self.in_tube:
             self.plant.advance(command, STEP_MS * 1e-3)
         self.now_ms += STEP_MS
@@ -111,5 +120,5 @@ class Emulator:
         return water_track(self.now_ms * 1000, ur, vr)
 
     def _servo(self) -> Any:
-        pulse = pulse_of_rudder(self.plant.rudder, self.limits)
+        pulse = pulse_of(self.plant.rudder, self.limits.rudder)
         return mavlink.MAVLink_servo_output_raw_message(self.now_ms * 1000 % 2**32, 0, pulse, *[0] * 7)

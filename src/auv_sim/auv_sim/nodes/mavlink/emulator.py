@@ -13,25 +13,34 @@ import math
 import random
 import signal
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NoReturn
 
 from pymavlink.dialects.v20 import common as mavlink
 
-from auv_msgs_py.values.types import Current
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_msgs_py.values.types import SpatialCurrent
 from auv_path_following import vehicle
 from auv_sim.command_line import EXIT_DONE, Parser, command, finite, not_negative, positive
 from auv_sim.nodes.mavlink.delay_line import DelayLine
+from auv_sim.nodes.mavlink.emulated_diver import emulator_of
 from auv_sim.nodes.mavlink.emulated_vehicle import KINDS, LINKS, STEP_MS, UPLINK, Emulator
 from auv_sim.nodes.mavlink.mapping import WATER_LOG
 from auv_sim.nodes.mavlink.transport.link import STANDARD_PORT, MavlinkLink
 from auv_sim.nodes.mavlink.transport.signing import load_key
 from auv_sim.sim_parameters import CRUISE
-from auv_sim.vehicle.remus import PlantState
 
 #: Faster than real time: largest lag that is caught up, s of the vehicle's time; longest wait for an answer,
 #: and the period of looking for it, s of wall time.
 _PATIENCE, _WAIT, _LOOK = 0.1, 0.25, 0.001
+
+#: Options of a vehicle with stern planes: flag, type, metavar, help.
+_DIVING: tuple[tuple[str, Callable[[str], float], str, str], ...] = (
+    ("--depth", not_negative, "M", "depth at the start"),
+    ("--pitch", finite, "DEG", "pitch at the start, positive bow up"),
+    ("--upwelling", finite, "VZ", "current upwards, m/s"),
+    ("--bottom", not_negative, "M", "depth of the bottom below its echo sounder; 0: it has none"),
+)
 
 
 class LiveVehicle:
@@ -128,6 +137,8 @@ def _arguments(argv: Sequence[str] | None) -> argparse.Namespace:
         metavar=("VX", "VY"),
         help="current towards north and east, m/s",
     )
+    for flag, kind, metavar, text in _DIVING:
+        p.add_argument(flag, type=kind, default=0.0, metavar=metavar, help=f"{text}; with stern planes")
     p.add_argument("--speed", type=positive, default=1.0, metavar="N", help="times real time")
     p.add_argument(
         "--loss", type=not_negative, default=0.0, metavar="P", help="share of messages lost, both ways"
@@ -144,9 +155,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run until interrupted."""
     a = _arguments(argv)
     hull = vehicle.load(a.vehicle)
+    for flag, *_ in _DIVING:
+        if getattr(a, flag[2:]) and not hull.dives:
+            raise ConfigurationError(flag, f"vehicle {hull.name}", "a vehicle with stern planes")
     north, east, heading = a.initial
-    start = PlantState(north, east, math.radians(heading), a.surge, 0.0, 0.0)
-    emulator = Emulator(hull, start, Current(*a.current))
+    start = north, east, a.depth, math.radians(a.pitch), math.radians(heading)
+    current = SpatialCurrent(a.current[0], a.current[1], -a.upwelling)
+    emulator = emulator_of(hull, start, a.surge, current, a.bottom)
     key = load_key(a.signing_key, "--signing-key")
     link = MavlinkLink(a.address, 1, mavlink.MAV_COMP_ID_AUTOPILOT1, "--address", key=key)
     signal.signal(signal.SIGTERM, signal.default_int_handler)

@@ -10,11 +10,13 @@ from typing import Any, NamedTuple
 
 from pymavlink.dialects.v20 import common as mavlink
 
-from auv_msgs_py.values.types import Command
+from auv_msgs_py.values.types import Command, SpatialCommand
 from auv_path_following.vehicle import Vehicle
 
 #: MANUAL_CONTROL's axes go from -FULL to FULL.
 FULL = 1000
+#: Bit of `enabled_extensions` that makes the axis s valid.
+PITCH_ENABLED = 1
 #: Servo pulses: neutral, and its distance to either stop, microseconds.
 NEUTRAL_PULSE, PULSE_RANGE = 1500, 400
 #: Component of the vehicle that sends the velocity of its water-track log.
@@ -22,15 +24,17 @@ WATER_LOG = mavlink.MAV_COMP_ID_USER1
 
 
 class CommandLimits(NamedTuple):
-    """Rudder (rad) and thrust (N) at full deflection of an axis."""
+    """Rudder (rad), thrust (N) and stern planes (rad; None without) at full deflection of an axis."""
 
     rudder: float
     thrust: float
+    sternplanes: float | None = None
 
     @classmethod
     def of(cls, vehicle: Vehicle) -> CommandLimits:
         """Return the limits of a vehicle."""
-        return cls(vehicle.rudder.max_angle, vehicle.thrust_max)
+        planes = vehicle.sternplanes
+        return cls(vehicle.rudder.max_angle, vehicle.thrust_max, None if planes is None else planes.max_angle)
 
 
 def heartbeat() -> Any:
@@ -39,46 +43,72 @@ def heartbeat() -> Any:
     return mavlink.MAVLink_heartbeat_message(kind, autopilot, 0, 0, mavlink.MAV_STATE_ACTIVE, 3)
 
 
-def manual_control(command: Command, limits: CommandLimits, clockwise: bool, target: int) -> Any:
-    """Return MANUAL_CONTROL: x is thrust ahead, r the rudder; y, z and the buttons stay at rest.
+def manual_control(
+    command: Command | SpatialCommand,
+    limits: CommandLimits,
+    clockwise: bool,
+    target: int,
+    bow_down: bool = True,
+) -> Any:
+    """Return MANUAL_CONTROL: x is thrust ahead, r the rudder, s the stern planes; the rest stays neutral.
 
     Args:
-        command: rudder positive to port, and thrust.
-        limits: at full deflection.
+        command: rudder positive to port, stern planes positive bow down, and thrust.
+        limits: at full deflection. Without stern planes s is not enabled.
         clockwise: whether a positive r turns the bow to starboard, as autopilots and ground stations do; the
             specification's text says counter-clockwise.
         target: the vehicle's system id.
+        bow_down: whether a positive s puts the bow down, as the specification says.
     """
     x = _axis(command.thrust / limits.thrust)
     r = _axis(command.rudder / limits.rudder)
-    return mavlink.MAVLink_manual_control_message(target, x, 0, 0, -r if clockwise else r, 0)
+    r = -r if clockwise else r
+    if limits.sternplanes is None:
+        return mavlink.MAVLink_manual_control_message(target, x, 0, 0, r, 0)
+    assert isinstance(command, SpatialCommand)
+    s = _axis(command.sternplanes / limits.sternplanes)
+    return mavlink.MAVLink_manual_control_message(
+        target, x, 0, 0, r, 0, enabled_extensions=PITCH_ENABLED, s=s if bow_down else -s
+    )
 
 
-def command_of(message: Any, limits: CommandLimits, clockwise: bool) -> Command:
-    """Return the command of a MANUAL_CONTROL message, as a vehicle interprets it."""
-    rudder = limits.rudder * message.r / FULL
-    return Command(-rudder if clockwise else rudder, limits.thrust * message.x / FULL)
+def command_of(
+    message: Any, limits: CommandLimits, clockwise: bool, bow_down: bool = True
+) -> Command | SpatialCommand:
+    """Return the command of a MANUAL_CONTROL message, as a vehicle interprets it; s counts if enabled."""
+    rudder, thrust = limits.rudder * message.r / FULL, limits.thrust * message.x / FULL
+    rudder = -rudder if clockwise else rudder
+    if limits.sternplanes is None:
+        return Command(rudder, thrust)
+    planes = limits.sternplanes * message.s / FULL if message.enabled_extensions & PITCH_ENABLED else 0.0
+    return SpatialCommand(rudder, planes if bow_down else -planes, thrust)
 
 
 def _axis(share: float) -> int:
     return round(FULL * min(max(share, -1.0), 1.0))
 
 
-def pulse_of_rudder(angle: float, limits: CommandLimits) -> int:
-    """Return the servo pulse, us, of a rudder angle (rad, positive to port); longer is more to starboard."""
-    return NEUTRAL_PULSE - round(PULSE_RANGE * angle / limits.rudder)
+def pulse_of(angle: float, largest: float) -> int:
+    """Return the servo pulse of a fin, us.
+
+    Args:
+        angle: rad; a rudder's is positive to port, that of stern planes bow down. Longer pulses turn the
+            other way, to starboard and bow up: positive about the axes of FRD.
+        largest: angle at either end of the pulse range, rad.
+    """
+    return NEUTRAL_PULSE - round(PULSE_RANGE * angle / largest)
 
 
-def rudder_of_pulse(pulse: int, limits: CommandLimits) -> float:
-    """Return the rudder angle of a servo pulse: the inverse of `pulse_of_rudder`."""
-    return limits.rudder * (NEUTRAL_PULSE - pulse) / PULSE_RANGE
+def angle_of_pulse(pulse: int, largest: float) -> float:
+    """Return the angle of a fin, rad, of its servo pulse: the inverse of `pulse_of`."""
+    return largest * (NEUTRAL_PULSE - pulse) / PULSE_RANGE
 
 
-def water_track(boot_us: int, ur: float, vr: float) -> Any:
+def water_track(boot_us: int, ur: float, vr: float, wr: float = 0.0) -> Any:
     """Return ODOMETRY with the velocity through the water alone, in the body frame (FRD), m/s."""
     unknown = float("nan")
     covariance = [unknown] + [0.0] * 20
     return mavlink.MAVLink_odometry_message(
         boot_us, mavlink.MAV_FRAME_LOCAL_FRD, mavlink.MAV_FRAME_BODY_FRD, unknown, unknown, unknown,
-        [1.0, 0.0, 0.0, 0.0], ur, vr, 0.0, unknown, unknown, unknown, covariance, covariance,
+        [1.0, 0.0, 0.0, 0.0], ur, vr, wr, unknown, unknown, unknown, covariance, covariance,
     )  # fmt: skip

@@ -13,9 +13,10 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import finite
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.errors import MessageRefused
-from auv_msgs_py.values.types import WaterVelocity
-from auv_sim.nodes.mavlink.mapping import WATER_LOG, CommandLimits, rudder_of_pulse
-from auv_sim.nodes.mavlink.navigation import Assembly, Attitude, Position
+from auv_msgs_py.values.types import SpatialWater, WaterVelocity
+from auv_sim.nodes.mavlink.mapping import WATER_LOG, CommandLimits, angle_of_pulse
+from auv_sim.nodes.mavlink.navigation import Assembly, Attitude, Position, fuse, fuse_in_space
+from auv_sim.nodes.mavlink.soundings import sounding_of
 from auv_sim.nodes.mavlink.vehicle_time import ComponentTime, FollowedClock, OffsetEstimate
 from auv_sim.nodes.mavlink.vehicle_topics import VehicleTopics
 
@@ -28,7 +29,7 @@ class VehicleMessages:
 
     Args:
         node: the driver.
-        limits: full deflection of the vehicle.
+        limits: full deflection of the vehicle; one with stern planes dives.
     """
 
     def __init__(self, node: SuiteNode, limits: CommandLimits) -> None:
@@ -41,8 +42,9 @@ class VehicleMessages:
         self._log_time = ComponentTime(self.time, settling)
         #: Times of our requests for the vehicle's time, ns.
         self.requests: deque[int] = deque(maxlen=_REQUESTS)
-        self._assembly = Assembly()
-        self.topics = VehicleTopics(node, self._assembly.dropped)
+        self._dives = limits.sternplanes is not None
+        self._assembly = Assembly(fuse_in_space if self._dives else fuse)
+        self.topics = VehicleTopics(node, self._assembly.dropped, self._dives)
         self._water_boot_ms = 0
         #: ROS time of the newest message, ns; None before the first.
         self.heard_at: int | None = None
@@ -58,6 +60,8 @@ class VehicleMessages:
             "SERVO_OUTPUT_RAW": (autopilot, self._on_servo),
             "ODOMETRY": (WATER_LOG, self._on_water_track),
         }
+        if self._dives:
+            self._handlers["DISTANCE_SENSOR"] = autopilot, self._on_distance
 
     def time_ns(self) -> int:
         """Return ROS time, ns, without waiting for our own /clock."""
@@ -130,12 +134,15 @@ class VehicleMessages:
 
     def _on_attitude(self, message: Any) -> None:
         self._hear_time(message.time_boot_ms)
-        self._assembly.attitude(Attitude(message.time_boot_ms, message.yaw, message.yawspeed))
+        m = message
+        more = (m.roll, m.pitch, m.rollspeed, m.pitchspeed) if self._dives else ()
+        self._assembly.attitude(Attitude(m.time_boot_ms, m.yaw, m.yawspeed, *more))
 
     def _on_position(self, message: Any) -> None:
         self._hear_time(message.time_boot_ms)
         m = message
-        fused = self._assembly.position(Position(m.time_boot_ms, m.x, m.y, m.vx, m.vy))
+        more = (m.z, m.vz) if self._dives else ()
+        fused = self._assembly.position(Position(m.time_boot_ms, m.x, m.y, m.vx, m.vy, *more))
         if fused is not None and self.time.settled:
             self.topics.odometry(fused, self.time.stamp(fused.boot_ms * 1_000_000))
 
@@ -150,10 +157,25 @@ class VehicleMessages:
         if boot_ms > self._water_boot_ms and self._log_time.settled:
             self._water_boot_ms = boot_ms
             stamp = self._log_time.stamp(boot_ms * 1_000_000)
-            self.topics.water_velocity(WaterVelocity(message.vx, message.vy), stamp)
+            self.topics.water_velocity(self._water_velocity(message), stamp)
+
+    def _water_velocity(self, message: Any) -> WaterVelocity | SpatialWater:
+        """Return the velocity of a water log; NaN downwards means that it is not measured."""
+        if self._dives:
+            return SpatialWater(message.vx, message.vy, message.vz)
+        return WaterVelocity(message.vx, message.vy)
+
+    def _on_distance(self, message: Any) -> None:
+        self._hear_time(message.time_boot_ms)
+        sounding = sounding_of(message)
+        if sounding is not None and self.time.settled:
+            self.topics.altitude(sounding, self.time.stamp(message.time_boot_ms * 1_000_000))
 
     def _on_servo(self, message: Any) -> None:
-        output = self._node.parameters.rudder_servo
-        if output:
-            pulse = getattr(message, f"servo{output}_raw")
-            self.topics.rudder(rudder_of_pulse(pulse, self._limits))
+        p, limits = self._node.parameters, self._limits
+        if p.rudder_servo:
+            pulse = getattr(message, f"servo{p.rudder_servo}_raw")
+            self.topics.rudder(angle_of_pulse(pulse, limits.rudder))
+        if p.sternplane_servo and limits.sternplanes is not None:
+            pulse = getattr(message, f"servo{p.sternplane_servo}_raw")
+            self.topics.sternplanes(angle_of_pulse(pulse, limits.sternplanes))

@@ -12,10 +12,12 @@ from std_msgs.msg import Float64
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import fill_odometry, fill_water_velocity, set_stamp
+from auv_msgs_py.contract.spatial_conversions import fill_spatial_odometry, fill_spatial_water
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.node.runtime import SuiteNode
-from auv_msgs_py.values.types import WaterVelocity
+from auv_msgs_py.values.types import SpatialNavigation, SpatialWater, WaterVelocity
 from auv_sim.nodes.mavlink.navigation import Fused
+from auv_sim.nodes.mavlink.soundings import Sounding
 
 #: Step of /clock, ns.
 _CLOCK_PERIOD = 20_000_000
@@ -27,35 +29,59 @@ class VehicleTopics:
     Args:
         node: the driver; its parameters name the frames and whether it publishes /clock.
         dropped: messages that were left out, by reason; counted up.
+        dives: whether the vehicle has stern planes, and so their angle and an altitude.
     """
 
-    def __init__(self, node: SuiteNode, dropped: Counter[str]) -> None:
+    def __init__(self, node: SuiteNode, dropped: Counter[str], dives: bool) -> None:
         p = node.parameters
         self._dropped = dropped
         self._newest: dict[Topic, int] = {}
         self._odometry, self._water = Odometry(), TwistWithCovarianceStamped()
         self._odometry.header.frame_id, self._odometry.child_frame_id = p.world_frame, p.body_frame
         self._water.header.frame_id = p.body_frame
-        self._publish = {
-            topic: node.advertise(topic).publish
-            for topic in (topics.ODOM, topics.WATER_VELOCITY, topics.RUDDER_STATE)
-        }
+        offered = [topics.ODOM, topics.WATER_VELOCITY, topics.RUDDER_STATE]
+        if dives:
+            from sensor_msgs.msg import Range
+
+            offered += [topics.STERNPLANE_STATE, topics.ALTITUDE]
+            self._range: Any = Range(radiation_type=Range.ULTRASOUND)
+            self._range.header.frame_id = p.body_frame
+        self._publish = {topic: node.advertise(topic).publish for topic in offered}
         self._publish_clock = node.advertise(topics.CLOCK).publish if p.clock_speed else None
         self._clock, self._clock_at = Clock(), 0
 
     def odometry(self, fused: Fused, stamp: int) -> None:
         """Publish an odometry, stamp in ns."""
-        fill_odometry(self._odometry, fused.navigation, fused.u, fused.v, stamp)
+        _, navigation, velocity, p = fused
+        if isinstance(navigation, SpatialNavigation):
+            u, v, w = velocity
+            fill_spatial_odometry(self._odometry, navigation, (u, v, w), p, stamp)
+        else:
+            u, v = velocity
+            fill_odometry(self._odometry, navigation, u, v, stamp)
         self._in_order(topics.ODOM, self._odometry, stamp)
 
-    def water_velocity(self, velocity: WaterVelocity, stamp: int) -> None:
+    def water_velocity(self, velocity: WaterVelocity | SpatialWater, stamp: int) -> None:
         """Publish a velocity through the water, m/s, FRD; stamp in ns."""
-        fill_water_velocity(self._water, velocity, stamp)
+        if isinstance(velocity, SpatialWater):
+            fill_spatial_water(self._water, velocity, stamp)
+        else:
+            fill_water_velocity(self._water, velocity, stamp)
         self._in_order(topics.WATER_VELOCITY, self._water, stamp)
 
     def rudder(self, angle: float) -> None:
         """Publish a measured rudder angle, rad, positive to port."""
         self._publish[topics.RUDDER_STATE](Float64(data=angle))
+
+    def sternplanes(self, angle: float) -> None:
+        """Publish a measured angle of the stern planes, rad, positive bow down."""
+        self._publish[topics.STERNPLANE_STATE](Float64(data=angle))
+
+    def altitude(self, sounding: Sounding, stamp: int) -> None:
+        """Publish a range to the bottom; stamp in ns."""
+        self._range.range, self._range.min_range, self._range.max_range = sounding
+        set_stamp(self._range.header.stamp, stamp)
+        self._in_order(topics.ALTITUDE, self._range, stamp)
 
     def clock(self, now: int) -> None:
         """Publish /clock (ns) in steps of `_CLOCK_PERIOD`, where this driver publishes it."""
