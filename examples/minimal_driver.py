@@ -1,11 +1,13 @@
 """The smallest driver: a kinematic vehicle in real time. Start it with --ros-args -r __ns:=/auv."""
 
+import contextlib
 import math
 import time
 
 import rclpy
 from geometry_msgs.msg import TwistWithCovarianceStamped
 from nav_msgs.msg import Odometry
+from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from std_msgs.msg import Float64
 
@@ -42,4 +44,5 @@ class MinimalDriver(Node):
 
 
 rclpy.init()
-rclpy.spin(MinimalDriver())
+with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):  # Ctrl-C, SIGTERM
+    rclpy.spin(MinimalDriver())

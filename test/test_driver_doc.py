@@ -2,32 +2,39 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 import math
 import re
 import socket
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
+from auv_msgs_py.contract.frames import FrameIds, FrameTable
+from auv_msgs_py.contract.spatial_conversions import spatial_navigation_from, spatial_water_from
 from auv_msgs_py.values.types import STOP, Command, Current
 from auv_path_following import vehicle
 from auv_sim.launch.vehicle_driver import free_port
 from auv_sim.vehicle.remus import PlantState
 from auv_sim.vehicle.simulated import SimulatedVehicle
+from node_bench import Bench
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "driver.md"
 KNOT = 1852.0 / 3600.0
 CURRENT = Current(0.1, -0.15)
 
 
-def listing() -> str:
-    """The one Python listing of the page."""
-    (code,) = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
-    return str(code)
+def listings() -> tuple[str, str]:
+    """The two Python listings of the page: the driver, and what stern planes add."""
+    plain, diving = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+    return plain, diving
 
 
 class JsonVehicle(threading.Thread):
@@ -84,17 +91,17 @@ def json_vehicle() -> Iterator[JsonVehicle]:
 
 def test_the_listing_is_a_driver(
     json_vehicle: JsonVehicle,
-    spawn: Callable[..., object],
+    spawn: Callable[..., Any],
     tmp_path: Path,
     command_line: Callable[..., list[str]],
 ) -> None:
     file = tmp_path / "my_driver.py"
-    file.write_text(listing(), encoding="utf-8")
+    file.write_text(listings()[0], encoding="utf-8")
     python = command_line("x")[0]
-    spawn([python, str(file), "--ros-args", "-r", "__ns:=/auv", "-p", f"port:={json_vehicle.port}"])
+    driver = spawn([python, str(file), "--ros-args", "-r", "__ns:=/auv", "-p", f"port:={json_vehicle.port}"])
     asked = ["--wiggle", "--yes-the-vehicle-may-move", "--wait", "90", "--json"]
     checker = spawn(command_line("auv_sim.cli.check_vehicle", *asked))
-    out, err = checker.communicate(timeout=240)  # type: ignore[attr-defined]
+    out, err = checker.communicate(timeout=240)
     assert out, err
     items = {item["item"]: item for item in json.loads(out)["items"]}
     # A loaded machine makes gaps and delays of its own; they are not the listing's mistakes.
@@ -103,7 +110,75 @@ def test_the_listing_is_a_driver(
     assert found == set()
     for item in ("odom: yaw against course", "odom: velocity against position", "rudder: sign and scale"):
         assert items[item]["verdict"] == "pass", items[item]
+    driver.terminate()
+    assert driver.wait(timeout=20) == 0
+    assert "Traceback" not in driver.stderr.read()
 
 
-def test_the_listing_fits_on_a_page() -> None:
-    assert len(listing().splitlines()) < 100
+def test_the_listings_fit_on_a_page() -> None:
+    plain, diving = listings()
+    assert len(plain.splitlines()) < 100
+    assert len(diving.splitlines()) < 50
+
+
+@pytest.fixture
+def diving_driver(
+    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[tuple[Any, list[Any]]]:
+    """The driver for a vehicle with stern planes in this process, and the messages that it publishes."""
+    for name, code in zip(("my_driver", "my_diving_driver"), listings(), strict=True):
+        (tmp_path / f"{name}.py").write_text(code, encoding="utf-8")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.setattr(socket.socket, "bind", lambda link, _: None)
+    driver = importlib.import_module("my_diving_driver").MyDivingDriver()
+    sent: list[Any] = []
+    for publisher in ("odom", "water"):
+        monkeypatch.setattr(driver, publisher, SimpleNamespace(publish=sent.append))
+    yield driver, sent
+    driver.socket.close()
+    driver.destroy_node()
+    for name in ("my_driver", "my_diving_driver"):
+        del sys.modules[name]
+
+
+def test_the_driver_with_stern_planes_says_where_up_is(diving_driver: tuple[Any, list[Any]]) -> None:
+    driver, sent = diving_driver
+    driver.publish({
+        "age_s": 0.0, "north_m": 100.0, "east_m": 20.0, "depth_m": 12.0,
+        "heading_deg": 200.0, "bow_up_deg": -15.0, "roll_deg": 8.0,
+        "turn_deg_s": 3.0, "bow_up_deg_s": -2.0, "roll_deg_s": 1.0,
+        "ahead_kn": 3.0, "starboard_kn": 0.2, "down_kn": 0.1,
+        "water_ahead_kn": 2.8, "water_starboard_kn": 0.1, "water_down_kn": math.nan,
+    })  # fmt: skip
+    water, odometry = sent
+    frames = FrameTable(FrameIds())
+    angles = [math.radians(angle) for angle in (8.0, -15.0, 200.0 - 360.0, -2.0, 3.0)]
+    navigation = spatial_navigation_from(odometry, frames, "odom")
+    assert navigation == pytest.approx((100.0, 20.0, 12.0, *angles))
+    assert spatial_water_from(water, frames, "water") == pytest.approx(
+        (2.8 * KNOT, 0.1 * KNOT, 0.0), rel=1e-5
+    )
+    twist = odometry.twist.twist
+    assert twist.linear.z == pytest.approx(-0.1 * KNOT, rel=1e-5)
+    assert twist.angular.x == pytest.approx(math.radians(1.0))
+
+
+def test_the_driver_with_stern_planes_takes_them_and_stops_them(
+    diving_driver: tuple[Any, list[Any]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    driver, _ = diving_driver
+    orders: list[dict[str, float]] = []
+    monkeypatch.setattr(driver, "vehicle", ("127.0.0.1", 1))
+    link = SimpleNamespace(sendto=lambda data, _: orders.append(json.loads(data)), close=driver.socket.close)
+    monkeypatch.setattr(driver, "socket", link)
+    commands = {"rudder": math.radians(5.0), "sternplane": math.radians(10.0), "thrust": 4.0}
+    for name, value in list(commands.items())[:2]:
+        driver.on_command(name, value)
+    driver.send()
+    driver.on_command("thrust", commands["thrust"])
+    driver.send()
+    driver.send(stop=True)
+    neutral = {"rudder_to_starboard_deg": 0.0, "planes_bow_up_deg": 0.0, "thrust_n": 0.0}
+    under_way = {"rudder_to_starboard_deg": -5.0, "planes_bow_up_deg": -10.0, "thrust_n": 4.0}
+    for found, expected in zip(orders, (neutral, under_way, neutral), strict=True):
+        assert found == pytest.approx(expected)

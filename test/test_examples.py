@@ -94,10 +94,10 @@ def test_a_bag_is_read(
 
 
 def test_the_minimal_driver_turns_to_port_by_a_positive_rudder(
-    spawn: Callable[..., object], bench: Bench
+    spawn: Callable[..., subprocess.Popen[str]], bench: Bench
 ) -> None:
     path = ROOT / "examples" / "minimal_driver.py"
-    spawn([sys.executable, str(path), "--ros-args", "-r", "__ns:=/auv"])
+    driver = spawn([sys.executable, str(path), "--ros-args", "-r", "__ns:=/auv"])
     seen: list[Odometry] = []
     bench.node.create_subscription(Odometry, "odom", seen.append, 10)
     rudder, thrust = (
@@ -112,3 +112,6 @@ def test_the_minimal_driver_turns_to_port_by_a_positive_rudder(
     bench.until(turned)
     assert seen[-1].pose.pose.position.x > 0.0 and seen[-1].twist.twist.linear.x > 0.0
     bench.until(lambda: seen[-1].twist.twist.linear.x == 0.0)  # no command for 1 s
+    driver.terminate()
+    _, error = driver.communicate(timeout=20)
+    assert (driver.returncode, error) == (0, "")

@@ -16,6 +16,13 @@ def parser() -> argparse.ArgumentParser:
         description="Fly a looped survey for an hour of mission time and watch.",
         allow_abbrev=False,
     )
+    p.add_argument(
+        "--vehicle",
+        default="remus100",
+        metavar="FILE",
+        help="vehicle file, or the name of a shipped one; with stern planes the survey has depths"
+        " (default %(default)s)",
+    )
     p.add_argument("--minutes", type=positive, default=60.0, help="of mission time at least (default 60)")
     p.add_argument(
         "--flat",

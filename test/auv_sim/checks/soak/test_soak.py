@@ -10,6 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from auv_path_following import vehicle
+from auv_path_following.missions import mission_file
 from auv_sim.checks.soak import long_flight, memory
 from auv_sim.checks.soak.long_flight import growth
 from auv_sim.cli.soak import main
@@ -67,3 +69,15 @@ def test_a_directory_that_exists_is_never_written_to(
 ) -> None:
     assert main(["--out", str(tmp_path)]) == 2
     assert "--out" in capsys.readouterr().err
+
+
+def test_the_survey_of_a_vehicle_that_dives_has_depths(tmp_path: Path) -> None:
+    for dives, name in ((False, "remus100"), (True, "remus100_6dof")):
+        file = tmp_path / f"{name}.yaml"
+        file.write_text(long_flight.survey(dives, 2), encoding="utf-8")
+        mission = mission_file.load(str(file), vehicle.load(name))
+        assert (mission.spatial is not None) is dives
+    assert mission.spatial is not None
+    depths = [mission.spatial.evaluate(i, 0.0)[2] for i in range(mission.spatial.n)]
+    assert min(depths) == pytest.approx(10.0)
+    assert max(depths) == pytest.approx(22.0, abs=0.1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import json
 import math
 import os
@@ -17,7 +18,9 @@ from rich.table import Table
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import nanoseconds
+from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.settings.result_files import write_text
+from auv_path_following import vehicle
 from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.load import load, load_messages
 from auv_sim.checks.soak import memory
@@ -42,10 +45,13 @@ frame: ned
 speed: 1.9
 repeat: {repeat}
 waypoints:
-  points: [[0, 0], [180, 0], [180, 40], [20, 40], [20, 80], [180, 80], [180, 120], [0, 120], [-30, 60]]
+  points: {points}
   closed: true
   smoothing: {{kind: circular, radius: 8}}
 """
+_POINTS = ((0, 0), (180, 0), (180, 40), (20, 40), (20, 80), (180, 80), (180, 120), (0, 120), (-30, 60))
+#: Depths of the waypoints for a vehicle that dives, m: every leg is deeper, and the way back comes up.
+_DEPTHS = (10, 10, 14, 14, 18, 18, 22, 22, 16)
 #: Warm-up, as a share of the mission: after it a process has all the memory it needs.
 _WARM = 0.2
 #: Least share of the path that has to be flown. In the current the turns of 8 m take the vehicle farther from
@@ -108,7 +114,8 @@ def soak(arguments: argparse.Namespace) -> int:
     """Fly the soak survey, print and write memory and losses.
 
     Args:
-        arguments: the command line's: minutes of mission time, flat (largest growth, kB per 1000 steps), out.
+        arguments: the command line's: minutes of mission time, vehicle, flat (largest growth, kB per 1000
+            steps), out.
 
     Returns:
         The exit code: 0 if nothing grew or was lost, else 1.
@@ -118,11 +125,12 @@ def soak(arguments: argparse.Namespace) -> int:
     """
     directory = (arguments.out or Path("runs") / f"soak-{time.strftime('%Y%m%d-%H%M%S')}").absolute()
     make_directory(directory, new=True)
-    resolved = _plan(directory, arguments.minutes)
+    resolved = _plan(directory, arguments.minutes, arguments.vehicle)
     console = terminal()
     watch = Watch(resolved, console)
     outcome = _flown(resolved, directory, watch)
-    steps, lost = _counted(directory / "bag", resolved.parameters[topics.PLANT].step)
+    expected = topics.PER_STEP + topics.SPATIAL_PER_STEP * resolved.vehicle.dives
+    steps, lost = _counted(directory / "bag", resolved.parameters[topics.PLANT].step, expected)
     grown = growth(watch.rows)
     memory.draw(watch.rows, _WARM * watch.rows[-1][0], directory / "soak.png")
     title = f"{outcome.mission_time / 60.0:.1f} minutes of mission, {steps} steps"
@@ -141,13 +149,22 @@ def soak(arguments: argparse.Namespace) -> int:
     return EXIT_DONE if good else EXIT_FAILED
 
 
-def _plan(directory: Path, minutes: float) -> Plan:
+def survey(dives: bool, repeat: int) -> str:
+    """Return the soak survey as a mission file; with depths for a vehicle that dives."""
+    depths = [(depth,) for depth in _DEPTHS] if dives else [()] * len(_POINTS)
+    points = [[*point, *depth] for point, depth in zip(_POINTS, depths, strict=True)]
+    return SURVEY.format(points=points, repeat=repeat)
+
+
+def _plan(directory: Path, minutes: float, name: str) -> Plan:
     """Write the survey with as many laps as last `minutes`, and plan it in a current."""
-    mission = directory / "soak.yaml"
-    write_text(mission, SURVEY.format(repeat=1))
-    once = mission_plan.make(Options(mission=str(mission)), directory).verdicts.duration
-    write_text(mission, SURVEY.format(repeat=math.ceil(60.0 * minutes / once)))
-    return mission_plan.make(Options(mission=str(mission), current=(0.1, 0.2)), directory)
+    mission, dives = directory / "soak.yaml", vehicle.load(name).dives
+    write_text(mission, survey(dives, 1))
+    options = Options(mission=str(mission), vehicle=name)
+    once = mission_plan.make(options, directory).verdicts.duration
+    write_text(mission, survey(dives, math.ceil(60.0 * minutes / once)))
+    flown = dataclasses.replace(options, current=(0.1, 0.2), upwelling=-0.05 if dives else None)
+    return mission_plan.make(flown, directory)
 
 
 def _flown(resolved: Plan, directory: Path, watch: Watch) -> Outcome:
@@ -186,8 +203,8 @@ def _write(file: Path, outcome: Outcome, steps: int, lost: list[str], grown: Seq
     write_text(file, json.dumps(record, indent=2) + "\n")
 
 
-def _counted(bag: Path, step: float) -> tuple[int, list[str]]:
-    """Return how many steps were recorded, and a line for each topic that lacks some."""
+def _counted(bag: Path, step: float, expected: tuple[Topic, ...]) -> tuple[int, list[str]]:
+    """Return how many steps were recorded, and a line for each expected topic that lacks some."""
     stamps = np.array(
         [nanoseconds(message.header.stamp) for _, message in load_messages(bag, topics.ODOM.name)]
     )
@@ -196,7 +213,7 @@ def _counted(bag: Path, step: float) -> tuple[int, list[str]]:
     if missed:
         lost.append(f"{missed} steps of odom missed")
     counts = {topic.name.rsplit("/", 1)[-1]: topic.count for topic in read_bag(bag, _nothing).topics.values()}
-    for topic in topics.PER_STEP:
+    for topic in expected:
         if counts.get(topic.name, 0) != len(stamps):
             lost.append(f"{len(stamps) - counts.get(topic.name, 0)} of {topic.name} lost")
     return len(stamps), lost
