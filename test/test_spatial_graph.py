@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import dataclasses
 import json
 from pathlib import Path
@@ -12,7 +13,10 @@ from rosbags.highlevel import AnyReader
 
 from auv_msgs_py.contract import topics
 from auv_path_following import config_files
+from auv_sim.bags.content.recorded_mission import mission_in
+from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.load import load
+from auv_sim.bags.showing.report_data import page_data
 from auv_sim.cli.mission import main
 from auv_sim.flight import closed_loop
 from auv_sim.flight.run_record import SpatialRun
@@ -103,3 +107,9 @@ def test_an_altitude_is_held_over_the_graph_as_in_closed_loop(tmp_path: Path, do
     heard = np.isfinite(run.altitude)
     assert heard.any()
     assert np.abs(run.altitude[heard] - reference.altitude[heard]).max() < 1e-5
+    space = page_data(mission_in(read_bag(tmp_path / "run")), [], "at an altitude")["space"]
+    assert [colour["label"] for colour in space["colours"]][1:] == ["depth error, below is positive"]
+    north, bottom = (np.frombuffer(base64.b64decode(space["bottom"][axis]), "<f4") for axis in "xz")
+    mesh = np.frombuffer(base64.b64decode(space["mesh"]["z"]), "<f4").reshape(len(space["mesh"]["n"]), -1)
+    assert np.abs(bottom - (12.0 + 0.05 * north)).max() < 0.5  # of the sea file, with 0.05 m of noise
+    np.testing.assert_allclose(mesh[:, 0], 12.0 + 0.05 * np.array(space["mesh"]["n"]), atol=1e-5)

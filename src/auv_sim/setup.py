@@ -21,7 +21,9 @@ setup(
     maintainer=maintainer.text,
     maintainer_email=maintainer.get("email"),
     packages=find_packages(include=[name, f"{name}.*"]),
-    package_data={name: ["py.typed", "bags/showing/page/*.html", "launch/processes/*.xml"]},
+    package_data={
+        name: ["py.typed", "bags/showing/page/*.html", "bags/showing/page/*.js", "launch/processes/*.xml"]
+    },
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{name}"]),
         (f"share/{name}", ["package.xml"]),

@@ -15,6 +15,7 @@ from auv_msgs_py.settings import yaml_file
 from auv_sim.bags.content.recorded_mission import mission_in
 from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.showing.report_data import page_data
+from auv_sim.bags.verbs.report import page_of
 from auv_sim.cli import bag as bag_command
 from auv_sim.cli import mission as mission_command
 from auv_sim.flight.metrics import under_way
@@ -110,10 +111,36 @@ def test_inspect_and_compare_and_the_page_have_the_vertical(
         assert 0.0 < figures["rms_depth_error"] < 0.1
     data = page_data(mission_in(read_bag(dive)), [], "a dive")
     panels_of = {panel["title"]: panel for panel in data["panels"]}
-    assert "Stern planes (°)" in panels_of
-    assert {"height", "height_d", "sternplanes", "theta_d"} <= set(data["columns"])
-    height = np.frombuffer(base64.b64decode(data["columns"]["height"]), "<f4")
-    assert (height.min(), height.max()) == pytest.approx((-5.0, -3.0), abs=0.1)
-    distance = np.frombuffer(base64.b64decode(data["columns"]["distance"]), "<f4")
+    assert panels_of["Depth (m; down, the surface is 0)"]["down"] is True
+    assert {line["name"] for line in panels_of["Pitch (°; bow up is positive)"]["series"]} == {
+        "theta",
+        "theta_d",
+    }
+    assert "Stern planes (°; bow down is positive)" in panels_of
+    columns = {name: np.frombuffer(base64.b64decode(text), "<f4") for name, text in data["columns"].items()}
+    depth = columns["depth"]
+    assert (depth.min(), depth.max()) == pytest.approx((3.0, 5.0), abs=0.1)
     summary = json.loads((dive / "summary.json").read_text())
-    assert np.nanmax(distance) == pytest.approx(summary["largest_distance"], abs=1e-4)
+    assert np.nanmax(columns["distance"]) == pytest.approx(summary["largest_distance"], abs=1e-4)
+    assert np.nanmax(np.abs(columns["depth_error"])) == pytest.approx(
+        summary["largest_depth_error"], abs=1e-4
+    )
+    way = columns["way"]
+    assert (np.diff(way) >= 0.0).all()
+    assert way[-1] == pytest.approx(summary["path_length"], abs=1e-3)
+    assert data["table"][0][-1] == "largest depth error (m)"
+
+
+def test_the_page_has_the_path_in_three_dimensions_and_the_scripts_that_draw_it(dive: Path) -> None:
+    flight = mission_in(read_bag(dive))
+    page = page_of(flight)
+    assert "http" not in page.split('<script id="data"')[0] + page.split("/* ---- words ---- */")[1]
+    assert 'id="space"' in page
+    assert "function project(" in page
+    space = page_data(flight, [], "a dive")["space"]
+    north, east, depth = (np.frombuffer(base64.b64decode(space["path"][axis]), "<f4") for axis in "xyz")
+    assert (north[0], east[0], depth[0]) == pytest.approx((0.0, 0.0, 3.0))
+    assert (north[-1], east[-1], depth[-1]) == pytest.approx((40.0, 40.0, 4.0), abs=1e-3)
+    assert depth.max() == pytest.approx(5.0, abs=1e-3)
+    assert [colour["name"] for colour in space["colours"]] == ["distance", "depth_error", "ze"]
+    assert space["bottom"] is space["mesh"] is None

@@ -232,6 +232,9 @@ def test_the_report_stands_alone(
     data = json.loads(page.split('type="application/json">')[1].split("</script>")[0])
     assert data["panels"][0]["series"][0]["name"] == "distance"
     assert len(data["switches"]) == 1
+    assert data["space"] is None
+    assert not {"way", "depth"} & set(data["columns"])
+    assert 'id="space"' not in page
     assert ["mission", "complete"] in data["facts"] and ["flown", "100.00 %"] in data["facts"]
     assert set(data["config"]) == {"mission.yaml", "params.yaml", "vehicle.yaml"}
     assert {file.name for file in tmp_path.glob("*.png")} == {"overview.png", "track.png", "signals.png"}

@@ -114,6 +114,25 @@ class SpatialPath:
         """Return the points at an array of t in [0, 1] of subpath i (from 0): arrays of that shape."""
         return points_of(self.subpaths[i], t)
 
+    def polyline(self, spacing: float) -> tuple[Array, Array, Array, Array]:
+        """Return points along the path, all joints included, for drawing.
+
+        Args:
+            spacing: largest length of path between neighbours, m.
+
+        Returns:
+            x, y, z (NED, m) and s, each of shape (m,).
+        """
+        columns = []
+        for i, subpath in enumerate(self.subpaths):
+            t = np.linspace(0.0, 1.0, max(1, math.ceil(subpath.length / spacing)) + 1)
+            # The end of a subpath is the start of the next one: keep it once.
+            t = t if i == self.n - 1 else t[:-1]
+            p: Any = self.sampled(i, t)
+            columns.append((p.x, p.y, p.z, i + t))
+        x, y, z, s = (np.concatenate(parts) for parts in zip(*columns, strict=True))
+        return x, y, z, s
+
     def distance_to_go(self, i: int, t: float) -> float:
         """Return the length of path from t of subpath i (from 0) to the end of the path, m."""
         return self.subpaths[i].length_to_go(t) + self.after[i]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import math
 from typing import Any
 
@@ -16,6 +15,16 @@ from auv_sim.bags.content.events import Event, diagnostic_spans
 from auv_sim.bags.content.recorded_mission import RecordedMission, texts_of
 from auv_sim.bags.reading.load import messages_of
 from auv_sim.bags.reading.recording import Bag
+from auv_sim.bags.showing.space_data import (
+    NOW,
+    depth_figures,
+    packed,
+    panel,
+    series,
+    space,
+    spatial_columns,
+    vertical_panels,
+)
 from auv_sim.flight.by_odometry import ByOdometry
 from auv_sim.flight.flown_share import percent
 from auv_sim.flight.metrics import MissionSummary, SpatialMissionSummary, SubpathSummary
@@ -35,21 +44,18 @@ def page_data(flight: RecordedMission, events: list[Event], title: str) -> dict[
         "title": title,
         "facts": _facts(flight, summary, opinion),
         "notes": [*flight.bag.notes, *flight.notes, *_gaps(summary)],
-        "columns": {name: _packed(values) for name, values in columns.items()},
-        "path": {"x": _packed(path[0]), "y": _packed(path[1])} if path is not None else None,
+        "columns": {name: packed(values) for name, values in columns.items()},
+        "path": {"x": packed(path[0]), "y": packed(path[1])} if path is not None else None,
+        "space": space(flight, columns),
         "joints": [{"index": j.index, "x": j.x, "y": j.y, "geometric": j.geometric} for j in joints],
         "switches": [event.time - start for event in events if event.kind == "switch"],
         "begin": 0.0,
-        "now": [n for n in _NOW if n["name"] in columns],
+        "now": [n for n in (*_NOW, *NOW) if n["name"] in columns],
         "panels": [*_panels(flight, columns), *_diagnostics_panel(flight, start)],
         "table": _table(summary, opinion),
         "events": [{"t": e.time - start, "kind": e.kind, "text": e.text, "level": e.level} for e in events],
         "config": texts_of(flight.bag),
     }
-
-
-def _packed(values: NDArray[np.float64]) -> str:
-    return base64.b64encode(np.ascontiguousarray(values, "<f4").tobytes()).decode()
 
 
 def _columns(flight: RecordedMission) -> dict[str, NDArray[np.float64]]:
@@ -70,15 +76,13 @@ def _columns(flight: RecordedMission) -> dict[str, NDArray[np.float64]]:
         columns["track_x"], columns["track_y"] = run.track
         heading = np.where(np.isfinite(run.psi_true), run.psi_true, run.psi)
         columns["track_psi"] = np.degrees(heading)
-    if isinstance(run, SpatialRun):
-        columns["height"], columns["height_d"] = -run.depth, -run.depth_d
     if flight.mission is not None and "s" in columns:
         columns["distance"] = _distance(run, flight.mission.path, *run.track)
-        if isinstance(run, SpatialRun) and (spatial := flight.spatial) is not None:
-            columns["distance"] = spatial.distance(*run.track, run.depth, run.subpath(spatial.n))
-        elif erring:
+        if erring and flight.spatial is None:
             columns["distance_by_odometry"] = _distance(run, flight.mission.path, run.x, run.y)
-    return columns
+    if isinstance(run, SpatialRun):
+        columns |= spatial_columns(flight)
+    return {name: values for name, values in columns.items() if np.isfinite(values).any()}
 
 
 def _distance(
@@ -156,9 +160,11 @@ def _table(summary: MissionSummary | None, opinion: ByOdometry | None) -> list[l
         return [
             _number(part.duration, 1), _number(part.rms_distance, 3), _number(part.largest_distance, 3),
             _number(part.rms_heading_error, 2), _number(part.rudder_travel_per_metre, 3),
+            *(_number(figure, 3) for figure in depth_figures(part)),
         ]  # fmt: skip
 
     heads = ["subpath", "time (s)", "rms dist. (m)", "largest (m)", "rms heading (°)", "rudder (°/m)"]
+    heads += ["rms depth (m)", "largest depth error (m)"] * bool(depth_figures(summary))
     rows = [[f"{part.number} {part.kind}", *figures(part)] for part in summary.subpaths]
     rows.append(["all", *figures(summary)])
     if opinion is not None:
@@ -172,64 +178,41 @@ def _number(value: float, digits: int) -> str:
     return f"{value:.{digits}f}" if math.isfinite(value) else "–"
 
 
-def _series(name: str, label: str, color: str, width: float = 1.5, wraps: bool = False) -> dict[str, Any]:
-    return {"name": name, "label": label, "color": color, "width": width, "wraps": wraps}
-
-
 def _panels(flight: RecordedMission, columns: dict[str, Any]) -> list[dict[str, Any]]:
     """Return the panels that have a recorded signal."""
     hull, erring = flight.vehicle, "x_true" in columns
     angle = [math.degrees(hull.rudder.max_angle)] if hull is not None else []
     rate = [math.degrees(hull.rudder.max_rate)] if hull is not None else []
     panels = [
-        ("Distance to the path (m)", 0.2, [], [
-            _series("distance", "true distance" if erring else "geometric distance", "path", 4.0),
-            _series("distance_by_odometry", "by odometry", "orange", 1.2),
-            _series("ye", "cross-track error ye", "blue"),
+        panel("Distance to the path (m)", 0.2, [], [
+            series("distance", "true distance" if erring else "geometric distance", "path", 4.0),
+            series("distance_by_odometry", "by odometry", "orange", 1.2),
+            series("ye", "cross-track error ye", "blue"),
         ]),
-        ("Along-track error xe (m)", 0.2, [], [_series("xe", "xe", "blue")]),
-        ("Heading (°)", 5.0, [], [
-            _series("psi_d", "desired ψd", "path", 4.0, True),
-            _series("psi", "measured ψ", "blue", 1.5, True),
+        panel("Along-track error xe (m)", 0.2, [], [series("xe", "xe", "blue")]),
+        panel("Heading (°)", 5.0, [], [
+            series("psi_d", "desired ψd", "path", 4.0, True),
+            series("psi", "measured ψ", "blue", 1.5, True),
         ]),
-        ("Heading error (°)", 2.0, [], [_series("psi_e", "ψ − ψd", "blue")]),
-        ("Rudder (°)", 2.0, angle, [
-            _series("rudder_cmd", "commanded", "orange", 3.0), _series("rudder", "measured", "blue"),
+        panel("Heading error (°)", 2.0, [], [series("psi_e", "ψ − ψd", "blue")]),
+        panel("Rudder (°)", 2.0, angle, [
+            series("rudder_cmd", "commanded", "orange", 3.0), series("rudder", "measured", "blue"),
         ]),
-        ("Rudder rate (°/s)", 2.0, rate, [_series("rudder_rate", "from row to row", "blue")]),
-        *_vertical_panels(flight),
-        ("Speed through water (m/s)", 0.2, [], [_series("ur", "ur", "blue"), _series("vr", "vr", "orange")]),
-        ("Current (m/s)", 0.1, [], [
-            _series("Vx_true", "true north", "path", 5.0), _series("Vy_true", "true east", "path", 5.0),
-            _series("Vx_est", "estimated north", "blue"), _series("Vy_est", "estimated east", "orange"),
+        panel("Rudder rate (°/s)", 2.0, rate, [series("rudder_rate", "from row to row", "blue")]),
+        *vertical_panels(flight),
+        panel("Speed through water (m/s)", 0.2, [], [
+            series("ur", "ur", "blue"), series("vr", "vr", "orange"),
         ]),
-    ]  # fmt: skip
-    shown = []
-    for title, least, limits, series in panels:
-        there = [s for s in series if s["name"] in columns]
-        if there:
-            both = [sign * limit for limit in limits for sign in (1.0, -1.0)]
-            shown.append({"title": title, "least": least, "limits": both, "series": there})
-    return shown
-
-
-def _vertical_panels(flight: RecordedMission) -> list[Any]:
-    """Return the panels of a vehicle that dives; the columns of others have none of their signals."""
-    planes = flight.vehicle.sternplanes if flight.vehicle is not None else None
-    limits = [math.degrees(planes.max_angle)] if planes is not None else []
-    return [
-        ("Height (m; the surface is 0)", 0.5, [0.0], [
-            _series("height_d", "requested", "orange", 3.0), _series("height", "flown", "blue"),
-        ]),
-        ("Error below the path ze (m)", 0.2, [], [_series("ze", "ze", "blue")]),
-        ("Pitch (°)", 2.0, [], [
-            _series("theta_d", "desired", "path", 4.0), _series("theta", "measured", "blue"),
-        ]),
-        ("Stern planes (°)", 2.0, limits, [
-            _series("sternplanes_cmd", "commanded", "orange", 3.0),
-            _series("sternplanes", "measured", "blue"),
+        panel("Current (m/s)", 0.1, [], [
+            series("Vx_true", "true north", "path", 5.0), series("Vy_true", "true east", "path", 5.0),
+            series("Vx_est", "estimated north", "blue"), series("Vy_est", "estimated east", "orange"),
+            series("Vz_true", "true down", "path", 5.0), series("Vz_est", "estimated down", "green"),
         ]),
     ]  # fmt: skip
+    for one in panels:
+        one["series"] = [line for line in one["series"] if line["name"] in columns]
+        one["limits"] = [sign * limit for limit in one["limits"] for sign in (1.0, -1.0)]
+    return [one for one in panels if one["series"]]
 
 
 def _diagnostics_panel(flight: RecordedMission, start: float) -> list[dict[str, Any]]:

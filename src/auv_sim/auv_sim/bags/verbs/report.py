@@ -23,6 +23,8 @@ from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, wrote
 
 PAGE = "report.html"
+#: The page's parts: the template, and the scripts of the view in three dimensions.
+_PAGE, _IN_SPACE = "report.html", ("geometry.js", "space.js")
 #: What each file is for.
 _WHAT = {
     PAGE: "everything, for a browser",
@@ -69,13 +71,18 @@ def run(arguments: argparse.Namespace) -> int:
 def page_of(flight: RecordedMission) -> str:
     """Return the self-contained page as text."""
     title = _title(flight)
-    data = json.dumps(without_nan(page_data(flight, events_of(flight), title)), allow_nan=False)
+    content = page_data(flight, events_of(flight), title)
+    data = json.dumps(without_nan(content), allow_nan=False)
     # The data must not end the element that contains it.
     data = data.replace("<", "\\u003c")
-    template = (
-        resources.files("auv_sim.bags.showing").joinpath("page", "report.html").read_text(encoding="utf-8")
-    )
-    return template.replace("{{TITLE}}", html.escape(title)).replace("{{DATA}}", data)
+    more = "".join(f"<script>\n{_part(name)}</script>\n" for name in _IN_SPACE if content["space"])
+    page = _part(_PAGE).replace("{{MORE}}", more)
+    return page.replace("{{TITLE}}", html.escape(title)).replace("{{DATA}}", data)
+
+
+def _part(name: str) -> str:
+    """Return a part of the page."""
+    return resources.files("auv_sim.bags.showing").joinpath("page", name).read_text(encoding="utf-8")
 
 
 def _title(flight: RecordedMission) -> str:

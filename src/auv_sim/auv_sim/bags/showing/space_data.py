@@ -1,0 +1,161 @@
+"""What the report's page has of a vehicle that dives: columns, panels, and the view in three dimensions."""
+
+from __future__ import annotations
+
+import base64
+import contextlib
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.bags.content.recorded_mission import RecordedMission, configuration
+from auv_sim.flight.metrics import SpatialMissionSummary, SpatialSubpathSummary
+from auv_sim.flight.path_cells import KNOT_METRES, KNOT_S, cells_of
+from auv_sim.flight.run_record import SpatialRun
+from auv_sim.vehicle import sea
+from auv_sim.vehicle.diving.bottom import Bottom, bottom_at, bottom_of
+from auv_sim.vehicle.draws import Draws
+
+#: Of a sea's bottom, this many rows and columns are drawn.
+_MESH = 24
+#: A path is drawn with points this far apart, m.
+_SPACING = 1.0
+
+Column = NDArray[np.float64]
+
+
+def packed(values: Column) -> str:
+    """Return numbers as the page reads them."""
+    return base64.b64encode(np.ascontiguousarray(values, "<f4").tobytes()).decode()
+
+
+def spatial_columns(flight: RecordedMission) -> dict[str, Column]:
+    """Return the derived columns of a run in three dimensions, in the units of the page."""
+    run, spatial = flight.run, flight.spatial
+    assert isinstance(run, SpatialRun)
+    columns = {"depth": run.depth, "depth_d": run.depth_d}
+    if np.isfinite(run.theta_true).any():
+        columns["track_theta"] = np.degrees(np.where(np.isfinite(run.theta_true), run.theta_true, run.theta))
+    bottom = bottom_below(run)
+    if np.isfinite(bottom).any():
+        columns["bottom"] = bottom
+    if flight.mission is None or not np.isfinite(run.s).any():
+        return columns
+    if flight.mission.altitude is not None:
+        columns |= {"ze": np.full(run.steps, np.nan), "depth_error": run.depth - run.depth_d}
+    elif spatial is not None:
+        away, depth = spatial.closest(*run.track, run.depth, run.subpath(spatial.n))
+        columns |= {"distance": away, "depth_path": depth, "depth_error": run.depth - depth}
+    knots = cells_of(spatial or flight.mission.path).knots
+    way = np.interp(np.nan_to_num(run.s), knots[:, KNOT_S], knots[:, KNOT_METRES])
+    return columns | {"way": np.maximum.accumulate(way)}
+
+
+def bottom_below(run: SpatialRun) -> Column:
+    """Return the depth of the bottom that the altimeter found below each row, m; NaN without an echo."""
+    slant = np.where(np.isfinite(run.altitude), run.altitude, np.nan)
+    below: Column = run.depth + slant * np.cos(run.phi) * np.cos(run.theta)
+    return below
+
+
+def space(flight: RecordedMission, columns: dict[str, Column]) -> dict[str, Any] | None:
+    """Return what the view in three dimensions needs beside the columns; None without a track with depths."""
+    run = flight.run
+    if not isinstance(run, SpatialRun) or not np.isfinite(run.depth).any():
+        return None
+    bottom = None
+    if "bottom" in columns:
+        heard = np.isfinite(columns["bottom"])
+        place = (*run.track, columns["bottom"])
+        bottom = dict(zip("xyz", (packed(axis[heard]) for axis in place), strict=True))
+    path = None
+    if flight.spatial is not None:
+        path = dict(zip("xyz", map(packed, flight.spatial.polyline(_SPACING)[:3]), strict=True))
+    colours = [
+        {"name": "distance", "label": "distance to the path", "unit": "m", "signed": False},
+        {"name": "depth_error", "label": "depth error, below is positive", "unit": "m", "signed": True},
+        {"name": "ze", "label": "error ze of guidance", "unit": "m", "signed": True},
+    ]
+    shown = [colour for colour in colours if colour["name"] in columns]
+    return {"path": path, "bottom": bottom, "mesh": _mesh(flight, run), "colours": shown}
+
+
+def _mesh(flight: RecordedMission, run: SpatialRun) -> dict[str, Any] | None:
+    """Return the bottom of the recorded sea around the track, if it has one."""
+    x, y = (axis[np.isfinite(axis)] for axis in run.track)
+    bottom = _sea_bottom(flight)
+    if bottom is None or not x.size:
+        return None
+    margin = max(5.0, 0.1 * max(np.ptp(x), np.ptp(y)))
+    north, east = (np.linspace(axis.min() - margin, axis.max() + margin, _MESH) for axis in (x, y))
+    z = np.array([[bottom_at(bottom, float(n), float(e)) for e in east] for n in north])
+    return {"n": north.tolist(), "e": east.tolist(), "z": packed(z.ravel())} if np.isfinite(z).all() else None
+
+
+def _sea_bottom(flight: RecordedMission) -> Bottom | None:
+    with configuration(flight.bag) as directory, contextlib.suppress(ConfigurationError):
+        if (directory / "sea.yaml").exists():
+            return bottom_of(sea.load(str(directory / "sea.yaml")).bottom, Draws(1.0, 1))
+    return None
+
+
+def vertical_panels(flight: RecordedMission) -> list[dict[str, Any]]:
+    """Return the panels of a vehicle that dives; the columns of others have none of their signals."""
+    planes = flight.vehicle.sternplanes if flight.vehicle is not None else None
+    limits = [math.degrees(planes.max_angle)] if planes is not None else []
+    at_altitude = flight.mission is not None and flight.mission.altitude is not None
+    against = "less the requested one" if at_altitude else "less that of the path"
+    lines = [
+        series("depth_path", "path", "path", 5.0), series("depth_d", "requested", "orange", 2.0),
+        series("depth", "flown", "blue"), series("bottom", "bottom", "brown"),
+    ]  # fmt: skip
+    return [
+        panel("Depth (m; down, the surface is 0)", 0.5, [], lines) | {"down": True, "marks": [0.0]},
+        panel("Depth error (m; below is positive)", 0.2, [], [
+            series("depth_error", against, "path", 4.0), series("ze", "error ze", "blue"),
+        ]),
+        panel("Pitch (°; bow up is positive)", 2.0, [], [
+            series("theta_d", "desired", "path", 4.0), series("theta", "measured", "blue"),
+        ]),
+        panel("Stern planes (°; bow down is positive)", 2.0, limits, [
+            series("sternplanes_cmd", "commanded", "orange", 3.0), series("sternplanes", "measured", "blue"),
+        ]),
+    ]  # fmt: skip
+
+
+def panel(title: str, least: float, limits: list[float], lines: list[dict[str, Any]]) -> dict[str, Any]:
+    """Return a panel of signals over time.
+
+    Args:
+        title: with the unit.
+        least: smallest range that is shown.
+        limits: magnitudes, drawn on both sides of 0 where they are near.
+        lines: of `series`.
+    """
+    return {"title": title, "least": least, "limits": limits, "series": lines}
+
+
+def series(name: str, label: str, color: str, width: float = 1.5, wraps: bool = False) -> dict[str, Any]:
+    """Return one line of a panel."""
+    return {"name": name, "label": label, "color": color, "width": width, "wraps": wraps}
+
+
+def depth_figures(part: object) -> list[float]:
+    """Return the further figures of a row of the page's table: rms and largest depth error, m."""
+    if isinstance(part, SpatialMissionSummary | SpatialSubpathSummary):
+        return [part.rms_depth_error, part.largest_depth_error]
+    return []
+
+
+NOW = [
+    {"name": "depth", "label": "depth", "unit": "m", "digits": 2},
+    {"name": "depth_d", "label": "requested", "unit": "m", "digits": 2},
+    {"name": "depth_error", "label": "below path", "unit": "m", "digits": 3},
+    {"name": "theta", "label": "pitch", "unit": "°", "digits": 1},
+    {"name": "theta_d", "label": "desired pitch", "unit": "°", "digits": 1},
+    {"name": "sternplanes", "label": "stern planes", "unit": "°", "digits": 2},
+    {"name": "altitude", "label": "altitude", "unit": "m", "digits": 1},
+]
