@@ -2,8 +2,8 @@
 
 from auv_msgs_py.values.types import Current
 from auv_path_following import vehicle
+from auv_path_following.mission_check.flyable import check
 from auv_path_following.missions import mission_file
-from auv_sim.checks.mission_check.flyable import check
 
 hull = vehicle.load("remus100")
 mission = mission_file.load("survey_wgs84", hull)

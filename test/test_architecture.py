@@ -21,8 +21,8 @@ ROOMS = (
         "auv_path_following",
         (
             "config_files", "registry", "abilities", "vertical_hull", "vehicle", "curves", "navigation",
-            "missions", "control", "guidance", "parameters", "pilot", "spatial_pilot", "pilots", "course",
-            "comparators", "nodes",
+            "missions", "control", "guidance", "mission_check", "parameters", "pilot", "spatial_pilot",
+            "pilots", "course", "comparators", "nodes",
         ),
     ),
 )  # fmt: skip

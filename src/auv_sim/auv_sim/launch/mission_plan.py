@@ -18,10 +18,10 @@ from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_path_following.guidance.spatial.flown_path import flown_path
 from auv_path_following.guidance.spatial.spatial_follower import mode_of
+from auv_path_following.mission_check.flyable import Findings, check, refusal, require_planes
 from auv_path_following.missions import mission_file
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
-from auv_sim.checks.mission_check.flyable import Findings, check, refusal, require_planes
 from auv_sim.flight.scenario import Scenario
 from auv_sim.launch import node_settings
 from auv_sim.launch.options import BY_RULE, DEFAULT_PARAMS, DRIVERS, Options

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from auv_path_following.mission_check.depth_survey import DepthSurvey, survey_of
+from auv_path_following.mission_check.depths import DepthBounds, bounds_of
+from auv_path_following.mission_check.flyable import Findings
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
-from auv_sim.checks.mission_check.depth_survey import DepthSurvey, survey_of
-from auv_sim.checks.mission_check.depths import DepthBounds, bounds_of
-from auv_sim.checks.mission_check.flyable import Findings
 from auv_sim.views.plot_style import AREA, BLUE, HALO, MUTED, RED, style
 
 #: More knots than this are not marked.

@@ -12,10 +12,10 @@ from matplotlib.figure import Figure
 
 from auv_msgs_py.values.types import NO_CURRENT, Current
 from auv_path_following.curves.outline import look, polygon
+from auv_path_following.mission_check.flyable import Findings
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.mission_check.depth_panels import draw_depths
-from auv_sim.checks.mission_check.flyable import Findings
 from auv_sim.views.labels import arrow
 from auv_sim.views.plot_style import AREA, BLUE, GREEN, HALO, INK, MUTED, ORANGE, PATH, RED, save, style
 

@@ -26,12 +26,12 @@ from auv_path_following import config_files, vehicle
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.guidance.switching import with_overrides
+from auv_path_following.mission_check.depth_survey import survey_of
+from auv_path_following.mission_check.flyable import Findings, check, refusal, refusals, require_planes
 from auv_path_following.missions import mission_file
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.mission_check import chart, drawing
-from auv_sim.checks.mission_check.depth_survey import survey_of
-from auv_sim.checks.mission_check.flyable import Findings, check, refusal, refusals, require_planes
 from auv_sim.command_line import EXIT_BAD_INPUT, EXIT_DONE, say, to_type
 from auv_sim.sim_parameters import SUITE
 from auv_sim.terminal import console as terminal

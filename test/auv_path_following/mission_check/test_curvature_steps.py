@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from auv_path_following import vehicle
+from auv_path_following.mission_check.flyable import check
 from auv_path_following.missions import mission_file
-from auv_sim.checks.mission_check.flyable import check
 from auv_sim.flight import closed_loop
 from auv_sim.launch import mission_plan
 from auv_sim.launch.options import Options

@@ -11,9 +11,9 @@ from auv_msgs_py.values.types import Current
 from auv_path_following.curves.joints import Joint
 from auv_path_following.guidance.acceptance import acceptance_radius, corner_of, cornering_of
 from auv_path_following.guidance.switching import SwitchingConfig
+from auv_path_following.mission_check.finding import Finding, Level, at
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
-from auv_sim.checks.mission_check.finding import Finding, Level, at
 
 #: Circles of more look-aheads than this leave out too much of the path. One is the paper's bound; a little
 #: more is useful in a current.

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 from auv_path_following.control.nism import NismConfig, kp_of
 from auv_path_following.control.reference_model import ReferenceConfig, limits_of
+from auv_path_following.mission_check.finding import Finding, at
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
-from auv_sim.checks.mission_check.finding import Finding, at
 
 #: Time in which guidance and heading reference recover a lost heading, s. Fitted to flights of the REMUS 100
 #: in closed loop from one turn into the opposite one, at 1 to 2 m/s and radii of 8 and 12 m: within a fifth.

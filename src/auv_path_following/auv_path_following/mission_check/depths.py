@@ -15,10 +15,10 @@ from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_path_following.curves.spatial.spatial_segment import Lifted
 from auv_path_following.guidance.spatial.spatial_limits import steepest_at, steepest_of
 from auv_path_following.guidance.switching import SwitchingConfig
+from auv_path_following.mission_check.depth_survey import DepthSurvey, survey_of
+from auv_path_following.mission_check.finding import Finding, at
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
-from auv_sim.checks.mission_check.depth_survey import DepthSurvey, survey_of
-from auv_sim.checks.mission_check.finding import Finding, at
 
 #: Pitch that is left to correct with on the steepest slope, rad.
 SPARE = math.radians(5.0)

@@ -19,11 +19,11 @@ from auv_path_following.curves.kinds.arc import Arc
 from auv_path_following.curves.kinds.line import Line
 from auv_path_following.curves.kinds.polynomial import Polynomial
 from auv_path_following.guidance.switching import SwitchingConfig
+from auv_path_following.mission_check.crossings import crossings
+from auv_path_following.mission_check.flyable import _inside, check
 from auv_path_following.missions import limits, mission_file
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.missions.routes.smoothing import Smoothing, smooth
-from auv_sim.checks.mission_check.crossings import crossings
-from auv_sim.checks.mission_check.flyable import _inside, check
 
 REMUS = vehicle.load("remus100")
 

@@ -14,15 +14,15 @@ from auv_msgs_py.values.types import NO_CURRENT, Current, SpatialCurrent
 from auv_path_following.control.hull_model import SteadyTurn, tightest_turn
 from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.guidance.switching import SwitchingConfig
+from auv_path_following.mission_check.circles import circles
+from auv_path_following.mission_check.crossings import Crossing, crossings
+from auv_path_following.mission_check.curvature_steps import curvature_steps
+from auv_path_following.mission_check.depths import depths
+from auv_path_following.mission_check.finding import Finding, at
+from auv_path_following.mission_check.lap_survey import LapSurvey
 from auv_path_following.missions.limits import Point
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
-from auv_sim.checks.mission_check.circles import circles
-from auv_sim.checks.mission_check.crossings import Crossing, crossings
-from auv_sim.checks.mission_check.curvature_steps import curvature_steps
-from auv_sim.checks.mission_check.depths import depths
-from auv_sim.checks.mission_check.finding import Finding, at
-from auv_sim.checks.mission_check.lap_survey import LapSurvey
 
 Array = npt.NDArray[np.float64]
 

@@ -12,8 +12,8 @@ from auv_msgs_py.values.types import Current
 from auv_path_following.control.hull_model import SteadyTurn
 from auv_path_following.curves.outline import look, tightest
 from auv_path_following.guidance.laws.ailos import AilosConfig
+from auv_path_following.mission_check.finding import Finding, at
 from auv_path_following.missions.mission_file import Mission
-from auv_sim.checks.mission_check.finding import Finding, at
 
 Array = npt.NDArray[np.float64]
 
