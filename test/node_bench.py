@@ -18,9 +18,10 @@ from std_srvs.srv import Trigger
 
 from auv_msgs_py.contract import qos, topics
 from auv_msgs_py.contract.conversions import fill_odometry, fill_water_velocity
+from auv_msgs_py.contract.spatial_conversions import fill_spatial_odometry, fill_spatial_water
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.node.runtime import SuiteNode
-from auv_msgs_py.values.types import Navigation, WaterVelocity
+from auv_msgs_py.values.types import Navigation, SpatialNavigation, SpatialWater, WaterVelocity
 
 #: Nodes that read odometry.
 _NAVIGATED = ("CurrentObserverNode", "GuidanceNode", "HeadingAutopilotNode")
@@ -110,6 +111,19 @@ class Bench:
         self.water(seconds, ur, frame=frames[1])
         self.spin(0.01)
         self.odometry(seconds, navigation, frames)
+
+    def diving(self, seconds: float, navigation: SpatialNavigation, water: SpatialWater | None) -> None:
+        """Velocity through the water, if it is measured, then odometry."""
+        if water is not None:
+            message = TwistWithCovarianceStamped()
+            message.header.frame_id = "base_link"
+            fill_spatial_water(message, water, round(seconds * 1e9))
+            self.send(topics.WATER_VELOCITY, message)
+            self.spin(0.01)
+        odometry = Odometry()
+        odometry.header.frame_id, odometry.child_frame_id = "map", "base_link"
+        fill_spatial_odometry(odometry, navigation, (1.9, 0.0, 0.0), 0.0, round(seconds * 1e9))
+        self.send(topics.ODOM, odometry)
 
     def reference(self, yaw: float, rate: float, thrust: float) -> None:
         for topic, value in zip(

@@ -16,7 +16,7 @@ LONGER = {
     "compiled_flight.fly_one": (63, _STEP),
     "spatial_follow.follow_spatial": (60, _STEP),
     "follow.follow": (56, _STEP),
-    "guide.guide": (51, _STEP),
+    "guide.guide": (54, _STEP),
     "navigator._carry_on": (50, _STEP),
     "current_observer.observe": (49, _STEP),
     "autopilot.steer": (44, _STEP),

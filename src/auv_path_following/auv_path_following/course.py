@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 from auv_msgs_py.values.types import NO_SPATIAL_WATER, NO_WATER
 from auv_path_following.curves.spatial.spatial_rows import spatial_rows
 from auv_path_following.guidance import guide
 from auv_path_following.guidance.approach import agility_of
+from auv_path_following.guidance.failsafe import guard
 from auv_path_following.guidance.guide import Guide
 from auv_path_following.guidance.measured import Measured, SpatialMeasured
 from auv_path_following.guidance.spatial.flown_path import flown_path
 from auv_path_following.guidance.spatial.spatial_follower import mode_of
 from auv_path_following.missions import limits
+from auv_path_following.missions.limits import LimitsConfig
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.parameters import GuidanceParameters
 from auv_path_following.vehicle import Vehicle
+
+#: Without `limits.max_depth` a mission ends at this many times the largest depth of the vehicle file: a path
+#: at that depth is allowed, and is not held to the millimetre.
+HULL_MARGIN = 1.05
 
 
 class PlanarCourse:
@@ -56,11 +63,18 @@ class PlanarCourse:
         hold_after = math.inf if p.lockstep else p.holding.hold_after
         bounds: Any = None
         if is_limited:
-            bounds = limits.prepare(p.limits.stricter(self.mission.limits), self.mission.geofence)
+            bounds = limits.prepare(self._limits(p), self.mission.geofence)
         return self._guide_of(p, hold_after, bounds)
+
+    def _limits(self, p: GuidanceParameters) -> LimitsConfig:
+        return p.limits.stricter(self.mission.limits)
 
     def _guide_of(self, p: GuidanceParameters, hold_after: float, bounds: Any) -> Guide:
         return guide.prepare(p.guidance, self._agility, self.mission.thrust, hold_after, bounds)
+
+    def depth_and_heading(self, navigation: Any) -> tuple[float, float]:
+        """Return depth (m) and heading (rad) of what was measured."""
+        return 0.0, navigation.psi
 
     def measured(self, inputs: Any, to_go: float, now: float) -> Any:
         """Return one measurement for guidance.
@@ -85,9 +99,17 @@ class SpatialCourse(PlanarCourse):
         self.with_altitude = mission.altitude is not None
 
     def _guide_of(self, p: GuidanceParameters, hold_after: float, bounds: Any) -> Guide:
-        config, hull = p.guidance, self.vehicle
+        config, hull, thrust = p.guidance, self.vehicle, self.mission.thrust
         mode = mode_of(self.mission, config, p.limits, hull)
-        return guide.prepare_spatial(config, hull, self.mission.thrust, mode, hold_after, bounds)
+        watch = None if bounds is None else guard.prepare(p.diving, p.ascent, hull, thrust)
+        return guide.prepare_spatial(config, hull, thrust, mode, hold_after, bounds, watch)
+
+    def _limits(self, p: GuidanceParameters) -> LimitsConfig:
+        found = super()._limits(p)
+        return found if found.max_depth else replace(found, max_depth=HULL_MARGIN * self.vehicle.depth.max)
+
+    def depth_and_heading(self, navigation: Any) -> tuple[float, float]:
+        return navigation.z, navigation.psi
 
     def measured(self, inputs: Any, to_go: float, now: float) -> Any:
         water, has_water = inputs.water or NO_SPATIAL_WATER, inputs.water is not None

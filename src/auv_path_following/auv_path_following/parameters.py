@@ -9,11 +9,14 @@ from auv_msgs_py.contract.frames import FrameIds
 from auv_msgs_py.settings.schema import setting, settings
 from auv_path_following.control.autopilot import AutopilotConfig
 from auv_path_following.control.pitch_plane import pitch_gains
+from auv_path_following.guidance.failsafe.ascent import AscentConfig
+from auv_path_following.guidance.failsafe.dive_limits import DiveLimitsConfig
 from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.guidance.switching import with_overrides
 from auv_path_following.missions.limits import LimitsConfig
 from auv_path_following.missions.mission_state import HoldingConfig
 from auv_path_following.navigation.current_observer import CurrentObserverConfig
+from auv_path_following.navigation.depth_gate import DepthGateConfig
 from auv_path_following.navigation.navigation_gate import NavigationGateConfig
 
 if TYPE_CHECKING:  # only guidance reads missions; the other nodes start faster without it
@@ -38,6 +41,9 @@ class NavigationParameters(NodeParameters):
     frames: FrameIds = setting(factory=FrameIds, doc="accepted frame ids")
     vehicle: str = setting("remus100", "vehicle file, or the name of a shipped one")
     gate: NavigationGateConfig = setting(factory=NavigationGateConfig, doc="which odometry is accepted")
+    depth_gate: DepthGateConfig = setting(
+        factory=DepthGateConfig, doc="which depth is accepted, of a vehicle with stern planes"
+    )
     lateness: float = setting(
         1.0, "odometry is refused when its delay behind its stamp has grown by more than this", unit="s",
         ge=0.05, le=60.0,
@@ -69,6 +75,12 @@ class GuidanceParameters(NavigationParameters):
     guidance: PathFollowerConfig = setting(factory=PathFollowerConfig, doc="virtual point, law and switching")
     holding: HoldingConfig = setting(factory=HoldingConfig, doc="response to missing navigation")
     limits: LimitsConfig = setting(factory=LimitsConfig, doc="what ends a mission")
+    diving: DiveLimitsConfig = setting(
+        factory=DiveLimitsConfig, doc="what ends the mission of a vehicle with stern planes"
+    )
+    ascent: AscentConfig = setting(
+        factory=AscentConfig, doc="ascent of a vehicle with stern planes, after a limit has ended its mission"
+    )
     water_velocity_timeout: float = setting(
         1.0, "oldest velocity through water that is still used", unit="s", ge=0.05, le=60.0, live=True
     )

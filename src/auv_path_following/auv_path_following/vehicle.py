@@ -238,6 +238,13 @@ class Vehicle:
         return self.speed_at(self.thrust_max)
 
     @property
+    def floats(self) -> bool:
+        """Whether the vehicle rises without thrust; without coefficients: unless its file allows sinking."""
+        if self.hull is None or self.hull.vertical is None:
+            return not self.depth.allow_sinking
+        return self.hull.vertical.B > self.hull.vertical.W
+
+    @property
     def shallowest(self) -> float:
         """Least depth at which a dive begins, m: that of the floating hull; 0 without its coefficients."""
         if self.hull is None or self.hull.vertical is None:

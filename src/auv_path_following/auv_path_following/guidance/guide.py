@@ -8,6 +8,16 @@ from typing import Any, NamedTuple
 from auv_msgs_py.values.pure import pure
 from auv_path_following.guidance import path_follower
 from auv_path_following.guidance.approach import Agility
+from auv_path_following.guidance.failsafe.guard import (
+    UNHARMED,
+    DiveGuard,
+    GuardInputs,
+    GuardState,
+    NoDive,
+    guard_step,
+    surfaces,
+    without_navigation,
+)
 from auv_path_following.guidance.followers import (
     follow_step,
     follower_begins,
@@ -31,11 +41,9 @@ from auv_path_following.missions.mission_state import (
     NO_REASON,
     RUNNING,
     MissionStatus,
-    aborted,
     completed,
     is_under_way,
     navigation_back,
-    navigation_lost,
     started,
 )
 from auv_path_following.vehicle import Vehicle
@@ -49,12 +57,14 @@ class Guide(NamedTuple):
         limits: configuration of `limits_step`.
         hold_after: a mission holds after this long without usable navigation, s; infinite: never.
         thrust: desired while the mission runs, N.
+        guard: configuration of `guard_step`.
     """
 
     follower: Any
     limits: Any
     hold_after: float
     thrust: float
+    guard: Any
 
 
 def prepare(
@@ -73,7 +83,8 @@ def prepare(
         hold_after: without usable navigation for this long the mission holds, s.
         bounds: of `limits.prepare`; none if None.
     """
-    return Guide(path_follower.prepare(config, agility), bounds or NoLimits(), hold_after, float(thrust))
+    follower = path_follower.prepare(config, agility)
+    return Guide(follower, bounds or NoLimits(), hold_after, float(thrust), NoDive())
 
 
 def prepare_spatial(
@@ -83,6 +94,7 @@ def prepare_spatial(
     mode: Any = FOLLOW_PATH,
     hold_after: float = math.inf,
     bounds: MissionLimits | NoLimits | None = None,
+    guard: DiveGuard | NoDive | None = None,
 ) -> Guide:
     """Return the configuration of guidance of a vehicle that dives.
 
@@ -91,12 +103,13 @@ def prepare_spatial(
         vehicle: hull and fins.
         mode: of `vertical_step`: what the vertical plane follows; the path if left out.
         thrust, hold_after, bounds: as in `prepare`.
+        guard: of `guard.prepare`; a limit ends the mission at once if None.
 
     Raises:
         ConfigurationError: the vehicle's file lacks what the pitch autopilot needs.
     """
     follower = spatial_follower.prepare(config, vehicle, thrust, mode)
-    return Guide(follower, bounds or NoLimits(), hold_after, float(thrust))
+    return Guide(follower, bounds or NoLimits(), hold_after, float(thrust), guard or NoDive())
 
 
 class GuideState(NamedTuple):
@@ -107,7 +120,7 @@ class GuideState(NamedTuple):
         begins: whether the next measurement is the first of a mission.
         rejoins: whether the follower rejoins the path at the next usable measurement.
         blind: time without usable navigation, by stamps, s.
-        follower, limits: their states.
+        follower, limits, guard: their states.
     """
 
     mission: MissionStatus
@@ -116,6 +129,7 @@ class GuideState(NamedTuple):
     blind: float
     follower: Any
     limits: LimitsState
+    guard: GuardState
 
 
 @pure
@@ -128,7 +142,7 @@ def first_state(config: Guide, approach: Any) -> GuideState:
 def at_the_beginning(config: Guide, mission: MissionStatus, approach: Any) -> GuideState:
     """Return the state at the beginning of the path."""
     follower = follower_begins(config.follower, approach)
-    return GuideState(mission, True, False, 0.0, follower, BEGINNING)
+    return GuideState(mission, True, False, 0.0, follower, BEGINNING, UNHARMED)
 
 
 @pure
@@ -165,21 +179,23 @@ def guide(
         The state; the follower's result; the desired thrust (N), 0 exactly when no mission is running; and
         whether the mission resumed after a hold, including one that only a gap before this measurement shows.
     """
-    mission, begins, rejoins, blind, follower, limits = state
+    mission, begins, rejoins, blind, follower, limits, guard = state
     navigation, _, has_water, moved, _, now = measured[:6]
     if begins:
         dt = 0.0
     rejoins = (rejoins or moved) and not begins
     # A gap between stamps holds a mission as a gap in time does: which is found first must not matter.
-    blind += dt
+    # An ascent needs no velocity through the water.
+    blind = dt if surfaces(guard) else blind + dt
     if blind > config.hold_after:
-        mission = navigation_lost(mission, config.hold_after, now)
+        guard, mission = without_navigation(guard, mission, config.hold_after, now)
+    ascends = surfaces(guard)
     has_resumed = has_water and mission.state == HOLDING
     if has_water:
         blind = 0.0
     if has_resumed:
         rejoins, mission = True, navigation_back(mission)
-    is_followed = mission.state == RUNNING and has_water
+    is_followed = mission.state == RUNNING and has_water and not ascends
     if is_followed:
         if rejoins:
             follower = rejoin_step(config.follower, path, follower, navigation)
@@ -190,12 +206,13 @@ def guide(
     else:
         follower, output = look_step(config.follower, path, follower, navigation)
     if is_followed or is_under_way(mission):
-        rests = is_followed and (rejoins or begins)
-        seen = limits_inputs(config.follower, measured, output, not is_followed, rests)
-        limits, reason = limits_step(config.limits, limits, seen, dt)
-        if reason.cause != NO_REASON.cause and is_under_way(mission):
-            mission = aborted(mission, reason)
+        rests, reason = is_followed and (rejoins or begins), NO_REASON
+        if not ascends:
+            seen = limits_inputs(config.follower, measured, output, not is_followed, rests)
+            limits, reason = limits_step(config.limits, limits, seen, dt)
+        found = GuardInputs(mission, measured, output, reason, is_followed, rests)
+        guard, (mission, output) = guard_step(config.guard, guard, found, dt)
     rejoins = rejoins and not is_followed
     thrust = config.thrust if mission.state == RUNNING else 0.0
-    state = GuideState(mission, False, rejoins, blind, follower, limits)
+    state = GuideState(mission, False, rejoins, blind, follower, limits, guard)
     return state, output, thrust, has_resumed

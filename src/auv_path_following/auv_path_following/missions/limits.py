@@ -55,7 +55,9 @@ class LimitsConfig:
         60.0, "time over which the speed along the path is averaged", unit="s", ge=2.0, le=3600.0, live=True
     )
 
-    max_depth: float = setting(0.0, "largest depth; 0: any", unit="m", ge=0.0, live=True)
+    max_depth: float = setting(
+        0.0, "largest depth; 0: 5 % more than depth.max of the vehicle file", unit="m", ge=0.0, live=True
+    )
     min_altitude: float = setting(0.0, "lowest altitude above ground; 0: any", unit="m", ge=0.0, live=True)
     depth_error: float = setting(
         0.0, "largest difference of the depth from the path's, once it was within it; 0: any", unit="m",
@@ -163,7 +165,7 @@ class LimitsInputs(NamedTuple):
         depth_error: distance below the requested depth, m; 0 for a planar vehicle.
         altitude: above the bottom, m; infinite where it is not measured.
         to_go: path from the virtual point to the end, m.
-        holds: whether the mission holds; then only its time counts.
+        holds: whether the mission holds; then only its time, depth and altitude count.
         rests: whether the vehicle rested until now; then the speed windows begin again.
     """
 
@@ -210,16 +212,16 @@ def limits(
         places, along = _NO_MARKS, _NO_MARKS
     if c.duration > 0.0 and elapsed > c.duration:
         reason = Reason(DURATION, elapsed, 0.0, c.duration)
+    elif c.max_depth > 0.0 and z > c.max_depth:  # a vehicle may sink while it holds
+        reason = Reason(MAX_DEPTH, z, 0.0, c.max_depth)
+    elif c.min_altitude > 0.0 and altitude < c.min_altitude:
+        reason = Reason(MIN_ALTITUDE, altitude, 0.0, c.min_altitude)
     elif not holds:
         is_near = off_path <= c.path_distance
         if c.path_distance > 0.0 and has_been_near and not is_near:
             reason = Reason(PATH_DISTANCE, off_path, 0.0, c.path_distance)
         elif len(config.geofence) > 0 and not inside(config.geofence, x, y):
             reason = Reason(GEOFENCE, x, y, 0.0)
-        elif c.max_depth > 0.0 and z > c.max_depth:
-            reason = Reason(MAX_DEPTH, z, 0.0, c.max_depth)
-        elif c.min_altitude > 0.0 and altitude < c.min_altitude:
-            reason = Reason(MIN_ALTITUDE, altitude, 0.0, c.min_altitude)
         elif has_been_at_depth and abs(depth_error) > c.depth_error > 0.0:
             reason = Reason(DEPTH_ERROR, abs(depth_error), 0.0, c.depth_error)
         else:

@@ -17,7 +17,10 @@ IDLE, RUNNING, HOLDING, COMPLETE, ABORTED = range(len(STATES))
 (
     WAITS, STARTED, NAVIGATION_BACK, END_OF_PATH, NAVIGATION_LOST, HELD_TOO_LONG, ABORT_CALLED,
     DURATION, PATH_DISTANCE, GEOFENCE, GROUND_SPEED, PATH_SPEED, MAX_DEPTH, MIN_ALTITUDE, DEPTH_ERROR,
-) = range(15)  # fmt: skip
+    ROLLED, PITCHED, TOO_SLOW, BROACHED, DEPTH_STALLED, DEPTH_DOUBTED, SANK,
+) = range(22)  # fmt: skip
+#: Causes that end a mission under way; of a running one: the vehicle ascends for it.
+_ENDS = frozenset((HELD_TOO_LONG, ABORT_CALLED, *range(DURATION, SANK + 1)))
 
 _WORDS = {
     WAITS: "waiting for the start service",
@@ -35,6 +38,17 @@ _WORDS = {
     MAX_DEPTH: "limit max_depth: {found:.1f} m, at most {bound:g} m",
     MIN_ALTITUDE: "limit min_altitude: {found:.1f} m above the bottom, at least {bound:g} m",
     DEPTH_ERROR: "limit depth_error: {found:.1f} m from the requested depth, at most {bound:g} m",
+    ROLLED: "limit diving.roll_deg: {found:.0f} deg for {over:.1f} s, at most {bound:g} deg",
+    PITCHED: "limit diving.pitch_deg: {found:.0f} deg for {over:.1f} s, at most {bound:g} deg",
+    TOO_SLOW: "limit diving.slow_after: {found:.2f} m/s through the water for {over:.1f} s,"
+    " at least {bound:g} m/s for the stern planes",
+    BROACHED: "limit diving.broach_after: above {bound:g} m of depth for {over:.1f} s,"
+    " where {found:.1f} m are requested",
+    DEPTH_STALLED: "limit diving.depth_patience: {found:.1f} m from the requested depth, and no closer for"
+    " {over:.1f} s",
+    DEPTH_DOUBTED: "limit diving.depth_doubt: the depth differs by {found:.1f} m from pitch and speed,"
+    " at most {bound:g} m",
+    SANK: "limit diving.hold_sink: sank {found:.1f} m with thrust 0, at most {bound:g} m",
 }
 
 
@@ -108,6 +122,17 @@ def aborted(mission: MissionStatus, reason: Reason) -> MissionStatus:
     if mission.state == COMPLETE or mission.state == ABORTED:
         return mission
     return MissionStatus(ABORTED, reason, math.nan)
+
+
+@pure
+def surfacing(mission: MissionStatus, reason: Reason) -> MissionStatus:
+    """Keep a mission that ends for a reason running, while the vehicle ascends."""
+    return MissionStatus(RUNNING, reason, math.nan)
+
+
+def is_surfacing(mission: MissionStatus) -> bool:
+    """Return whether a mission runs only to ascend."""
+    return mission.state == RUNNING and mission.reason.cause in _ENDS
 
 
 @pure

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -13,6 +14,12 @@ from auv_msgs_py.contract.mission_word import MissionState
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_path_following.course import PlanarCourse
 from auv_path_following.guidance.approach import empty_approach
+from auv_path_following.guidance.failsafe.guard import (
+    asked_to_abort,
+    held_too_long,
+    surfaces,
+    without_navigation,
+)
 from auv_path_following.guidance.guide import (
     Guide,
     at_the_beginning,
@@ -22,7 +29,7 @@ from auv_path_following.guidance.guide import (
     start,
 )
 from auv_path_following.missions import mission_state as states
-from auv_path_following.missions.mission_state import MissionStatus, Reason
+from auv_path_following.missions.mission_state import MissionStatus
 from auv_path_following.nodes.mission_report import MissionReport
 
 
@@ -40,6 +47,7 @@ class MissionKeeper:
         self.config = self._prepared()
         self.state = first_state(self.config, empty_approach())
         self._last_usable: float | None = None
+        self._place, self._placed_at = (0.0, 0.0), -math.inf
         self._clock_went_back = False
         self.report = MissionReport(node)
 
@@ -66,11 +74,12 @@ class MissionKeeper:
 
     def step(self, measured: Any, current: Any, dt: float) -> tuple[Any, float]:
         """Take one measurement, see `guide`; return the follower's result and the desired thrust, N."""
-        if measured.has_water:
-            self._last_usable = measured.now
+        self._place, self._placed_at = self._course.depth_and_heading(measured.navigation), measured.now
         self.state, output, thrust, has_resumed = guide(
             self.config, self._course.rows, self.state, measured, current, dt
         )
+        if measured.has_water or surfaces(self.state.guard):
+            self._last_usable = measured.now
         if has_resumed:
             self.report.resumed(self.config.hold_after)
         return output, thrust
@@ -95,8 +104,12 @@ class MissionKeeper:
         return response
 
     def _on_abort(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        self._become(states.aborted(self.state.mission, Reason(states.ABORT_CALLED)))
-        response.success, response.message = self.report.word is MissionState.ABORTED, self.report.reason
+        mission, before = self.state.mission, self.state.guard
+        guard, mission = asked_to_abort(self.config.guard, before, mission, self._place)
+        self.state = self.state._replace(guard=guard)
+        self._become(mission)
+        ends = self.report.word is MissionState.ABORTED or surfaces(guard)
+        response.success, response.message = ends, self.report.reason
         return response
 
     def _begin(self, by_request: bool) -> None:
@@ -107,13 +120,20 @@ class MissionKeeper:
 
     def _watch(self) -> None:
         """Hold a mission without usable navigation, and end one that holds for too long."""
-        now, mission = self._node.now(), self.state.mission
+        now, mission, guard = self._node.now(), self.state.mission, self.state.guard
         if self._last_usable is None or now < self._last_usable:
             self._clock_went_back = self._last_usable is not None
             self._last_usable = now
         if now - self._last_usable > self.config.hold_after:
-            mission = states.navigation_lost(mission, self.config.hold_after, now)
-        self._become(states.waited(mission, self._node.parameters.holding.abort_after, now))
+            guard, mission = without_navigation(guard, mission, self.config.hold_after, now)
+        mission = states.waited(mission, self._node.parameters.holding.abort_after, now)
+        if mission.state == states.ABORTED and self.state.mission.state == states.HOLDING:
+            place = self._place if now - self._placed_at < self.config.hold_after else None
+            guard, mission = held_too_long(self.config.guard, guard, mission, place)
+        if surfaces(guard) and not surfaces(self.state.guard):
+            self._last_usable = now
+        self.state = self.state._replace(guard=guard)
+        self._become(mission)
 
     def _become(self, mission: MissionStatus) -> None:
         self.state = self.state._replace(mission=mission)

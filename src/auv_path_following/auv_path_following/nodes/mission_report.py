@@ -14,6 +14,7 @@ from auv_path_following.missions.mission_state import (
     STATES,
     MissionStatus,
     Reason,
+    is_surfacing,
     words,
 )
 
@@ -33,6 +34,7 @@ class MissionReport:
         self._publisher = node.advertise(topics.MISSION_STATE)
         self._lockstep = bool(node.parameters.lockstep)
         self.word: MissionState | None = None
+        self._cause = -1
         self.reason = self._detail = ""
         self._published = 0.0
         if not self._lockstep:
@@ -43,15 +45,17 @@ class MissionReport:
         return {"mission_state": str(self.word or ""), "reason": self.reason}
 
     def publish(self, mission: MissionStatus) -> None:
-        """Publish the state if it has changed."""
-        word = STATES[mission.state]
-        if word is self.word:
+        """Publish the state if it, or its cause, has changed."""
+        word, cause = STATES[mission.state], mission.reason.cause
+        if word is self.word and cause == self._cause:
             return
+        self._cause = cause
         health = self._node.health
         if word is MissionState.HOLDING:
             self._detail = health.refusals.latest
-        self.word, self.reason = word, words(mission.reason, self._detail)
-        stopped = word in (MissionState.HOLDING, MissionState.ABORTED)
+        surfaces = is_surfacing(mission)
+        self.word, self.reason = word, "surfacing: " * surfaces + words(mission.reason, self._detail)
+        stopped = surfaces or word in (MissionState.HOLDING, MissionState.ABORTED)
         health.error("mission", "")
         health.error("mission", f"{word.value}: {self.reason}" if stopped else "", log=False)
         for _ in range(TIMES):

@@ -12,7 +12,8 @@ from auv_msgs_py.contract.wire import Odometry
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.errors import MessageRefused
 from auv_path_following import vehicle
-from auv_path_following.navigation.navigation_gate import NavigationGate, Passed
+from auv_path_following.navigation.depth_gate import gate_of
+from auv_path_following.navigation.navigation_gate import Passed
 from auv_path_following.nodes.readings import readings_of
 
 
@@ -55,7 +56,7 @@ class OdometryIntake:
         self._punctuality = Punctuality(p.lateness)
         hull = vehicle.load(p.vehicle)
         self._readings = readings_of(hull)
-        self._gate = NavigationGate(p.gate, hull.top_speed)
+        self._gate = gate_of(p.gate, p.depth_gate, hull)
         self._refused_for = 0.0
         self._accepted_at: float | None = None
         self._silent = False
@@ -68,7 +69,8 @@ class OdometryIntake:
 
     def configure(self) -> None:
         """Take the node's parameters after a change in flight."""
-        self._gate.config = self._node.parameters.gate
+        p = self._node.parameters
+        self._gate.configure(p.gate, p.depth_gate)
 
     def reset_gate(self) -> None:
         """Accept the next pose as a first one, even an unchanged pose: a mission was started by request."""
@@ -114,7 +116,7 @@ class OdometryIntake:
             self._gate.reset()
             self._punctuality.reset()
             dt = self._refused_for = 0.0
-        passed, found, expected = self._gate.judge(self._readings.level(navigation), dt, self.under_way)
+        passed, found, expected = self._gate.judge(navigation, dt, self.under_way)
         if passed is Passed.REFUSED:
             self._refused_for += dt
             raise MessageRefused(topics.ODOM.name, found, expected)

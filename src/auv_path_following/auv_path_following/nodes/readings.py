@@ -8,11 +8,9 @@ from typing import Any, NamedTuple
 from auv_msgs_py.contract import conversions, spatial_conversions, topics
 from auv_msgs_py.contract.frames import flip_yaw
 from auv_msgs_py.contract.topics import Topic
-from auv_msgs_py.values.attitude import level_of
 from auv_msgs_py.values.types import (
     NO_CURRENT,
     NO_SPATIAL_CURRENT,
-    Navigation,
 )
 from auv_path_following.vehicle import Vehicle
 
@@ -23,7 +21,6 @@ class Readings(NamedTuple):
     Attributes:
         navigation, water: (message, frame table, topic) -> value.
         current: (message, topic) -> value.
-        level: navigation -> place and heading, NED, for checks that are planar.
         no_current: placeholder for a current that is not known.
         commands: topics, in the order of a command's fields.
         references: topics of guidance's results.
@@ -33,15 +30,10 @@ class Readings(NamedTuple):
     navigation: Callable[..., Any]
     water: Callable[..., Any]
     current: Callable[..., Any]
-    level: Callable[[Any], Navigation]
     no_current: Any
     commands: tuple[Topic, ...]
     references: tuple[Topic, ...]
     sent: Callable[[Any, float], tuple[float, ...]]
-
-
-def _itself(navigation: Navigation) -> Navigation:
-    return navigation
 
 
 def _sent(output: Any, thrust: float) -> tuple[float, ...]:
@@ -58,7 +50,6 @@ PLANAR = Readings(
     conversions.navigation_from,
     conversions.water_velocity_from,
     conversions.current_from,
-    _itself,
     NO_CURRENT,
     (topics.RUDDER_CMD, topics.THRUST_CMD),
     (topics.DESIRED_YAW, topics.DESIRED_YAW_RATE, topics.DESIRED_THRUST, topics.PATH_PARAMETER),
@@ -68,7 +59,6 @@ SPATIAL = Readings(
     spatial_conversions.spatial_navigation_from,
     spatial_conversions.spatial_water_from,
     spatial_conversions.spatial_current_from,
-    level_of,
     NO_SPATIAL_CURRENT,
     (topics.RUDDER_CMD, topics.STERNPLANE_CMD, topics.THRUST_CMD),
     (

@@ -1,0 +1,1 @@
+"""What ends a dive, and the ascent that follows it."""
