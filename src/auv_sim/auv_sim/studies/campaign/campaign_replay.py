@@ -15,18 +15,21 @@ from rich.markup import escape
 from auv_msgs_py.contract import topics
 from auv_msgs_py.settings import params_file, yaml_file
 from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_sim.bags.reading.load import load
 from auv_sim.cli import mission as mission_command
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, to_type
 from auv_sim.flight.batch import engine
 from auv_sim.flight.loops import followed_path
 from auv_sim.flight.metrics import SpatialMissionSummary, summarise
-from auv_sim.flight.run_record import Run
+from auv_sim.flight.run_record import Run, SpatialRun
 from auv_sim.flight.scenario import Scenario, start_of
 from auv_sim.sim_parameters import ConstantCurrent, InitialPose
 from auv_sim.studies.campaign.campaign_plan import StudyPlan
 from auv_sim.studies.campaign.store import RESULTS, Store
 from auv_sim.terminal import go_on, wrote
+from auv_sim.vehicle.hulls.rigid_body import BodyState, angles_of
+from auv_sim.vehicle.remus import PlantState
 from auv_sim.views.overview import draw
 from auv_sim.views.signal_rows import limits_of
 
@@ -50,26 +53,20 @@ def replay(store: Store, number: int, graph: bool, console: Console) -> int:
     if number >= plan.runs:
         raise ConfigurationError("--replay-run", str(number), f"a run from 0 to {plan.runs - 1}")
     scenario = plan.scenario(number)
-    is_planar = not scenario.vehicle.dives
-    if graph and not is_planar:
-        expected = "a run in the plane: the others fly in the engine only"
-        raise ConfigurationError("--graph", f"run {number} of a vehicle that dives", expected)
     console.print(f"[bold]{escape(plan.study.name)}[/bold], run {number}")
     _print_values(plan, number, console)
     directory = store.directory / "runs" / f"{number:07d}"
     shutil.rmtree(directory, ignore_errors=True)
-    if is_planar:
-        write_files(plan, number, directory / "config")
-    directory.mkdir(parents=True, exist_ok=True)
+    write_files(plan, number, directory / "config")
     flown = engine.track(scenario)
     code = _show(store, number, flown, scenario, console)
     _picture(plan, number, flown, scenario, directory / "overview.png")
     wrote(console, directory / "overview.png", "the run in one picture")
     if graph:
         return _over_ros(plan, directory, flown, console)
-    if is_planar:
-        again = to_type("campaign.py", store.directory, replay_run=number, graph=True)
-        go_on(console, "Fly it over ROS 2", again)
+    go_on(
+        console, "Fly it over ROS 2", to_type("campaign.py", store.directory, replay_run=number, graph=True)
+    )
     return code
 
 
@@ -87,7 +84,9 @@ def _over_ros(plan: StudyPlan, directory: Path, flown: Run, console: Console) ->
     )
     recorded = load(directory / "graph" / "bag")
     rows = min(recorded.steps, flown.steps)
-    apart = np.hypot(recorded.x[:rows] - flown.x[:rows], recorded.y[:rows] - flown.y[:rows])
+    names = ("x", "y", "z") if isinstance(recorded, SpatialRun) else ("x", "y")
+    gaps = [getattr(recorded, name)[:rows] - getattr(flown, name)[:rows] for name in names]
+    apart = np.sqrt(np.square(gaps).sum(axis=0))
     console.print(f"graph and batch engine: {rows} steps, at most {apart.max():.2g} m apart", soft_wrap=True)
     return code
 
@@ -105,19 +104,28 @@ def write_files(plan: StudyPlan, number: int, directory: Path) -> None:
     if scenario.sea is not None:
         yaml_file.dump(_written(scenario.sea), directory / "sea.yaml")
         plant["sea"] = str(directory / "sea.yaml")
-    x, y, psi, surge, *_ = scenario.initial or start_of(scenario.path)
-    plant["initial"] = InitialPose(x=x, y=y, psi=psi, surge=surge)
-    plant["current"] = ConstantCurrent(Vx=scenario.current.Vx, Vy=scenario.current.Vy)
+    plant["initial"] = _initial(scenario.initial or start_of(scenario.path))
+    plant["current"] = ConstantCurrent(**scenario.current._asdict())
     limits = dataclasses.replace(given[topics.GUIDANCE].limits, duration=plan.study.time_limit)
     parameters = given | {
         topics.PLANT: dataclasses.replace(given[topics.PLANT], **plant),
         topics.OBSERVER: dataclasses.replace(given[topics.OBSERVER], observer=scenario.observer),
-        topics.AUTOPILOT: dataclasses.replace(given[topics.AUTOPILOT], autopilot=scenario.autopilot),
+        topics.AUTOPILOT: dataclasses.replace(
+            given[topics.AUTOPILOT], autopilot=scenario.autopilot, pitch=scenario.pitch
+        ),
         topics.GUIDANCE: dataclasses.replace(
             given[topics.GUIDANCE], guidance=scenario.guidance, limits=limits, mission_switching=False
         ),
     }
     yaml_file.dump(params_file.as_ros(parameters), directory / "params.yaml")
+
+
+def _initial(state: PlantState | BodyState) -> InitialPose:
+    """Return the first state of a vehicle, which turns about no axis, as the simulator's parameter."""
+    if isinstance(state, BodyState):
+        _, theta, psi = angles_of(state)
+        return InitialPose(x=state.x, y=state.y, psi=psi, surge=state.ur, depth=state.z, theta=theta)
+    return InitialPose(x=state.x, y=state.y, psi=state.psi, surge=state.ur)
 
 
 def command_line(config: Path) -> list[str]:
@@ -159,11 +167,13 @@ def _show(store: Store, number: int, flown: Run, scenario: Scenario, console: Co
 
 
 def _picture(plan: StudyPlan, number: int, flown: Run, scenario: Scenario, file: Path) -> None:
+    path = followed_path(scenario)
     draw(
         flown,
         scenario.path,
-        summarise(flown, followed_path(scenario)),
+        summarise(flown, path),
         file,
         f"{plan.study.name}, run {number}",
         limits=limits_of(scenario.vehicle),
+        spatial=path if isinstance(path, SpatialPath) else None,
     )
