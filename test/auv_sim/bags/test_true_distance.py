@@ -141,6 +141,7 @@ def with_sea(where: str, sea: str, gain: float = 0.1) -> Bag:
 def test_an_identical_sea_elsewhere_is_no_difference() -> None:
     sea = "name: rough\ncurrent: {mean: [0.1, 0.2]}\n"
     assert differences([with_sea("/runs/a", sea), with_sea("/runs/b", sea)]) == {}
+    assert differences([with_sea("/a", sea, gain=2), with_sea("/b", sea, gain=2.0)]) == {}
     other = sea.replace("0.2", "0.3")
     assert differences([with_sea("/runs/a", sea), with_sea("/runs/b", other, gain=0.2)]) == {
         "sea.yaml current.mean": ["[0.1, 0.2]", "[0.1, 0.3]"],

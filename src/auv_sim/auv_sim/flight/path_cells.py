@@ -94,6 +94,13 @@ def cells_of(path: CompositePath | SpatialPath) -> Cells:
     return Cells(spacing, knots, cells)
 
 
+def metres_of(path: CompositePath | SpatialPath, s: Array) -> Array:
+    """Return the metres of path before each s of Eq. (1), shape (n,); NaN where s is."""
+    knots = _knots(path)
+    metres: Array = np.interp(s, knots[:, KNOT_S], knots[:, KNOT_METRES])
+    return metres
+
+
 def _points(path: CompositePath | SpatialPath, i: int, t: Array) -> Any:
     if isinstance(path, SpatialPath):
         return path.sampled(i, t)

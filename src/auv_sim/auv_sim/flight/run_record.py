@@ -163,3 +163,10 @@ class SpatialRun(Run):
     def depth(self) -> Column:
         """The best depth known, m: the truth where it was recorded, else the odometry's."""
         return np.where(np.isfinite(self.z_true), self.z_true, self.z)
+
+    @property
+    def bottom(self) -> Column:
+        """Depth of the bottom that the altimeter found below each row, m; NaN without an echo."""
+        slant = np.where(np.isfinite(self.altitude), self.altitude, np.nan)
+        below: Column = self.depth + slant * np.cos(self.phi) * np.cos(self.theta)
+        return below

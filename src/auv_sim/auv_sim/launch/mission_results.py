@@ -24,9 +24,11 @@ from auv_sim.flight.metrics import (
     farthest,
     summarise,
 )
+from auv_sim.flight.run_record import SpatialRun
 from auv_sim.launch.mission_plan import Plan
 from auv_sim.launch.outcome import Outcome
 from auv_sim.terminal import go_on, wrote
+from auv_sim.views import dive_picture
 from auv_sim.views.overview import draw
 from auv_sim.views.signal_rows import limits_of
 
@@ -53,6 +55,7 @@ _VERTICAL = (
 #: Files of a run directory -> what each is for.
 _FILES = (
     ("overview.png", "the mission in one picture"),
+    ("dive.png", "the dive in three dimensions, and its depth"),
     ("summary.json", "the figures above, for programs"),
     ("bag", "every topic, rosbag2 (MCAP): ros2 bag play, Foxglove, rosbags"),
     ("config", "mission, vehicle and parameters as flown"),
@@ -61,7 +64,7 @@ _FILES = (
 
 
 def conclude(plan: Plan, directory: Path, outcome: Outcome) -> tuple[Outcome, MissionSummary | None]:
-    """Load the bag, judge the mission, write `summary.json` and `overview.png`.
+    """Load the bag, judge the mission, write `summary.json` and the pictures.
 
     Args:
         plan: of the mission flown.
@@ -82,16 +85,20 @@ def conclude(plan: Plan, directory: Path, outcome: Outcome) -> tuple[Outcome, Mi
         if reason:
             outcome = dataclasses.replace(outcome, state="incomplete", reason=reason)
     _write_summary(plan, directory, outcome, summary)
+    title = f"{plan.mission.name}, {plan.vehicle.name}"
     draw(
         run,
         plan.mission.path,
         summary,
         directory / "overview.png",
-        f"{plan.mission.name}, {plan.vehicle.name}",
+        title,
         limits=limits_of(plan.vehicle),
         spatial=plan.path if isinstance(plan.path, SpatialPath) else None,
         command=plan.options.command,
     )
+    if isinstance(run, SpatialRun):
+        spatial = plan.path if isinstance(plan.path, SpatialPath) else None
+        dive_picture.draw(run, plan.mission.path, spatial, directory / "dive.png", title)
     return outcome, summary
 
 
@@ -115,7 +122,8 @@ def show(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary,
     _show_figures(outcome, summary, console)
     console.print()
     for name, what in _FILES:
-        wrote(console, directory / name, what)
+        if (directory / name).exists():
+            wrote(console, directory / name, what)
     go_on(console, "Look further", to_type("bag.py", "report", directory))
 
 

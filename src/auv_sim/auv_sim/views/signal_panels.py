@@ -16,7 +16,7 @@ from auv_sim.views.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, PATH, RED,
 #: Most switches that are drawn; more would cover the panels.
 _MOST_SWITCHES = 200
 #: A bottom farther below than this multiple of the greatest depth is cut off.
-_BOTTOM_SHOWN = 1.6
+_BOTTOM_SHOWN = 2.0
 
 
 def distance(axes: Axes, time: Column, flown: SpatialRun, path: SpatialPath) -> None:
@@ -45,8 +45,7 @@ def depth(axes: Axes, time: Column, flown: SpatialRun, path: SpatialPath | None)
     known = known[np.isfinite(known)]
     deepest = max(1.0, float(known.max())) if known.size else 1.0
     highest = min(0.0, float(known.min())) if known.size else 0.0
-    slant = np.where(np.isfinite(flown.altitude), flown.altitude, np.nan)
-    bottom = flown.depth + slant * np.cos(flown.phi) * np.cos(flown.theta)
+    bottom = flown.bottom
     _line(axes, time, bottom, INK, "bottom", width=2.0)
     if np.isfinite(bottom).any():
         deepest = max(deepest, min(float(np.nanmax(bottom)), _BOTTOM_SHOWN * deepest))

@@ -25,7 +25,7 @@ _FEW, _NUMBERS = 30, 60
 _STRAIGHT = 1e-3
 #: The table's columns: left edge of the first, right edges of the others.
 _TABLE_COLUMNS = (0.0, 0.33, 0.49, 0.64, 0.83, 1.0)
-_SPATIAL_COLUMNS = (0.0, 0.22, 0.33, 0.47, 0.59, 0.7, 0.85, 1.0)
+_SPATIAL_COLUMNS = (0.0, 0.31, 0.41, 0.53, 0.64, 0.74, 0.87, 1.0)
 
 
 def track(axes: Axes, flown: Run, path: CompositePath, missed: Sequence[Stretch] = ()) -> None:

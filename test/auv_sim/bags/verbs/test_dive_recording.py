@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import base64
+import csv
 import json
+import os
+import re
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +17,7 @@ from PIL import Image
 
 from auv_msgs_py.settings import yaml_file
 from auv_sim.bags.content.recorded_mission import mission_in
+from auv_sim.bags.playing.playback import select
 from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.showing.report_data import page_data
 from auv_sim.bags.verbs.report import page_of
@@ -22,7 +27,8 @@ from auv_sim.flight.metrics import under_way
 from auv_sim.flight.run_record import SpatialRun
 from auv_sim.views import signal_panels as panels
 
-DIVE = Path(__file__).parents[3] / "data" / "short_dive.yaml"
+ROOT = Path(__file__).resolve().parents[4]
+DIVE = ROOT / "test" / "data" / "short_dive.yaml"
 VERTICAL = ("sternplane_cmd", "desired_pitch", "desired_pitch_rate", "desired_depth")
 
 
@@ -62,6 +68,38 @@ def test_a_rerun_with_another_gain_of_the_pitch_moves_the_planes_alone(
     assert (tmp_path / "rerun.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_an_export_has_the_columns_that_the_page_lists(dive: Path, tmp_path: Path) -> None:
+    assert bag_command.main(["export", str(dive), "--out", str(tmp_path / "dive.csv")]) == 0
+    with (tmp_path / "dive.csv").open(encoding="utf-8") as stream:
+        head, *rows = csv.reader(stream)
+    section = (
+        (ROOT / "docs" / "bags.md").read_text(encoding="utf-8").split("## export")[1].split("## replay")[0]
+    )
+    listed = [
+        name for line in re.findall(r"^\| (.*?) \|", section, re.M) for name in re.findall(r"`(\w+)`", line)
+    ]
+    assert sorted(listed) == sorted(column.split(" [")[0] for column in head)
+    depth = [float(row[head.index("z [m]")]) for row in rows]
+    assert (min(depth), max(depth)) == pytest.approx((3.0, 5.0), abs=0.1)
+
+
+def test_a_damaged_dive_is_repaired_played_and_rerun(
+    dive: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copy = tmp_path / "copy"
+    shutil.copytree(dive, copy, ignore=shutil.ignore_patterns("*.png", "log"))
+    (file,) = (copy / "bag").glob("*.mcap")
+    os.truncate(file, file.stat().st_size * 9 // 10)
+    (copy / "bag" / "metadata.yaml").unlink()
+    assert bag_command.main(["repair", str(copy)]) == 0
+    assert "whole" in capsys.readouterr().out
+    assert bag_command.main(["rerun", str(copy), "--json"]) == 0  # 0: the recorded bits
+    assert json.loads(capsys.readouterr().out)["topics"]["sternplane_cmd"]["compared"] > 500
+    chosen = select(read_bag(copy), None, [], {}, 0.0, None, False)
+    played = {name.rsplit("/", 1)[-1] for name in chosen.topics}
+    assert played > {*VERTICAL, "sternplane_state", "path_error_3d"}
+
+
 def test_the_overview_of_a_dive_has_a_row_more_and_a_surface(dive: Path) -> None:
     with Image.open(dive / "overview.png") as image:
         picture = np.asarray(image.convert("RGB"), dtype=np.int16)
@@ -90,6 +128,18 @@ def test_depth_increases_downwards_and_the_surface_is_on_top(dive: Path) -> None
     assert (depth.min(), depth.max()) == pytest.approx((3.0, 5.0), abs=0.02)
 
 
+def test_the_dive_is_drawn_in_three_dimensions_and_over_the_length_of_path(dive: Path) -> None:
+    with Image.open(dive / "dive.png") as image:
+        picture = np.asarray(image.convert("RGB"), dtype=np.int16)
+    assert picture.shape == (1000, 1600, 3)
+    left, right = picture[:, :800], picture[:, 880:]
+    surface, flown = np.array([42, 157, 111]), np.array([11, 95, 165])
+    assert (np.abs(left - surface).max(axis=2) < 30).sum() > 200, "surface and start in three dimensions"
+    top, below = right[100:450], right[700:930]
+    for panel in (top, below):  # depth and pitch as flown
+        assert (np.abs(panel - flown).max(axis=2) < 30).any(axis=0).sum() > 400
+
+
 def test_report_draws_the_same_rows_and_the_figures_of_the_mission(dive: Path, tmp_path: Path) -> None:
     assert bag_command.main(["report", str(dive), "--out", str(tmp_path)]) == 0
     with Image.open(tmp_path / "overview.png") as ours, Image.open(dive / "overview.png") as theirs:
@@ -105,8 +155,17 @@ def test_inspect_and_compare_and_the_page_have_the_vertical(
     shown = capsys.readouterr().out
     assert "depth 3.00 to 5.0" in shown
     assert "stern planes -" in shown
+    assert re.search(r"planes\s+pitch|planes °/m +pitch °", shown)
+    (whole,) = re.findall(r"^ all +(.*)$", shown, re.MULTILINE)
+    summary = json.loads((dive / "summary.json").read_text())
+    vertical = [
+        summary[name] for name in ("rms_depth_error", "largest_depth_error", "sternplane_travel_per_metre")
+    ]
+    assert [float(cell) for cell in whole.split()[-4:-1]] == pytest.approx(vertical, abs=6e-4)
     asked = ["--png", str(tmp_path / "c.png"), "--json"]
     assert bag_command.main(["compare", str(dive), str(dive / "bag"), *asked]) == 0
+    with Image.open(tmp_path / "c.png") as compared:
+        assert compared.size == (2000, 1200), "with the rows of depth and depth error"
     for figures in json.loads(capsys.readouterr().out)["runs"].values():
         assert 0.0 < figures["rms_depth_error"] < 0.1
     data = page_data(mission_in(read_bag(dive)), [], "a dive")

@@ -46,7 +46,15 @@ def differences(bags: list[Bag]) -> dict[str, list[str | None]]:
     """
     flat = [settings_of(bag) for bag in bags]
     found = {name: [values.get(name) for values in flat] for name in sorted(set().union(*flat))}
-    return {name: values for name, values in found.items() if len(set(values)) > 1}
+    return {name: values for name, values in found.items() if len(set(map(_comparable, values))) > 1}
+
+
+def _comparable(value: str | None) -> str | float | None:
+    """Return a number for a text of one, so that 35 is 35.0."""
+    try:
+        return float(value or "")
+    except ValueError:
+        return value
 
 
 def _mapping(value: Any) -> dict[str, Any]:

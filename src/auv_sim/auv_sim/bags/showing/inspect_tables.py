@@ -17,7 +17,12 @@ from auv_sim.bags.content.events import Event
 from auv_sim.bags.content.recorded_mission import RecordedMission
 from auv_sim.bags.content.topic_facts import TopicFacts
 from auv_sim.flight.flown_share import percent
-from auv_sim.flight.metrics import MissionSummary, SubpathSummary
+from auv_sim.flight.metrics import (
+    MissionSummary,
+    SpatialMissionSummary,
+    SpatialSubpathSummary,
+    SubpathSummary,
+)
 from auv_sim.flight.run_record import SpatialRun
 
 #: More events than this are counted, not listed.
@@ -95,7 +100,10 @@ def mission(summary: MissionSummary, name: str) -> Table:
         pad_edge=False,
     )
     table.add_column("subpath")
-    for heading in ("time s", "rms distance m", "largest m", "rms heading °", "rudder °", "rudder °/m"):
+    headings = ["time s", "rms distance m", "largest m", "rms heading °", "rudder °", "rudder °/m"]
+    if isinstance(summary, SpatialMissionSummary):
+        headings += ["rms depth m", "largest depth m", "planes °/m", "pitch °"]
+    for heading in headings:
         table.add_column(heading, justify="right")
     for part in summary.subpaths:
         table.add_row(f"{part.number} {part.kind}", *_figures(part))
@@ -105,6 +113,14 @@ def mission(summary: MissionSummary, name: str) -> Table:
 
 
 def _figures(part: MissionSummary | SubpathSummary) -> list[str]:
+    vertical = []
+    if isinstance(part, SpatialMissionSummary | SpatialSubpathSummary):
+        vertical = [
+            _number(part.rms_depth_error, 3),
+            _number(part.largest_depth_error, 3),
+            _number(part.sternplane_travel_per_metre, 3),
+            _number(part.largest_pitch, 1),
+        ]
     return [
         _number(part.duration, 1),
         _number(part.rms_distance, 3),
@@ -112,6 +128,7 @@ def _figures(part: MissionSummary | SubpathSummary) -> list[str]:
         _number(part.rms_heading_error, 2),
         _number(part.rudder_travel, 1),
         _number(part.rudder_travel_per_metre, 3),
+        *vertical,
     ]
 
 

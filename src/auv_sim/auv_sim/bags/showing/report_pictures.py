@@ -1,4 +1,4 @@
-"""The report's pictures: for a mission the overview and its two halves, else the track alone."""
+"""The report's pictures: for a mission the overview and its two halves, and a dive; else the track alone."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 
 from auv_sim.bags.content.recorded_mission import RecordedMission
 from auv_sim.flight.metrics import under_way
-from auv_sim.views import overview
+from auv_sim.flight.run_record import SpatialRun
+from auv_sim.views import dive_picture, overview
 from auv_sim.views.plot_style import BLUE, INK, ORANGE, save, style
 from auv_sim.views.signal_rows import FinLimits, draw_rows, limits_of, rows_of
 from auv_sim.views.track_panel import track
@@ -39,7 +40,11 @@ def pictures(flight: RecordedMission, directory: Path, title: str) -> list[Path]
         rows[-1].set_xlabel("time since the start (s)", color=INK)
         figure.align_ylabels(rows)
 
-    return [whole, _draw(directory / "track.png", map_only), _draw(directory / "signals.png", signals)]
+    files = [whole, _draw(directory / "track.png", map_only), _draw(directory / "signals.png", signals)]
+    if isinstance(run, SpatialRun):
+        files.append(directory / "dive.png")
+        dive_picture.draw(run, mission.path, spatial, files[-1], title)
+    return files
 
 
 def _track_alone(figure: Figure, flight: RecordedMission) -> None:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.content.recorded_mission import RecordedMission, configuration
 from auv_sim.flight.metrics import SpatialMissionSummary, SpatialSubpathSummary
-from auv_sim.flight.path_cells import KNOT_METRES, KNOT_S, cells_of
+from auv_sim.flight.path_cells import metres_of
 from auv_sim.flight.run_record import SpatialRun
 from auv_sim.vehicle import sea
 from auv_sim.vehicle.diving.bottom import Bottom, bottom_at, bottom_of
@@ -39,7 +39,7 @@ def spatial_columns(flight: RecordedMission) -> dict[str, Column]:
     columns = {"depth": run.depth, "depth_d": run.depth_d}
     if np.isfinite(run.theta_true).any():
         columns["track_theta"] = np.degrees(np.where(np.isfinite(run.theta_true), run.theta_true, run.theta))
-    bottom = bottom_below(run)
+    bottom = run.bottom
     if np.isfinite(bottom).any():
         columns["bottom"] = bottom
     if flight.mission is None or not np.isfinite(run.s).any():
@@ -49,16 +49,8 @@ def spatial_columns(flight: RecordedMission) -> dict[str, Column]:
     elif spatial is not None:
         away, depth = spatial.closest(*run.track, run.depth, run.subpath(spatial.n))
         columns |= {"distance": away, "depth_path": depth, "depth_error": run.depth - depth}
-    knots = cells_of(spatial or flight.mission.path).knots
-    way = np.interp(np.nan_to_num(run.s), knots[:, KNOT_S], knots[:, KNOT_METRES])
+    way = metres_of(spatial or flight.mission.path, np.nan_to_num(run.s))
     return columns | {"way": np.maximum.accumulate(way)}
-
-
-def bottom_below(run: SpatialRun) -> Column:
-    """Return the depth of the bottom that the altimeter found below each row, m; NaN without an echo."""
-    slant = np.where(np.isfinite(run.altitude), run.altitude, np.nan)
-    below: Column = run.depth + slant * np.cos(run.phi) * np.cos(run.theta)
-    return below
 
 
 def space(flight: RecordedMission, columns: dict[str, Column]) -> dict[str, Any] | None:

@@ -38,7 +38,7 @@ _FIGURES = (
 #: The further ones where every run is in three dimensions.
 _VERTICAL = (
     ("rms_depth_error", "rms depth m", 4),
-    ("largest_depth_error", "largest m", 3),
+    ("largest_depth_error", "largest depth m", 3),
     ("sternplane_travel", "planes °", 1),
 )
 

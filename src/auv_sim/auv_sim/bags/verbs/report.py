@@ -31,6 +31,7 @@ _WHAT = {
     "overview.png": "the mission in one picture",
     "track.png": "the track",
     "signals.png": "the signals over time",
+    "dive.png": "the dive in three dimensions, and its depth",
 }
 
 

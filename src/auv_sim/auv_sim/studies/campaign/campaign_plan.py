@@ -94,8 +94,9 @@ class StudyPlan:
         study = self.study
         mission = self.files.mission_of(values)
         if mission.altitude is not None:
-            expected = "a mission with depths, which figures are about"
-            raise ConfigurationError(f"{mission.source}: altitude", "it", expected)
+            found = "a mission at an altitude, in a campaign"
+            expected = "depth, depth_profile or a planar mission: the figures are about the depth of the path"
+            raise ConfigurationError(f"{mission.source}: altitude", found, expected)
         hull = self.files.hull(str(values.get("vehicle", study.vehicle)))
         configs = self._configs(values, mission, hull)
         given = self._by_group(values, configs)
