@@ -16,6 +16,8 @@ from auv_msgs_py.contract.frames import (
     flip_yaw,
     quaternion_of_yaw,
     swap_axes,
+    turn_pose_covariance,
+    turn_twist_covariance,
     yaw_of_quaternion,
 )
 from auv_msgs_py.values.angles import wrap
@@ -134,3 +136,17 @@ def test_ids_that_differ_in_every_message_do_not_fill_memory() -> None:
         table.of_pose("odom", f"auv{k}/map", "base_link")
         table.of_body("velocity_through_water", f"auv{k}/base_link")
     assert len(table._known) <= 64 and len(table._known_body) <= 64
+
+
+def test_a_covariance_is_turned_as_the_values_are() -> None:
+    """Against the covariance of samples that are converted one by one, as the messages are."""
+    random = np.random.default_rng(3)
+    mixed = random.normal(size=(200, 6)) @ random.normal(size=(6, 6))
+    x, y, z, roll, pitch, yaw = mixed.T
+    converted = np.column_stack([*swap_axes(x, y), -z, roll, -pitch, flip_yaw(yaw)])
+    turned = turn_pose_covariance(tuple(np.cov(mixed.T).flat))
+    assert np.array(turned).reshape(6, 6) == pytest.approx(np.cov(converted.T))
+    u, v, w, p, q, r = mixed.T
+    converted = np.column_stack([u, -v, -w, p, -q, -r])
+    turned = turn_twist_covariance(tuple(np.cov(mixed.T).flat))
+    assert np.array(turned).reshape(6, 6) == pytest.approx(np.cov(converted.T))

@@ -102,6 +102,10 @@ def test_in_a_sea_the_truth_has_its_own_topic_and_a_blind_log_is_silent(bench: B
     assert math.isnan(odometry[-1].twist.twist.linear.x)
     assert math.isfinite(truth[-1].twist.twist.linear.x)
     assert truth[0].pose.pose.position.x != odometry[0].pose.pose.position.x
+    # Covariances: of the navigator's position, and none of a velocity that was not measured.
+    assert odometry[-1].pose.covariance[0] > 0.0
+    assert not odometry[-1].twist.covariance[:15].any()
+    assert not truth[-1].pose.covariance.any()
     told = {nanoseconds(message.header.stamp) for message in bench.received["velocity_through_water"]}
     due = {nanoseconds(message.header.stamp) for message in odometry}
     assert 20 < len(due - told) < 190
@@ -110,3 +114,5 @@ def test_in_a_sea_the_truth_has_its_own_topic_and_a_blind_log_is_silent(bench: B
 def test_without_a_sea_there_is_no_truth_to_tell(bench: Bench) -> None:
     node = bench.start(RemusPlantNode, hold_until_running=False, speed=20.0)
     assert topics.TRUE_ODOM not in node.publishers_by_topic
+    bench.until(lambda: bench.received["odom"])
+    assert not bench.received["odom"][0].pose.covariance.any()

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import enum
 import math
+from collections.abc import Sequence
 from typing import Any
 
 from auv_msgs_py.settings.schema import setting, settings
@@ -45,6 +46,24 @@ def heading_over_the_wire(psi: float) -> float:
     # As `yaw_of_quaternion`, which serves arrays too and therefore does not compile.
     yaw: float = flip_yaw(math.atan2(2.0 * (w * z), 1.0 - 2.0 * (z * z)))
     return yaw
+
+
+#: Signs of (x, y, z, roll, pitch, yaw) of a pose, and of a twist in the body, between NED/FRD and ENU/FLU.
+_POSE_SIGNS, _TWIST_SIGNS = (1.0, 1.0, -1.0, 1.0, -1.0, -1.0), (1.0, -1.0, -1.0, 1.0, -1.0, -1.0)
+#: Order of the parameters of a pose in the other convention: x and y change places.
+_POSE_ORDER = (1, 0, 2, 3, 4, 5)
+
+
+def turn_pose_covariance(covariance: Sequence[float]) -> tuple[float, ...]:
+    """Return a row-major 6 x 6 covariance of a pose in NED/FRD as one in ENU/FLU, or the other way round."""
+    places = tuple(zip(_POSE_ORDER, _POSE_SIGNS, strict=True))
+    return tuple(a * b * covariance[6 * i + j] for i, a in places for j, b in places)
+
+
+def turn_twist_covariance(covariance: Sequence[float]) -> tuple[float, ...]:
+    """Return a row-major 6 x 6 covariance of a twist in FRD as one in FLU, or the other way round."""
+    signs = [a * b for a in _TWIST_SIGNS for b in _TWIST_SIGNS]
+    return tuple(sign * value for sign, value in zip(signs, covariance, strict=True))
 
 
 class Convention(enum.Enum):

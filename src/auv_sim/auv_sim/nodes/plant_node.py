@@ -55,7 +55,7 @@ class RemusPlantNode(SuiteNode):
         self._reset_requested = False
         self._begun = False
         p.check_frames(self.get_name())
-        self._outputs = outputs_of(self, self.simulated, with_true_odometry=at_sea is not None)
+        self._outputs = outputs_of(self, self.simulated, at_sea)
         self.close_gate()
         self._lockstep = Lockstep(self, orders) if p.lockstep else None
         self.pacer = None if p.lockstep else Pacer(p.step / p.speed)

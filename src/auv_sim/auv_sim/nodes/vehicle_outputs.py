@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import fill_current, fill_odometry, fill_water_velocity, set_stamp
+from auv_msgs_py.contract.frames import is_ned
 from auv_msgs_py.contract.spatial_conversions import (
     fill_spatial_current,
     fill_spatial_odometry,
@@ -14,7 +16,9 @@ from auv_msgs_py.contract.spatial_conversions import (
 )
 from auv_msgs_py.contract.wire import Clock, Float64, Odometry, TwistWithCovarianceStamped, Vector3Stamped
 from auv_msgs_py.node.runtime import SuiteNode
+from auv_sim.nodes.reported_covariance import ReportedCovariances
 from auv_sim.vehicle.diving.simulated_diver import SimulatedDiver
+from auv_sim.vehicle.sea import Sea
 from auv_sim.vehicle.simulated import SimulatedVehicle
 
 
@@ -23,14 +27,19 @@ class VehicleOutputs:
 
     Args:
         node: the simulator; its parameters name the frames.
-        with_true_odometry: whether the navigation errs, so that the true odometry is published as well.
+        sea: whose errors the navigation has: the true odometry is published as well, and covariances are
+            reported. None: without errors.
+        dives: whether the vehicle has stern planes.
     """
 
-    def __init__(self, node: SuiteNode, with_true_odometry: bool) -> None:
+    def __init__(self, node: SuiteNode, sea: Sea | None, dives: bool = False) -> None:
         p = node.parameters
+        self._covariances = (
+            None if sea is None else ReportedCovariances(sea.sensors, dives, is_ned(p.world_frame))
+        )
         self._clock, self._rudder = Clock(), Float64()
         self._odometry = Odometry(p.world_frame, p.body_frame)
-        self._truth = Odometry(p.world_frame, p.body_frame) if with_true_odometry else None
+        self._truth = Odometry(p.world_frame, p.body_frame) if sea is not None else None
         self._water, self._true_current = TwistWithCovarianceStamped(p.body_frame), Vector3Stamped()
         self._outputs: list[tuple[Any, Any]] = [
             (node.advertise(topic), message)
@@ -52,12 +61,20 @@ class VehicleOutputs:
         """
         set_stamp(self._clock.clock, stamp)
         u, v = (0.0, 0.0) if at_rest else vehicle.ground_velocity
+        water = vehicle.passing_water if at_rest else vehicle.water_velocity
         fill_odometry(self._odometry, vehicle.navigation, u, v, stamp)
-        fill_water_velocity(self._water, vehicle.passing_water if at_rest else vehicle.water_velocity, stamp)
+        fill_water_velocity(self._water, water, stamp)
+        self._fill_covariances(vehicle, (u, v), water)
         self._rudder.data = vehicle.rudder
         fill_current(self._true_current, vehicle.current, stamp)
         if self._truth is not None:
             fill_odometry(self._truth, *vehicle.truth, stamp)
+
+    def _fill_covariances(self, vehicle: Any, velocity: Sequence[float], water: Sequence[float]) -> None:
+        if self._covariances is not None:
+            self._odometry.pose.covariance = self._covariances.pose(vehicle)
+            self._odometry.twist.covariance = self._covariances.twist(velocity)
+            self._water.twist.covariance = self._covariances.water(water)
 
     def publish(self, with_water_velocity: bool) -> None:
         """Publish the filled messages, the velocity through the water only where it was measured."""
@@ -70,12 +87,12 @@ class SpatialVehicleOutputs(VehicleOutputs):
     """The same for a vehicle that dives; its altitude is published only with an altimeter.
 
     Args:
-        node, with_true_odometry: as those of `VehicleOutputs`.
+        node, sea: as those of `VehicleOutputs`.
         with_altitude: whether there is an altimeter.
     """
 
-    def __init__(self, node: SuiteNode, with_true_odometry: bool, with_altitude: bool) -> None:
-        super().__init__(node, with_true_odometry)
+    def __init__(self, node: SuiteNode, sea: Sea | None, with_altitude: bool) -> None:
+        super().__init__(node, sea, dives=True)
         self._planes = Float64()
         self._outputs.append((node.advertise(topics.STERNPLANE_STATE), self._planes))
         self._range: Any = None
@@ -91,7 +108,9 @@ class SpatialVehicleOutputs(VehicleOutputs):
         velocity = (0.0, 0.0, 0.0) if at_rest else vehicle.ground_velocity
         roll_rate = vehicle.motion.p
         fill_spatial_odometry(self._odometry, vehicle.navigation, velocity, roll_rate, stamp)
-        fill_spatial_water(self._water, vehicle.passing_water if at_rest else vehicle.water_velocity, stamp)
+        water = vehicle.passing_water if at_rest else vehicle.water_velocity
+        fill_spatial_water(self._water, water, stamp)
+        self._fill_covariances(vehicle, velocity, water)
         self._rudder.data, self._planes.data = vehicle.rudder, vehicle.sternplanes
         fill_spatial_current(self._true_current, vehicle.current, stamp)
         if self._truth is not None:
@@ -102,8 +121,8 @@ class SpatialVehicleOutputs(VehicleOutputs):
             self._range.range = vehicle.altitude
 
 
-def outputs_of(node: SuiteNode, simulated: Any, with_true_odometry: bool) -> VehicleOutputs:
-    """Return the outputs of a simulated vehicle; an altimeter is one whose range is not NaN."""
+def outputs_of(node: SuiteNode, simulated: Any, sea: Sea | None) -> VehicleOutputs:
+    """Return the outputs of a simulated vehicle in a sea; an altimeter is one whose range is not NaN."""
     if isinstance(simulated, SimulatedDiver):
-        return SpatialVehicleOutputs(node, with_true_odometry, not math.isnan(simulated.altitude))
-    return VehicleOutputs(node, with_true_odometry)
+        return SpatialVehicleOutputs(node, sea, not math.isnan(simulated.altitude))
+    return VehicleOutputs(node, sea)

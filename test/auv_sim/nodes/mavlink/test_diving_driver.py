@@ -77,6 +77,37 @@ def test_depth_pitch_planes_and_altitude_arrive_in_the_contracts_signs(
     assert bench.received["altitude"][0].max_range == pytest.approx(50.0)
 
 
+def test_covariances_of_odometry_are_passed_on_in_the_contracts_frames(
+    bench: Bench, link_and_driver: tuple[MavlinkLink, SuiteNode]
+) -> None:
+    link, _ = link_and_driver
+    pose, twist = [0.0] * 21, [0.0] * 21
+    pose[0], pose[1], pose[6], pose[20] = 4.0, 0.5, 9.0, 0.01  # north, north with east, east, yaw
+    pose[5] = 0.1  # north with yaw
+    twist[0], twist[1], twist[6] = 0.25, 0.02, 0.04  # ahead, ahead with starboard, starboard
+    frames = mavlink.MAV_FRAME_LOCAL_NED, mavlink.MAV_FRAME_BODY_FRD
+    numbers: list[Any] = [0.0, 0.0, 0.0, [1.0, 0.0, 0.0, 0.0], *[0.0] * 6]
+    measure(link, 5_000)
+    bench.until(lambda: bench.received["odom"])
+    link.send(mavlink.MAVLink_odometry_message(5_010_000, *frames, *numbers, pose, twist))
+    measure(link, 5_050)
+    bench.until(lambda: len(bench.received["odom"]) == 2)
+    before, after = bench.received["odom"]
+    assert not before.pose.covariance.any() and not before.twist.covariance.any()
+    found, of_twist = after.pose.covariance.reshape(6, 6), after.twist.covariance.reshape(6, 6)
+    # ENU: east first; yaw counts the other way.
+    assert (found[0, 0], found[1, 1], found[5, 5]) == pytest.approx((9.0, 4.0, 0.01))
+    assert (found[0, 1], found[1, 5], found[5, 1]) == pytest.approx((0.5, -0.1, -0.1))
+    # FLU: to port.
+    assert (of_twist[0, 0], of_twist[1, 1], of_twist[0, 1]) == pytest.approx((0.25, 0.04, -0.02))
+    numbers[4:6] = [1.8, 0.3]
+    message = mavlink.MAVLink_odometry_message(5_060_000, *frames, *numbers, pose, twist)
+    link.send_bytes(link.pack(message, WATER_LOG))
+    bench.until(lambda: bench.received["velocity_through_water"])
+    water = bench.received["velocity_through_water"][0]
+    assert water.twist.covariance[0] == pytest.approx(0.25)
+
+
 def test_planes_are_commanded_bow_down_and_silence_stops_them(
     bench: Bench, link_and_driver: tuple[MavlinkLink, SuiteNode]
 ) -> None:

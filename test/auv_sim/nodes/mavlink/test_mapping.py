@@ -10,9 +10,11 @@ from hypothesis import strategies as st
 
 from auv_msgs_py.values.types import SPATIAL_STOP, STOP, Command, SpatialCommand
 from auv_sim.nodes.mavlink.mapping import (
+    NO_COVARIANCE,
     CommandLimits,
     angle_of_pulse,
     command_of,
+    covariance_of,
     manual_control,
     pulse_of,
     water_track,
@@ -93,3 +95,23 @@ def test_what_arrives_is_what_was_sent_but_for_the_steps_of_an_axis(
     steps = (limits.rudder, math.radians(20.0), limits.thrust) if dives else limits[:2]
     for value, expected, largest in zip(arrived, sent, steps, strict=True):
         assert value == pytest.approx(expected, abs=0.5e-3 * largest)
+
+
+def test_a_covariance_is_an_upper_triangle_row_by_row() -> None:
+    """PX4 fills the diagonal, places 0, 6, 11, 15, 18 and 20, and leaves NaN elsewhere."""
+    triangle = [math.nan] * 21
+    for place, value in zip((0, 6, 11, 15, 18, 20), (1.0, 2.0, 3.0, 4.0, 5.0, 6.0), strict=True):
+        triangle[place] = value
+    found = covariance_of(triangle)
+    assert found[::7] == (1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
+    assert sum(found) == 21.0
+    triangle[1], triangle[10] = 0.5, 0.25  # x with y; y with yaw
+    found = covariance_of(triangle)
+    assert (found[1], found[6], found[11], found[31]) == (0.5, 0.5, 0.25, 0.25)
+
+
+@pytest.mark.parametrize(("place", "value"), [(0, math.nan), (6, -1.0), (3, math.inf)])
+def test_a_covariance_that_cannot_be_is_unknown(place: int, value: float) -> None:
+    triangle = [1.0] * 21
+    triangle[place] = value
+    assert covariance_of(triangle) == NO_COVARIANCE

@@ -6,6 +6,8 @@ here. `auv_msgs_py.contract.conversions` converts for the wire.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from pymavlink.dialects.v20 import common as mavlink
@@ -102,6 +104,26 @@ def pulse_of(angle: float, largest: float) -> int:
 def angle_of_pulse(pulse: int, largest: float) -> float:
     """Return the angle of a fin, rad, of its servo pulse: the inverse of `pulse_of`."""
     return largest * (NEUTRAL_PULSE - pulse) / PULSE_RANGE
+
+
+#: A covariance that is not known, as ROS messages have it.
+NO_COVARIANCE: tuple[float, ...] = (0.0,) * 36
+
+
+def covariance_of(triangle: Sequence[float]) -> tuple[float, ...]:
+    """Return the 6 x 6 covariance, row-major, of the upper triangle of an ODOMETRY, in the message's frame.
+
+    Elements that are not known (NaN) are 0; NaN first, a number that is not finite, or a negative variance
+    makes the whole unknown: all zeros.
+    """
+    if math.isnan(triangle[0]) or any(math.isinf(value) for value in triangle):
+        return NO_COVARIANCE
+    found, known = [0.0] * 36, iter(triangle)
+    for i in range(6):
+        for j in range(i, 6):
+            value = next(known)
+            found[6 * i + j] = found[6 * j + i] = 0.0 if math.isnan(value) else float(value)
+    return tuple(found) if min(found[::7]) >= 0.0 else NO_COVARIANCE
 
 
 def water_track(boot_us: int, ur: float, vr: float, wr: float = 0.0) -> Any:

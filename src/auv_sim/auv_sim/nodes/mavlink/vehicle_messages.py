@@ -14,12 +14,20 @@ from auv_msgs_py.contract.conversions import finite
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.errors import MessageRefused
 from auv_msgs_py.values.types import SpatialWater, WaterVelocity
-from auv_sim.nodes.mavlink.mapping import WATER_LOG, CommandLimits, angle_of_pulse
+from auv_sim.nodes.mavlink.mapping import (
+    NO_COVARIANCE,
+    WATER_LOG,
+    CommandLimits,
+    angle_of_pulse,
+    covariance_of,
+)
 from auv_sim.nodes.mavlink.navigation import Assembly, Attitude, Position, fuse, fuse_in_space
 from auv_sim.nodes.mavlink.soundings import sounding_of
 from auv_sim.nodes.mavlink.vehicle_time import ComponentTime, FollowedClock, OffsetEstimate
 from auv_sim.nodes.mavlink.vehicle_topics import VehicleTopics
 
+#: Age of the autopilot's covariances beyond which they are not known, ns.
+_COVARIANCE_AGE = 1_000_000_000
 #: Requests for the vehicle's time that may await their answer.
 _REQUESTS = 8
 
@@ -46,22 +54,24 @@ class VehicleMessages:
         self._assembly = Assembly(fuse_in_space if self._dives else fuse)
         self.topics = VehicleTopics(node, self._assembly.dropped, self._dives)
         self._water_boot_ms = 0
+        #: Of pose and twist, NED and FRD, and the ROS time of their arrival, ns.
+        self._covariances, self._covariances_at = (NO_COVARIANCE, NO_COVARIANCE), 0
         #: ROS time of the newest message, ns; None before the first.
         self.heard_at: int | None = None
         self._status = ""
         autopilot = p.vehicle_component
-        # Message -> the component that may send it (None: any), and its handler.
-        self._handlers: dict[str, tuple[int | None, Callable[[Any], None]]] = {
-            "HEARTBEAT": (autopilot, self._on_heartbeat),
-            "STATUSTEXT": (None, self._on_text),
-            "TIMESYNC": (autopilot, self._on_timesync),
-            "ATTITUDE": (autopilot, self._on_attitude),
-            "LOCAL_POSITION_NED": (autopilot, self._on_position),
-            "SERVO_OUTPUT_RAW": (autopilot, self._on_servo),
-            "ODOMETRY": (WATER_LOG, self._on_water_track),
+        # Message -> the components that may send it (None: any), and what handles it.
+        self._handlers: dict[str, dict[int | None, Callable[[Any], None]]] = {
+            "HEARTBEAT": {autopilot: self._on_heartbeat},
+            "STATUSTEXT": {None: self._on_text},
+            "TIMESYNC": {autopilot: self._on_timesync},
+            "ATTITUDE": {autopilot: self._on_attitude},
+            "LOCAL_POSITION_NED": {autopilot: self._on_position},
+            "SERVO_OUTPUT_RAW": {autopilot: self._on_servo},
+            "ODOMETRY": {autopilot: self._on_own_odometry, WATER_LOG: self._on_water_track},
         }
         if self._dives:
-            self._handlers["DISTANCE_SENSOR"] = autopilot, self._on_distance
+            self._handlers["DISTANCE_SENSOR"] = {autopilot: self._on_distance}
 
     def time_ns(self) -> int:
         """Return ROS time, ns, without waiting for our own /clock."""
@@ -75,13 +85,14 @@ class VehicleMessages:
         Raises:
             MessageRefused: its content is outside its limits.
         """
-        component, handler = self._handlers.get(message.get_type(), (0, None))
-        if handler is None or message.get_srcSystem() != self._system:
+        handlers = self._handlers.get(message.get_type())
+        if handlers is None or message.get_srcSystem() != self._system:
             return
         self.heard_at = self.time_ns()
-        if component not in (None, message.get_srcComponent()):
-            what = f"{message.get_type()} of component {message.get_srcComponent()}"
-            self._assembly.dropped[what] += 1
+        component = message.get_srcComponent()
+        handler = handlers.get(component) or handlers.get(None)
+        if handler is None:
+            self._assembly.dropped[f"{message.get_type()} of component {component}"] += 1
             return
         handler(message)
 
@@ -116,6 +127,7 @@ class VehicleMessages:
         if restarted:
             self._node.get_logger().warning("the vehicle was started anew")
             self._assembly.reset()
+            self._covariances = NO_COVARIANCE, NO_COVARIANCE
 
     def _on_heartbeat(self, message: Any) -> None:
         armed = "armed" if message.base_mode & mavlink.MAV_MODE_FLAG_SAFETY_ARMED else "not armed"
@@ -144,7 +156,18 @@ class VehicleMessages:
         more = (m.z, m.vz) if self._dives else ()
         fused = self._assembly.position(Position(m.time_boot_ms, m.x, m.y, m.vx, m.vy, *more))
         if fused is not None and self.time.settled:
-            self.topics.odometry(fused, self.time.stamp(fused.boot_ms * 1_000_000))
+            is_fresh = self.time_ns() - self._covariances_at <= _COVARIANCE_AGE
+            covariances = self._covariances if is_fresh else (NO_COVARIANCE, NO_COVARIANCE)
+            self.topics.odometry(fused, self.time.stamp(fused.boot_ms * 1_000_000), covariances)
+
+    def _on_own_odometry(self, message: Any) -> None:
+        """Keep the covariances of the autopilot's ODOMETRY that are in NED and FRD."""
+        pose, twist = (covariance_of(m) for m in (message.pose_covariance, message.velocity_covariance))
+        self._covariances = (
+            pose if message.frame_id == mavlink.MAV_FRAME_LOCAL_NED else NO_COVARIANCE,
+            twist if message.child_frame_id == mavlink.MAV_FRAME_BODY_FRD else NO_COVARIANCE,
+        )
+        self._covariances_at = self.time_ns()
 
     def _on_water_track(self, message: Any) -> None:
         if message.child_frame_id != mavlink.MAV_FRAME_BODY_FRD:
@@ -157,7 +180,8 @@ class VehicleMessages:
         if boot_ms > self._water_boot_ms and self._log_time.settled:
             self._water_boot_ms = boot_ms
             stamp = self._log_time.stamp(boot_ms * 1_000_000)
-            self.topics.water_velocity(self._water_velocity(message), stamp)
+            covariance = covariance_of(message.velocity_covariance)
+            self.topics.water_velocity(self._water_velocity(message), stamp, covariance)
 
     def _water_velocity(self, message: Any) -> WaterVelocity | SpatialWater:
         """Return the velocity of a water log; NaN downwards means that it is not measured."""

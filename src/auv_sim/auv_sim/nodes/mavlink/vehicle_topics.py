@@ -12,6 +12,7 @@ from std_msgs.msg import Float64
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import fill_odometry, fill_water_velocity, set_stamp
+from auv_msgs_py.contract.frames import turn_pose_covariance, turn_twist_covariance
 from auv_msgs_py.contract.spatial_conversions import fill_spatial_odometry, fill_spatial_water
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.node.runtime import SuiteNode
@@ -19,6 +20,8 @@ from auv_msgs_py.values.types import SpatialNavigation, SpatialWater, WaterVeloc
 from auv_sim.nodes.mavlink.navigation import Fused
 from auv_sim.nodes.mavlink.soundings import Sounding
 
+#: 6 x 6, row-major.
+Covariance = tuple[float, ...]
 #: Step of /clock, ns.
 _CLOCK_PERIOD = 20_000_000
 
@@ -50,8 +53,16 @@ class VehicleTopics:
         self._publish_clock = node.advertise(topics.CLOCK).publish if p.clock_speed else None
         self._clock, self._clock_at = Clock(), 0
 
-    def odometry(self, fused: Fused, stamp: int) -> None:
-        """Publish an odometry, stamp in ns."""
+    def odometry(self, fused: Fused, stamp: int, covariances: tuple[Covariance, Covariance]) -> None:
+        """Publish an odometry.
+
+        Args:
+            fused: the odometry.
+            stamp: ns.
+            covariances: of pose (NED) and twist (FRD).
+        """
+        self._odometry.pose.covariance = turn_pose_covariance(covariances[0])
+        self._odometry.twist.covariance = turn_twist_covariance(covariances[1])
         _, navigation, velocity, p = fused
         if isinstance(navigation, SpatialNavigation):
             u, v, w = velocity
@@ -61,8 +72,11 @@ class VehicleTopics:
             fill_odometry(self._odometry, navigation, u, v, stamp)
         self._in_order(topics.ODOM, self._odometry, stamp)
 
-    def water_velocity(self, velocity: WaterVelocity | SpatialWater, stamp: int) -> None:
-        """Publish a velocity through the water, m/s, FRD; stamp in ns."""
+    def water_velocity(
+        self, velocity: WaterVelocity | SpatialWater, stamp: int, covariance: Covariance
+    ) -> None:
+        """Publish a velocity through the water and its covariance, m/s, FRD; stamp in ns."""
+        self._water.twist.covariance = turn_twist_covariance(covariance)
         if isinstance(velocity, SpatialWater):
             fill_spatial_water(self._water, velocity, stamp)
         else:
