@@ -18,6 +18,7 @@ from node_bench import Bench
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 SHORT_MISSION = Path(__file__).parent / "data" / "short.yaml"
+SHORT_DIVE = Path(__file__).parent / "data" / "short_dive.yaml"
 
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
 # xdist sets the width of the terminal in its workers; the commands under test write into pipes.
@@ -97,6 +98,18 @@ def node_processes() -> Callable[[int], dict[str, int]]:
         return nodes
 
     return look
+
+
+@pytest.fixture(scope="session")
+def dive(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A dive over the graph in one process, in lockstep, in a current with upwelling: its run directory."""
+    from auv_sim.cli import mission
+
+    run = tmp_path_factory.mktemp("dive") / "run"
+    words = ["--mission", str(SHORT_DIVE), "--vehicle", "remus100_6dof", "--composed", "--quiet"]
+    sea = ["--current", "0.1", "0.2", "--upwelling", "-0.05"]
+    assert mission.main([*words, *sea, "--out", str(run)]) == 0
+    return run
 
 
 @pytest.fixture

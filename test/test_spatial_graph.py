@@ -50,16 +50,16 @@ def difference(one: SpatialRun, other: SpatialRun, name: str) -> float:
 
 
 @pytest.fixture(scope="module")
-def dive(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A dive in a current with upwelling, over separate processes."""
-    run = tmp_path_factory.mktemp("dive") / "run"
+def separate(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The dive of the fixture `dive` over separate processes."""
+    run = tmp_path_factory.mktemp("separate") / "run"
     flown(run, "--current", "0.1", "0.2", "--upwelling", "-0.05")
     return run
 
 
-def test_a_dive_over_the_graph_equals_closed_loop(dive: Path, tmp_path: Path) -> None:
+def test_a_dive_over_the_graph_equals_closed_loop(separate: Path, tmp_path: Path) -> None:
     options = Options(**DIVE, current=(0.1, 0.2), upwelling=-0.05)
-    reference, run = closed_loop.fly(mission_plan.make(options, tmp_path).scenario()), load(dive / "bag")
+    reference, run = closed_loop.fly(mission_plan.make(options, tmp_path).scenario()), load(separate / "bag")
     assert isinstance(reference, SpatialRun)
     assert isinstance(run, SpatialRun)
     assert run.steps == reference.steps
@@ -69,22 +69,23 @@ def test_a_dive_over_the_graph_equals_closed_loop(dive: Path, tmp_path: Path) ->
     assert run.Vz_est[-1] == pytest.approx(0.05, abs=0.005)
 
 
-def test_every_topic_of_a_step_is_recorded_once_a_step(dive: Path) -> None:
-    steps = json.loads((dive / "summary.json").read_text())["steps"]
+def test_every_topic_of_a_step_is_recorded_once_a_step(separate: Path) -> None:
+    steps = json.loads((separate / "summary.json").read_text())["steps"]
     wanted = {f"/auv/{topic.name}" for topic in (*topics.PER_STEP, *topics.SPATIAL_PER_STEP)}
-    with AnyReader([dive / "bag"]) as reader:
+    with AnyReader([separate / "bag"]) as reader:
         counts = {c.topic: c.msgcount for c in reader.connections if c.topic in wanted}
     assert counts == dict.fromkeys(wanted, steps)
 
 
-def test_in_one_process_and_in_ned_the_track_is_the_same(dive: Path, tmp_path: Path, domain: int) -> None:
+def test_in_one_process_and_in_ned_the_track_is_the_same(
+    dive: Path, separate: Path, tmp_path: Path, domain: int
+) -> None:
     params = tmp_path / "ned.yaml"
     robust = config_files.find("params", "robust").read_text(encoding="utf-8")
     params.write_text(robust + NED, encoding="utf-8")
     asked = ["--current", "0.1", "0.2", "--upwelling", "-0.05", "--composed", "--domain", str(domain)]
-    one = flown(tmp_path / "one", *asked)
     ned = flown(tmp_path / "ned", *asked, "--params", str(params))
-    five = load(dive / "bag")
+    one, five = load(dive / "bag"), load(separate / "bag")
     assert isinstance(five, SpatialRun)
     for field in dataclasses.fields(SpatialRun):
         name = field.name

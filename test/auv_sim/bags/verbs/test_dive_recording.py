@@ -22,24 +22,12 @@ from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.showing.report_data import page_data
 from auv_sim.bags.verbs.report import page_of
 from auv_sim.cli import bag as bag_command
-from auv_sim.cli import mission as mission_command
 from auv_sim.flight.metrics import under_way
 from auv_sim.flight.run_record import SpatialRun
 from auv_sim.views import signal_panels as panels
 
 ROOT = Path(__file__).resolve().parents[4]
-DIVE = ROOT / "test" / "data" / "short_dive.yaml"
 VERTICAL = ("sternplane_cmd", "desired_pitch", "desired_pitch_rate", "desired_depth")
-
-
-@pytest.fixture(scope="module")
-def dive(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A dive over the graph in one process, in lockstep, in a current with upwelling."""
-    run = tmp_path_factory.mktemp("recorded") / "run"
-    words = ["--mission", str(DIVE), "--vehicle", "remus100_6dof", "--composed", "--quiet"]
-    sea = ["--current", "0.1", "0.2", "--upwelling", "-0.05"]
-    assert mission_command.main([*words, *sea, "--out", str(run)]) == 0
-    return run
 
 
 def test_a_rerun_commands_the_recorded_bits(dive: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -203,3 +191,7 @@ def test_the_page_has_the_path_in_three_dimensions_and_the_scripts_that_draw_it(
     assert depth.max() == pytest.approx(5.0, abs=1e-3)
     assert [colour["name"] for colour in space["colours"]] == ["distance", "depth_error", "ze"]
     assert space["bottom"] is space["mesh"] is None
+    flight.mission = None  # then the path is the one that guidance published
+    published = page_data(flight, [], "a dive")["space"]["path"]
+    depths = np.frombuffer(base64.b64decode(published["z"]), "<f4")
+    assert (depths[0], depths.max()) == pytest.approx((3.0, 5.0), abs=0.01)

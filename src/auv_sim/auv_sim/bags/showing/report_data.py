@@ -8,18 +8,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from auv_msgs_py.contract import topics
-from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.curves.composite import CompositePath
 from auv_sim.bags.content.events import Event, diagnostic_spans
 from auv_sim.bags.content.recorded_mission import RecordedMission, texts_of
-from auv_sim.bags.reading.load import messages_of
-from auv_sim.bags.reading.recording import Bag
 from auv_sim.bags.showing.space_data import (
     NOW,
     depth_figures,
     packed,
     panel,
+    published_path,
     series,
     space,
     spatial_columns,
@@ -101,19 +98,8 @@ def _path(flight: RecordedMission) -> tuple[NDArray[np.float64], NDArray[np.floa
     if flight.mission is not None:
         x, y, _ = flight.mission.path.polyline(1.0)
         return x, y
-    return _published_path(flight.bag)
-
-
-def _published_path(bag: Bag) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
-    try:
-        topic = bag.find(topics.PATH.name)
-        messages = messages_of(topic) if topic is not None and topic.type == topics.PATH.type else []
-    except ConfigurationError:
-        return None
-    if not messages:
-        return None
-    points = [pose.pose.position for pose in messages[-1][1].poses]
-    return np.array([p.y for p in points]), np.array([p.x for p in points])
+    published = published_path(flight.bag)
+    return published and published[:2]
 
 
 def _facts(

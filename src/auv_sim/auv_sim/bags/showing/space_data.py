@@ -10,8 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from auv_msgs_py.contract import topics
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.content.recorded_mission import RecordedMission, configuration
+from auv_sim.bags.reading.load import messages_of
+from auv_sim.bags.reading.recording import Bag
 from auv_sim.flight.metrics import SpatialMissionSummary, SpatialSubpathSummary
 from auv_sim.flight.path_cells import metres_of
 from auv_sim.flight.run_record import SpatialRun
@@ -63,9 +66,12 @@ def space(flight: RecordedMission, columns: dict[str, Column]) -> dict[str, Any]
         heard = np.isfinite(columns["bottom"])
         place = (*run.track, columns["bottom"])
         bottom = dict(zip("xyz", (packed(axis[heard]) for axis in place), strict=True))
-    path = None
+    points = None
     if flight.spatial is not None:
-        path = dict(zip("xyz", map(packed, flight.spatial.polyline(_SPACING)[:3]), strict=True))
+        points = flight.spatial.polyline(_SPACING)[:3]
+    elif flight.mission is None:
+        points = published_path(flight.bag)
+    path = points and dict(zip("xyz", map(packed, points), strict=True))
     colours = [
         {"name": "distance", "label": "distance to the path", "unit": "m", "signed": False},
         {"name": "depth_error", "label": "depth error, below is positive", "unit": "m", "signed": True},
@@ -73,6 +79,19 @@ def space(flight: RecordedMission, columns: dict[str, Column]) -> dict[str, Any]
     ]
     shown = [colour for colour in colours if colour["name"] in columns]
     return {"path": path, "bottom": bottom, "mesh": _mesh(flight, run), "colours": shown}
+
+
+def published_path(bag: Bag) -> tuple[Column, Column, Column] | None:
+    """Return north, east and depth of the path that guidance published, m; None where it is not recorded."""
+    try:
+        topic = bag.find(topics.PATH.name)
+        messages = messages_of(topic) if topic is not None and topic.type == topics.PATH.type else []
+    except ConfigurationError:
+        return None
+    if not messages:
+        return None
+    points = [pose.pose.position for pose in messages[-1][1].poses]
+    return np.array([p.y for p in points]), np.array([p.x for p in points]), np.array([-p.z for p in points])
 
 
 def _mesh(flight: RecordedMission, run: SpatialRun) -> dict[str, Any] | None:

@@ -90,7 +90,6 @@
     g.lineWidth = 2.6; g.lineCap = "round";
     parts.forEach((points, k) => { if (!points.length) return; g.strokeStyle = k ? colour(k - 1) : css("muted"); g.beginPath();
       for (let j = 0; j < points.length; j += 2) { g.moveTo(points[j][0], points[j][1]); g.lineTo(points[j + 1][0], points[j + 1][1]); } g.stroke(); });
-    legend(g, range);
   }
   function legend(g, range) {
     const c = S.colours[mode], x = 14, y = 10, w = 150; g.fillStyle = css("card"); g.globalAlpha = 0.8; g.fillRect(0, 0, 230, 52); g.globalAlpha = 1; for (let k = 0; k < COUNT; k++) { g.fillStyle = colour(k); g.fillRect(x + k * w / COUNT, y, w / COUNT + 0.6, 8); }
@@ -129,8 +128,8 @@
       g.strokeStyle = css("path"); g.lineWidth = 1; g.globalAlpha = 0.5; for (let k = 0; k < n; k += Math.max(1, Math.round(n / 60))) segment(g, at, [way.x[k], way.y[k], way.z[k]], [way.x[k], way.y[k], 0]); g.globalAlpha = 1;
       stroke(g, at, way.x, way.y, way.z, n, css("path"), 6); }
     drawTrackIn(g, at); if (fromAbove) surface(); else { floor(); drawBottom(g, at); }
-    marks(g, at); compass(g, w, h);
-    const s = box.n.flatMap(n => box.e.map(e => at(n, e, 0))).reduce((a, b) => b[2] > a[2] ? b : a); g.fillStyle = css("blue"); g.textAlign = "center"; g.textBaseline = "bottom"; g.fillText("surface", s[0], s[1] - 3);
+    marks(g, at); compass(g, w, h); const range = mode < 0 ? null : ranges[mode];
+    const s = box.n.flatMap(n => box.e.map(e => at(n, e, 0))).reduce((a, b) => b[2] > a[2] ? b : a); g.fillStyle = css("blue"); g.textAlign = "center"; g.textBaseline = "bottom"; g.fillText("surface", s[0], s[1] - 3); if (range) legend(g, range);
   }
   const turn = (dh, dt) => { view.heading = (view.heading + dh + 2 * Math.PI) % (2 * Math.PI); view.tilt = Math.max(-0.5, Math.min(Math.PI / 2, view.tilt + dt)); drawSpace(); };
   const zoom = f => { view.zoom = Math.max(0.3, Math.min(200, view.zoom * f)); drawSpace(); };
@@ -139,7 +138,7 @@
   let grip = null, moved = false;
   canvas.addEventListener("pointerdown", e => { grip = [e.offsetX, e.offsetY]; moved = false; canvas.focus({ preventScroll: true }); canvas.setPointerCapture(e.pointerId); });
   canvas.addEventListener("pointermove", e => { if (!grip) return; const dx = e.offsetX - grip[0], dy = e.offsetY - grip[1]; if (!moved && Math.abs(dx) + Math.abs(dy) < 3) return; moved = true; grip = [e.offsetX, e.offsetY];
-    if (e.shiftKey || e.buttons > 1) { view.right -= dx / shown.scale; view.up += dy / shown.scale; drawSpace(); } else turn(-dx * 0.008, dy * 0.008); });
+    if (e.shiftKey || e.buttons > 1) { view.right -= dx / shown.scale; view.up += dy / shown.scale; drawSpace(); } else turn(dx * 0.008, dy * 0.008); });
   canvas.addEventListener("pointerup", e => { if (grip && !moved) { let best = -1, d = Infinity;
       for (let k = 0; k < N; k += step) { if (!Number.isFinite(TX[k]) || !Number.isFinite(Z[k])) continue; const p = shown.at(TX[k], TY[k], Z[k]), q = (p[0] - e.offsetX) ** 2 + (p[1] - e.offsetY) ** 2; if (q < d) { d = q; best = k; } }
       if (best >= 0 && d < 900) setCursor(T[best]); } grip = null; });
