@@ -158,6 +158,13 @@ Fault = Literal[
     "timeless",
     "cut",
     "forge",
+    "weak",
+    "depth_nan",
+    "depth_freeze",
+    "depth_jump",
+    "depth_turn",
+    "planar",
+    "rolled",
 ]
 
 
@@ -171,7 +178,9 @@ class FaultRelayParameters(NodeParameters):
         "the topics that it forwards, separated by spaces",
     )
     fault: Fault = setting(
-        "none", "stop, delay, nan, freeze, jump, reverse, flood, frameless, timeless, cut, forge, or none",
+        "none",
+        "stop, delay, nan, freeze, jump, reverse, flood, frameless, timeless, cut, forge, weak, depth_nan,"
+        " depth_freeze, depth_jump, depth_turn, planar, rolled, or none",
         live=True,
     )  # fmt: skip
     on: str = setting("", "the topics with the fault; empty: all", live=True)

@@ -9,9 +9,11 @@ import pytest
 from geometry_msgs.msg import TwistWithCovarianceStamped, Vector3Stamped
 from nav_msgs.msg import Odometry
 from rclpy.serialization import deserialize_message, serialize_message
+from sensor_msgs.msg import Range
 from std_msgs.msg import Float64, String
 
-from auv_sim.nodes.fault_injection import Injector
+from auv_msgs_py.values.attitude import angles_of_quaternion, quaternion_of
+from auv_sim.nodes.fault_injection import DEPTH_FAULTS, ROLL, Injector
 
 
 def odometry(x: float, seconds: int) -> Odometry:
@@ -99,3 +101,38 @@ def test_a_timeless_message_has_no_time_and_a_cut_one_is_half_a_message() -> Non
 def test_one_state_is_forged_behind_the_first_message() -> None:
     said = spoiled("forge", [String(data="running")] * 4)
     assert [message.data for message in said] == ["running", "complete", "running"]
+
+
+def diving(z: float, w: float, x: float, y: float, yaw: float) -> Odometry:
+    message = odometry(1.0, 3)
+    message.pose.pose.position.z = z
+    q = message.pose.pose.orientation
+    q.w, q.x, q.y, q.z = w, x, y, yaw
+    return message
+
+
+def test_faults_of_the_depth_change_depth_or_attitude_alone() -> None:
+    """On the wire z is up; a heading of 1 rad with a pitch."""
+    attitude = quaternion_of(0.1, -0.2, 1.0)
+    track = [diving(-float(k), *attitude) for k in range(5, 10)]
+    found = {fault: spoiled(fault, track)[-1].pose.pose for fault in DEPTH_FAULTS}
+    depths = {fault: pose.position.z for fault, pose in found.items()}
+    assert math.isnan(depths.pop("depth_nan"))
+    assert depths == {
+        "depth_freeze": -6.0, "depth_jump": -39.0, "depth_turn": 9.0, "planar": 0.0, "rolled": -9.0,
+    }  # fmt: skip
+    angles = {
+        fault: angles_of_quaternion(*(getattr(pose.orientation, name) for name in "wxyz"))
+        for fault, pose in found.items()
+    }
+    assert angles.pop("rolled") == pytest.approx((0.1 + ROLL, -0.2, 1.0))
+    phi, theta, psi = angles.pop("planar")
+    assert (phi, theta) == (0.0, 0.0)
+    assert psi == pytest.approx(1.0, abs=0.05)
+    assert set(angles.values()) == {angles["depth_nan"]}
+    assert spoiled("rolled", [Float64(data=2.0)] * 3) == [Float64(data=2.0)]  # not an odometry
+
+
+def test_a_weak_thruster_and_an_altimeter_have_numbers() -> None:
+    assert spoiled("weak", [Float64(data=5.0)] * 3)[0].data == pytest.approx(0.5)
+    assert spoiled("jump", [Range(range=7.0)] * 3)[0].range == pytest.approx(107.0)

@@ -68,6 +68,7 @@ class GuidanceNode(SuiteNode):
         output, thrust = self.keeper.step(measured, inputs.current, inputs.dt)
         late = thrust > 0.0 and inputs.current_age > p.current_timeout
         self.health.warn("current", f"no fresh {topics.CURRENT_ESTIMATE.name}" if late else "")
+        self.health.warn("altitude", self._course.warning(self.keeper.state.follower))
         if thrust > 0.0 and has_water:
             if text := self._approach.update(output.approach, dt):
                 self.get_logger().info(text)

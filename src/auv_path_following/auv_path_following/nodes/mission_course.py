@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from auv_msgs_py.contract import topics
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_path_following.course import PlanarCourse, SpatialCourse
 from auv_path_following.missions.mission_file import Mission
@@ -15,6 +16,9 @@ from auv_path_following.nodes.guidance_output import (
 )
 from auv_path_following.vehicle import Vehicle
 
+#: Without a range to the bottom for this long it is lost, s.
+_LOST = 1.0
+
 
 class PublishedCourse(PlanarCourse):
     """A planar mission of a planar vehicle."""
@@ -22,6 +26,10 @@ class PublishedCourse(PlanarCourse):
     def messages(self, node: SuiteNode) -> GuidanceMessages:
         """Return the messages of a step."""
         return GuidanceMessages(node)
+
+    def warning(self, follower: Any) -> str:
+        """Return what is wrong with the measurements of a follower's last step; empty: nothing."""
+        return ""
 
     def message(self, stamp: int) -> Any:
         """Return the message `path`; `stamp` in ns."""
@@ -33,6 +41,14 @@ class PublishedSpatialCourse(SpatialCourse, PublishedCourse):
 
     def messages(self, node: SuiteNode) -> GuidanceMessages:
         return SpatialGuidanceMessages(node)
+
+    def warning(self, follower: Any) -> str:
+        vertical = follower.vertical
+        if vertical.silent <= _LOST:
+            return ""
+        what = f"no usable range to the bottom ({topics.ALTITUDE.name})"
+        climbs = vertical.tracked and vertical.depth == vertical.heard_at
+        return f"{what}: " + ("climbing to where the last one was" if climbs else "the depth is held")
 
     def message(self, stamp: int) -> Any:
         return whole_spatial_path(self.path, stamp)

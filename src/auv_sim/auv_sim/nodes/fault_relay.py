@@ -25,13 +25,14 @@ from auv_sim.nodes.fault_injection import Injector
 from auv_sim.sim_parameters import Fault, FaultRelayParameters
 
 NAME = "fault_relay"
-#: Topics that can be relayed: the control chain.
+#: Topics that can be relayed: the control chain. The last four are those of a vehicle that dives.
 RELAYED = {
     topic.name: topic
     for topic in (
         topics.ODOM, topics.WATER_VELOCITY, topics.CURRENT_ESTIMATE, topics.DESIRED_YAW,
         topics.DESIRED_YAW_RATE, topics.DESIRED_THRUST, topics.RUDDER_CMD, topics.THRUST_CMD,
-        topics.MISSION_STATE,
+        topics.MISSION_STATE, topics.DESIRED_PITCH, topics.DESIRED_PITCH_RATE, topics.STERNPLANE_CMD,
+        topics.ALTITUDE,
     )
 }  # fmt: skip
 

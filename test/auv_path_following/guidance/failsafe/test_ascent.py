@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from auv_path_following import vehicle
-from auv_path_following.guidance.failsafe import ascent
+from auv_path_following.guidance.failsafe import ascent, guard
 from auv_path_following.guidance.failsafe.ascent import (
     ASCENDS,
     NO_PROGRESS,
@@ -24,13 +24,19 @@ from auv_path_following.guidance.failsafe.ascent import (
     phase_words,
     prepare,
 )
+from auv_path_following.guidance.failsafe.dive_limits import NOT_DIVED, DiveLimitsConfig
+from auv_path_following.guidance.failsafe.guard import GuardState
 from auv_path_following.missions.mission_state import (
+    ABORTED,
     DEPTH_DOUBTED,
+    HELD_TOO_LONG,
     MAX_DEPTH,
     PITCHED,
     ROLLED,
     SANK,
+    MissionStatus,
     Reason,
+    is_surfacing,
 )
 
 DT = 0.1
@@ -126,3 +132,19 @@ def test_without_a_measured_speed_the_pitch_is_as_configured() -> None:
     slow = at._replace(ur=0.1, vr=0.0, wr=0.0)  # planes reverse: no pitch is asked for
     assert ascend(c, state, slow, DT)[1] == 0.0
     assert ascent.AT_DEPTH.phase == ascent.NO_ASCENT
+
+
+@pytest.mark.parametrize(
+    ("when", "deepest", "surfaces"),
+    [("sinks", 20.0, True), ("sinks", 21.0, False), ("never", 20.0, False), ("always", 21.0, True)],
+)
+def test_a_hold_that_lasts_too_long_ends_with_an_ascent_of_a_hull_that_has_not_risen(
+    when: Any, deepest: float, surfaces: bool
+) -> None:
+    config = guard.prepare(DiveLimitsConfig(), AscentConfig(when=when), FLOATS, 6.48)
+    state = GuardState(NOT_DIVED._replace(held_at=19.0, deepest=deepest), ascent.AT_DEPTH)
+    ended = MissionStatus(ABORTED, Reason(HELD_TOO_LONG, 1.0, 0.0, 30.0))
+    rising, mission = guard.held_too_long(config, state, ended, (20.0, 0.4))
+    assert (is_surfacing(mission), guard.surfaces(rising)) == (surfaces, surfaces)
+    assert guard.held_too_long(config, state, ended, None) == (state, ended)  # without odometry
+    assert guard.held_too_long(guard.NoDive(), state, ended, (20.0, 0.4)) == (state, ended)

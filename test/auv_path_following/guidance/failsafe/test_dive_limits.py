@@ -128,7 +128,7 @@ def test_what_a_sound_vehicle_does_is_not_a_fault() -> None:
 
 def test_a_rest_begins_the_watch_anew() -> None:
     limits = prepare(DiveLimitsConfig(), REMUS)
-    state = DiveLimitsState(0.0, 9.0, True, 0.0, True, 29.0, 5.0, 40.0, 1.9, 0.0, math.nan)
+    state = DiveLimitsState(0.0, 9.0, True, 0.0, True, 29.0, 5.0, 40.0, 1.9, 0.0, math.nan, math.nan)
     rested = LEVEL._replace(z=16.0, water=(0.2, 0.0, 0.0), rests=True)
     state, reason = dive_limits(limits, state, rested, DT)
     assert reason == NO_REASON

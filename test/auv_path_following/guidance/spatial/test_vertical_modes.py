@@ -20,7 +20,14 @@ from auv_path_following.guidance.spatial.vertical_modes import (
 
 STEEPEST, DT = math.radians(30.0), 0.05
 MODE = AltitudeHold(
-    above=5.0, least=3.0, surface=0.5, deepest=100.0, bandwidth=1.0, damping=0.7, patience=5.0
+    above=5.0,
+    least=3.0,
+    surface=0.5,
+    deepest=100.0,
+    bandwidth=1.0,
+    damping=0.7,
+    patience=5.0,
+    largest_drop=5.0,
 )
 
 
@@ -105,3 +112,18 @@ def test_without_an_echo_the_depth_is_held_then_the_vehicle_climbs_to_the_last_e
 def test_without_any_echo_the_own_depth_is_held() -> None:
     _, request = vertical_step(MODE, NO_REQUEST, at(17.0, math.inf), DT)
     assert (request.ze, request.depth) == (0.0, 17.0)
+
+
+def test_a_false_echo_does_not_lead_down_and_a_cliff_does_in_the_end() -> None:
+    """A bottom that is suddenly 20 m deeper is no echo for `patience`; then it is the bottom."""
+    state, before = settled(MODE, 20.0, 30.0)
+    for k in range(round(5.5 / DT)):
+        state, request = vertical_step(MODE, state, at(20.0, 30.0), DT)
+        if (k + 1) * DT < 5.0:
+            assert request.depth == pytest.approx(before.depth)
+    assert request.depth == pytest.approx(45.0, abs=0.1)
+    state, before = settled(MODE, 20.0, 30.0)
+    for _ in range(40):  # a shoal counts at once
+        state, request = vertical_step(MODE, state, at(20.0, 2.0), DT)
+    assert request.depth < before.depth
+    assert request.least_climb == STEEPEST

@@ -10,7 +10,7 @@ import pytest
 from auv_msgs_py.contract import topics
 from auv_msgs_py.settings.schema import leaves
 from auv_sim.checks.faults.expectations import REPRESENTATIVE, TABLE, as_markdown, chosen
-from auv_sim.nodes.fault_injection import FAULTS
+from auv_sim.nodes.fault_injection import DEPTH_FAULTS, FAULTS
 from auv_sim.nodes.fault_relay import RELAYED
 from auv_sim.sim_parameters import SUITE
 
@@ -37,6 +37,10 @@ def test_every_fault_of_every_topic_has_a_row(name: str) -> None:
         wanted -= NOT_FOR_A_TEXT
     else:
         wanted -= {"forge"}
+    if name != topics.ODOM.name:
+        wanted -= set(DEPTH_FAULTS)
+    if name != topics.THRUST_CMD.name:
+        wanted -= {"weak"}
     assert {row.fault for row in TABLE if row.place == name} == wanted
 
 
@@ -60,6 +64,16 @@ def test_a_row_does_not_contradict_itself(row) -> None:  # type: ignore[no-untyp
     assert row.lasts >= row.safe
     assert row.wall or row.then_abort or row.fault == "kill" or row.lasts >= row.within
     assert row.fault != "jump" or row.place != topics.ODOM.name or row.lasts < 3.0  # else it is accepted
+
+
+def test_a_vehicle_that_dives_has_a_row_for_each_of_its_faults() -> None:
+    """Depth, attitude, planes, thruster, buoyancy, altimeter; each in the flight in which it can show."""
+    flights = {row.name: row.flight for row in TABLE}
+    dives = [f"odom {fault}" for fault in DEPTH_FAULTS]
+    dives += ["sternplane_cmd freeze", "thrust_cmd weak", "remus_plant heavy", "remus_plant light"]
+    assert {flights[name] for name in dives} == {"dive"}
+    assert {row.flight for row in TABLE if row.place == topics.ALTITUDE.name} == {"bottom"}
+    assert [row.name for row in TABLE if row.surfaces] == ["remus_plant heavy"]
 
 
 def test_names_are_unique_and_choose() -> None:

@@ -24,7 +24,7 @@ _WORDS = {
     NAVIGATION_ENDED: "given up: no odometry",
 }
 #: This close to the surface depth the vehicle is there, m.
-_THERE = 0.3
+THERE = 0.3
 #: Progress of an ascent: this much less depth, m.
 _STEP = 0.5
 #: An ascent that goes this much deeper does not rise, m: after a dive some of it is momentum.
@@ -147,7 +147,7 @@ def has_to_ascend(config: Ascent, reason: Reason, is_asked: bool, z: float) -> b
         is_asked: whether the service `abort` ends it.
         z: depth, m.
     """
-    is_there = z <= config.surface + _THERE and reason.cause != DEPTH_DOUBTED
+    is_there = z <= config.surface + THERE and reason.cause != DEPTH_DOUBTED
     if is_there or reason.cause == ROLLED or reason.cause == PITCHED:
         return False
     if is_asked:
@@ -185,7 +185,7 @@ def ascend(config: Ascent, state: AscentState, inputs: AscentInputs, dt: float) 
         least, since = depth, 0.0
     if there >= 0.0:
         there += dt
-    elif depth <= config.surface + _THERE:
+    elif depth <= config.surface + THERE:
         there = 0.0
     phase = ASCENDS
     if there >= 0.0:

@@ -106,7 +106,7 @@ class DiveLimitsState(NamedTuple):
         z: depth at the last step, m; NaN: none that the next one continues.
         deeper, shallower: how much deeper or shallower the measured depth has become than pitch and speed
             explain, m.
-        held_at: depth at which a hold began, m; NaN: it does not hold.
+        held_at, deepest: depth at which a hold began, and the greatest one since, m; NaN: it does not hold.
     """
 
     tilted: float
@@ -120,10 +120,13 @@ class DiveLimitsState(NamedTuple):
     deeper: float
     shallower: float
     held_at: float
+    deepest: float
 
 
 #: The state at the beginning of a mission.
-NOT_DIVED = DiveLimitsState(0.0, 0.0, False, 0.0, False, 0.0, math.inf, math.nan, 0.0, 0.0, math.nan)
+NOT_DIVED = DiveLimitsState(
+    0.0, 0.0, False, 0.0, False, 0.0, math.inf, math.nan, 0.0, 0.0, math.nan, math.nan
+)
 
 
 class DiveInputs(NamedTuple):
@@ -238,15 +241,19 @@ def judge_depth(
 
 
 @pure
-def judge_hold(c: DiveLimitsConfig, held_at: float, z: float, holds: bool) -> tuple[float, Reason]:
-    """Judge the depth of a vehicle that holds: return the depth at which it began (m), NaN if none."""
+def judge_hold(
+    c: DiveLimitsConfig, state: tuple[float, float], z: float, holds: bool
+) -> tuple[tuple[float, float], Reason]:
+    """Judge the depth of a vehicle that holds: return where the hold began and its greatest depth, m."""
+    held_at, deepest = state
     if not holds:
-        return math.nan, NO_REASON
+        return (math.nan, math.nan), NO_REASON
     if math.isnan(held_at):
-        held_at = z
+        held_at = deepest = z
+    deepest = max(deepest, z)
     if z - held_at > c.hold_sink > 0.0:
-        return held_at, Reason(SANK, z - held_at, 0.0, c.hold_sink)
-    return held_at, NO_REASON
+        return (held_at, deepest), Reason(SANK, z - held_at, 0.0, c.hold_sink)
+    return (held_at, deepest), NO_REASON
 
 
 @pure
@@ -262,9 +269,9 @@ def dive_limits(
     """Return the reason why a dive must end, or `NO_REASON`. Constant in time."""
     c = config.values
     z, phi, theta, (ur, vr, wr), depth, follows, holds, rests = inputs
-    tilted, slow, has_been_fast, broached, has_dived, stalled, least, last, deeper, shallower, held_at = state
+    tilted, slow, has_been_fast, broached, has_dived, stalled, least, last, deeper, shallower = state[:10]
     tilted, reason = judge_tilt(c, tilted, phi, theta, dt)
-    held_at, sank = judge_hold(c, held_at, z, holds)
+    held, sank = judge_hold(c, (state.held_at, state.deepest), z, holds)
     reason = first_of(reason, sank)
     if follows:
         if rests:
@@ -281,6 +288,17 @@ def dive_limits(
     else:
         last = math.nan
     state = DiveLimitsState(
-        tilted, slow, has_been_fast, broached, has_dived, stalled, least, last, deeper, shallower, held_at
+        tilted,
+        slow,
+        has_been_fast,
+        broached,
+        has_dived,
+        stalled,
+        least,
+        last,
+        deeper,
+        shallower,
+        held[0],
+        held[1],
     )
     return state, reason

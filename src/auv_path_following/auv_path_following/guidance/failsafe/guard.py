@@ -13,6 +13,7 @@ from auv_path_following.guidance.failsafe.ascent import (
     ASCENDS,
     AT_DEPTH,
     NAVIGATION_ENDED,
+    THERE,
     Ascent,
     AscentConfig,
     AscentInputs,
@@ -45,6 +46,9 @@ from auv_path_following.missions.mission_state import (
     surfacing,
 )
 from auv_path_following.vehicle import Vehicle
+
+#: A hull that floats has risen by this much from its greatest depth when a hold ends, m.
+_RISEN = 0.3
 
 
 class NoDive(NamedTuple):
@@ -173,6 +177,8 @@ def held_too_long(
 ) -> tuple[GuardState, MissionStatus]:
     """End a hold that has lasted too long, after an ascent where that is due and odometry still arrives.
 
+    A hull that has not begun to rise by then does not float.
+
     Args:
         config, state: of the guard.
         mission: as `mission_state.waited` has ended it.
@@ -181,7 +187,9 @@ def held_too_long(
     reason = mission.reason
     if isinstance(config, NoDive) or place is None or reason.cause != HELD_TOO_LONG:
         return state, mission
-    if not has_to_ascend(config.ascent, reason, False, place[0]):
+    has_risen = state.limits.deepest - place[0] > _RISEN
+    sinks = config.ascent.if_sunk and not has_risen and place[0] > config.ascent.surface + THERE
+    if not (sinks or has_to_ascend(config.ascent, reason, False, place[0])):
         return state, mission
     return GuardState(state.limits, begun(reason, *place)), surfacing(mission, reason)
 

@@ -51,7 +51,8 @@ def altitude_hold(
     """
     c, depth = config.vertical.altitude, vehicle.depth
     bound = min(deepest, depth.max) if deepest > 0.0 else depth.max
-    values = (above, least, depth.surface, bound, c.bandwidth, c.damping, c.patience)
+    tracker = (c.bandwidth, c.damping, c.patience, c.largest_drop)
+    values = (above, least, depth.surface, bound, *tracker)
     return AltitudeHold(*map(float, values))
 
 

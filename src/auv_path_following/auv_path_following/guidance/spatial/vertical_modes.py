@@ -24,6 +24,12 @@ class AltitudeConfig:
         5.0, "without an echo the depth is held for this long; then the vehicle climbs", unit="s", ge=0.0,
         le=600.0, live=True,
     )  # fmt: skip
+    largest_drop: float = setting(
+        5.0,
+        "a bottom that is deeper than the tracked one by more than this is no echo, until it has lasted for"
+        " patience: a false echo must not lead down",
+        unit="m", gt=0.0, live=True,
+    )  # fmt: skip
 
 
 @settings
@@ -54,7 +60,7 @@ class AltitudeHold(NamedTuple):
         above: altitude, m.
         least: below it the vehicle climbs as steeply as it can, m.
         surface, deepest: range of the requested depth, m.
-        bandwidth, damping, patience: of `AltitudeConfig`.
+        bandwidth, damping, patience, largest_drop: of `AltitudeConfig`.
     """
 
     above: float
@@ -64,6 +70,7 @@ class AltitudeHold(NamedTuple):
     bandwidth: float
     damping: float
     patience: float
+    largest_drop: float
 
 
 class VerticalState(NamedTuple):
@@ -76,6 +83,7 @@ class VerticalState(NamedTuple):
         depth: requested, m.
         silent: time since the last echo, s.
         heard_at: depth of the vehicle at the last echo, m.
+        dropped: time for which the bottom has been too deep to be true, s.
     """
 
     begun: bool = False
@@ -85,10 +93,11 @@ class VerticalState(NamedTuple):
     depth: float = 0.0
     silent: float = 0.0
     heard_at: float = 0.0
+    dropped: float = 0.0
 
 
 #: The state at the beginning of a mission.
-NO_REQUEST = VerticalState(False, False, 0.0, 0.0, 0.0, 0.0, 0.0)
+NO_REQUEST = VerticalState(False, False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class VerticalInputs(NamedTuple):
@@ -149,6 +158,28 @@ def hold_depth(
 
 
 @pure
+def echo(
+    mode: AltitudeHold, state: VerticalState, altitude: float, there: float, dt: float
+) -> tuple[bool, bool, float]:
+    """Return whether there is an echo of the bottom, whether that is tracked, and the time of a drop, s.
+
+    Args:
+        mode, state: of the vertical plane.
+        altitude: range to the bottom, m.
+        there: depth at which that puts the bottom, m.
+        dt: seconds since the last step.
+    """
+    if not 0.0 < altitude < math.inf:  # NaN is no echo
+        return False, state.tracked, 0.0
+    if not state.tracked or there - state.bottom <= mode.largest_drop:
+        return True, state.tracked, 0.0
+    dropped = state.dropped + dt
+    if dropped > mode.patience:  # it is the bottom
+        return True, False, 0.0
+    return False, True, dropped
+
+
+@pure
 def hold_altitude(
     mode: AltitudeHold, state: VerticalState, inputs: VerticalInputs, dt: float
 ) -> tuple[VerticalState, VerticalRequest]:
@@ -158,13 +189,12 @@ def hold_altitude(
     depth at which it had the last one. A vehicle below the least altitude climbs at theta_max.
     """
     z, tilt, altitude, speed = inputs.z, inputs.tilt, inputs.altitude, inputs.speed
-    begun, tracked, bottom, sinking, depth, silent, heard_at = state
+    begun, tracked, bottom, sinking, depth, silent, heard_at, dropped = state
     if not begun:
         depth = heard_at = z
-    has_echo = altitude > 0.0 and altitude < math.inf  # NaN is no echo
-    slope, least_climb = 0.0, -math.inf
+    slope, least_climb, there = 0.0, -math.inf, z + altitude * tilt
+    has_echo, tracked, dropped = echo(mode, state, altitude, there, dt)
     if has_echo:
-        there = z + altitude * tilt
         if tracked:
             w = mode.bandwidth
             sinking += (w * w * (there - bottom) - 2.0 * mode.damping * w * sinking) * dt
@@ -185,7 +215,7 @@ def hold_altitude(
             depth, least_climb = heard_at, 0.5 * inputs.steepest
     depth = min(max(depth, mode.surface), mode.deepest)
     ze = math.cos(slope) * (z - depth)
-    state = VerticalState(True, tracked, bottom, sinking, depth, silent, heard_at)
+    state = VerticalState(True, tracked, bottom, sinking, depth, silent, heard_at, dropped)
     return state, VerticalRequest(ze, slope, 1.0, depth, least_climb)
 
 

@@ -5,61 +5,13 @@ docs/safety.md prints it, and a test compares the two.
 
 from __future__ import annotations
 
-from typing import Any, Literal, NamedTuple
+from typing import Any
 
 from auv_msgs_py.contract import topics
-from auv_sim.sim_parameters import Fault
-
-Kind = Fault | Literal["kill"]
-
-#: goes on     the mission does not stop.
-#: stops       the vehicle is stopped, and goes on when the fault is over.
-#: holds       guidance holds, and goes on from there when the fault is over.
-#: aborts      the mission ends, and the vehicle is stopped.
-#: waits       the vehicle is stopped until the mission is started again.
-Outcome = Literal["goes on", "stops", "holds", "aborts", "waits"]
-
-
-class Expectation(NamedTuple):
-    """One row: a fault and the required reaction.
-
-    Attributes:
-        place: the topic, or the node that is killed.
-        fault: what is done to it.
-        noticed_by: the node that names it in /diagnostics; empty where it looks like normal operation.
-        says: part of its report.
-        within: latest time of that report, s of ROS time after the fault began.
-        outcome: what becomes of the mission.
-        safe: latest time at which rudder and thrust are 0, s of ROS time; 0: they need not be.
-        set_by: the parameters that set the bounds.
-        lasts: duration of the fault, s of ROS time.
-        delay: of the fault `delay`, s.
-        then_abort: the matrix calls `abort` meanwhile, and the bounds count from there.
-        wall: whether `within` is s of wall time, for faults in which the ROS clock may stand still.
-    """
-
-    place: str
-    fault: Kind
-    noticed_by: str
-    says: str
-    within: float
-    outcome: Outcome
-    safe: float = 0.0
-    set_by: str = ""
-    lasts: float = 3.0
-    delay: float = 2.0
-    then_abort: bool = False
-    wall: bool = False
-
-    @property
-    def name(self) -> str:
-        """The name by which a row is printed and chosen."""
-        return f"{self.place} {self.fault}" + (" then abort" if self.then_abort else "")
-
+from auv_sim.checks.faults.fault_row import FLOOD, Expectation, Kind, of_command, of_reference
 
 _E = Expectation
 _GUIDANCE, _AUTOPILOT, _PLANT, _OBSERVER = topics.GUIDANCE, topics.AUTOPILOT, topics.PLANT, topics.OBSERVER
-_FLOOD: dict[str, Any] = {"within": 1.5, "outcome": "goes on", "set_by": "flood_rate", "wall": True}
 
 
 def _odom(fault: Kind, says: str, within: float = 0.1, safe: float = 0.6, **more: Any) -> Expectation:
@@ -80,37 +32,11 @@ def _current(fault: Kind, says: str, within: float = 0.1, **more: Any) -> Expect
     )
 
 
-def _reference(place: str) -> list[Expectation]:
-    stops: dict[str, Any] = {"outcome": "stops", "safe": 0.6, "set_by": "reference_timeout"}
-    return [
-        _E(place, "stop", _AUTOPILOT, "guidance is silent", 0.6, **stops),
-        _E(place, "delay", _AUTOPILOT, "guidance is silent", 0.6, **stops),
-        _E(place, "nan", _AUTOPILOT, f"{place}: found nan", 0.1, **stops),
-        _E(place, "cut", _AUTOPILOT, "bytes that do not decode", 0.1, **stops),
-        _E(place, "jump", _AUTOPILOT, "expected from", 0.1, **stops),
-        _E(place, "reverse", "", "", 0.0, "goes on"),
-        _E(place, "flood", _AUTOPILOT, f"{place} comes at", **_FLOOD),
-    ]
-
-
-def _command(place: str) -> list[Expectation]:
-    stops: dict[str, Any] = {"outcome": "stops", "safe": 1.1, "set_by": "command_timeout"}
-    return [
-        _E(place, "stop", _PLANT, f"no {place}", 1.1, **stops),
-        _E(place, "delay", _PLANT, f"no {place}", 1.1, **stops),
-        _E(place, "nan", _PLANT, f"{place}: found nan", 0.1, **stops),
-        _E(place, "cut", _PLANT, "bytes that do not decode", 0.1, **stops),
-        _E(place, "jump", _PLANT, "expected from", 0.1, **stops),
-        _E(place, "reverse", "", "", 0.0, "goes on"),
-        _E(place, "flood", _PLANT, f"{place} comes at", **_FLOOD),
-    ]
-
-
 _OFF_PATH: dict[str, Any] = {
     "outcome": "aborts", "safe": 90.0, "set_by": "limits.path_distance, limits.path_speed", "lasts": 90.0,
 }  # fmt: skip
 
-TABLE: tuple[Expectation, ...] = (
+PLANAR: tuple[Expectation, ...] = (
     _odom("stop", "no usable odom", within=0.6),
     _odom("delay", "no usable odom", within=0.6, lasts=4.0),
     _odom("nan", "found x="),
@@ -132,7 +58,7 @@ TABLE: tuple[Expectation, ...] = (
     _odom("frameless", "frame_id ''"),
     _odom("timeless", "odom: found a stamp of"),
     _odom("cut", "bytes that do not decode"),
-    _E("odom", "flood", _AUTOPILOT, "odom comes at", **_FLOOD),
+    _E("odom", "flood", _AUTOPILOT, "odom comes at", **FLOOD),
     _water("stop", "no fresh velocity_through_water", within=1.1),
     _water("delay", "no fresh velocity_through_water", within=1.1),
     _water("nan", "velocity_through_water: found (nan"),
@@ -146,7 +72,7 @@ TABLE: tuple[Expectation, ...] = (
     _water("frameless", "velocity_through_water: found frame_id ''"),
     _water("timeless", "velocity_through_water: found a stamp of"),
     _water("cut", "bytes that do not decode"),
-    _E("velocity_through_water", "flood", _GUIDANCE, "velocity_through_water comes at", **_FLOOD),
+    _E("velocity_through_water", "flood", _GUIDANCE, "velocity_through_water comes at", **FLOOD),
     _current("stop", "no fresh current_estimate", within=5.2, lasts=6.0, set_by="current_timeout"),
     _current(
         "delay", "no fresh current_estimate", within=5.2, delay=6.0, lasts=8.0, set_by="current_timeout"
@@ -158,12 +84,12 @@ TABLE: tuple[Expectation, ...] = (
     _current("frameless", "current_estimate: found frame_id ''"),
     _current("timeless", "current_estimate: found a stamp of"),
     _current("cut", "bytes that do not decode"),
-    _E("current_estimate", "flood", _GUIDANCE, "current_estimate comes at", **_FLOOD),
-    *_reference("desired_yaw"),
+    _E("current_estimate", "flood", _GUIDANCE, "current_estimate comes at", **FLOOD),
+    *of_reference("desired_yaw"),
     _E("desired_yaw", "freeze", _GUIDANCE, "limit path_", 90.0, **_OFF_PATH),
-    *_reference("desired_yaw_rate"),
+    *of_reference("desired_yaw_rate"),
     _E("desired_yaw_rate", "freeze", "", "", 0.0, "goes on"),
-    *_reference("desired_thrust"),
+    *of_reference("desired_thrust"),
     _E("desired_thrust", "freeze", "", "", 0.0, "goes on"),
     _E(
         "desired_thrust",
@@ -176,9 +102,9 @@ TABLE: tuple[Expectation, ...] = (
         "reference_timeout",
         then_abort=True,
     ),
-    *_command("rudder_cmd"),
+    *of_command("rudder_cmd"),
     _E("rudder_cmd", "freeze", _GUIDANCE, "limit path_", 90.0, **_OFF_PATH),
-    *_command("thrust_cmd"),
+    *of_command("thrust_cmd"),
     _E("thrust_cmd", "freeze", "", "", 0.0, "goes on"),
     _E("thrust_cmd", "freeze", _GUIDANCE, "aborted: abort was called", 0.1, "aborts", 0.1, then_abort=True),
     _E("mission_state", "stop", _GUIDANCE, "aborted: abort was called", 0.1, "aborts", 0.2, then_abort=True),
@@ -205,6 +131,69 @@ TABLE: tuple[Expectation, ...] = (
     _E(topics.RECORDER, "kill", "", "", 0.0, "goes on"),
     _E(_PLANT, "kill", _GUIDANCE, "the clock stands still", 4.0, "goes on", wall=True),
 )
+
+_DIVE: dict[str, Any] = {"flight": "dive"}
+
+
+def _by_gate(bound: str) -> dict[str, Any]:
+    return {"set_by": f"depth_gate.{bound}, odometry_timeout, holding.hold_after", **_DIVE}
+
+
+def _ends(place: str, fault: Kind, says: str, within: float, set_by: str, **more: Any) -> Expectation:
+    """A limit of the dive ends the mission."""
+    more = {"safe": within, "lasts": within, "set_by": set_by, "outcome": "aborts", **_DIVE, **more}
+    return _E(place, fault, _GUIDANCE, says, within, **more)
+
+
+_DIVING = "diving.depth_patience, diving.pitch_deg"
+#: The rows of a vehicle that dives. A hull that takes in water shows it in a hold, which `also` brings about.
+DIVING: tuple[Expectation, ...] = (
+    _odom("depth_nan", "found x=", **_DIVE),
+    _odom("depth_jump", "a depth ", lasts=2.5, **_by_gate("depth_margin")),
+    _odom("depth_turn", "above the surface", **_by_gate("above_surface")),
+    _odom("planar", "exactly 0", within=3.3, safe=3.9, lasts=6.0, **_by_gate("flat_after")),
+    _ends("odom", "depth_freeze", "limit diving.depth_doubt", 40.0, "diving.depth_doubt"),
+    _ends("odom", "rolled", "limit diving.roll_deg", 1.6, "diving.roll_deg, diving.tilt_after"),
+    *of_reference("desired_pitch", "dive"),
+    _ends("desired_pitch", "freeze", "limit diving.", 120.0, _DIVING),
+    *of_reference("desired_pitch_rate", "dive"),
+    _E("desired_pitch_rate", "freeze", "", "", 0.0, "goes on", **_DIVE),
+    *of_command("sternplane_cmd", "dive"),
+    _ends("sternplane_cmd", "freeze", "limit diving.", 120.0, _DIVING),
+    _E(
+        "sternplane_cmd", "freeze", _GUIDANCE, "aborted: abort was called", 0.1, "aborts", 0.1,
+        then_abort=True, **_DIVE,
+    ),
+    _ends("thrust_cmd", "weak", "limit diving.slow_after", 40.0, "diving.slow_after"),
+    _ends(_PLANT, "light", "limit diving.", 90.0, "diving.slow_after, diving.broach_after"),
+    _ends(
+        _PLANT, "heavy", "surfacing: ", 33.0, "diving.hold_sink, ascent.when",
+        also="velocity_through_water", lasts=150.0, surfaces=True,
+    ),
+)  # fmt: skip
+
+
+def _altitude(fault: Kind, says: str, within: float = 0.1, **more: Any) -> Expectation:
+    """The depth is held without a range to the bottom: the mission goes on."""
+    more = {"set_by": "guidance.vertical.altitude.patience" if says else "", **more}
+    noticed_by, within = (_GUIDANCE, within) if says else ("", 0.0)
+    return _E("altitude", fault, noticed_by, says, within, "goes on", flight="bottom", **more)
+
+
+#: The rows of a flight above the bottom.
+ALTITUDE: tuple[Expectation, ...] = (
+    _altitude("stop", "no usable range", 2.2, set_by="water_velocity_timeout"),
+    _altitude("delay", "no usable range", 2.2, set_by="water_velocity_timeout"),
+    _altitude("nan", "no usable range", 1.2),
+    _altitude("freeze", ""),
+    _altitude("jump", "no usable range", 1.2, set_by="guidance.vertical.altitude.largest_drop"),
+    _altitude("reverse", "altitude: found a stamp"),
+    _altitude("frameless", ""),
+    _altitude("timeless", "altitude: found a stamp of"),
+    _altitude("cut", "bytes that do not decode"),
+    _E("altitude", "flood", _GUIDANCE, "altitude comes at", flight="bottom", **FLOOD),
+)
+TABLE: tuple[Expectation, ...] = (*PLANAR, *DIVING, *ALTITUDE)
 #: What the tests run: one of each way to notice and of each outcome.
 REPRESENTATIVE = (
     "odom jump", "odom stop", "velocity_through_water reverse", "desired_yaw nan",

@@ -10,7 +10,7 @@ import tempfile
 import time
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 from rich.console import Console
 from rich.table import Table
@@ -18,7 +18,8 @@ from rich.table import Table
 from auv_msgs_py.contract import topics
 from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.checks.faults.expectations import REPRESENTATIVE, TABLE, Expectation, chosen
+from auv_sim.checks.faults.expectations import REPRESENTATIVE, TABLE, chosen
+from auv_sim.checks.faults.fault_row import Expectation, Flight
 from auv_sim.command_line import (
     EXIT_DONE,
     EXIT_FAILED,
@@ -92,10 +93,12 @@ def _run(rows: list[Expectation], directory: Path, speed: float, console: Consol
             if not result.good:
                 console.print(f"{result.row.name}: {'; '.join(result.wrong)}", style="red", highlight=False)
 
-        simulator = [row for row in rows if row.place == topics.PLANT]
+        simulator = [row for row in rows if row.place == topics.PLANT and row.fault == "kill"]
         others = [row for row in rows if row not in simulator]
-        if others:
-            results += Matrix(directory, speed, show).run(others)
+        for flight in get_args(Flight):
+            if spoiled := [row for row in others if row.flight == flight]:
+                here = directory if flight == "plane" else directory / flight
+                results += Matrix(here, speed, show, flight).run(spoiled)
         for row in simulator:
             results.append(kill_simulator(row, directory / "simulator", speed))
             show(results[-1])

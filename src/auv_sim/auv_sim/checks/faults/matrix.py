@@ -6,18 +6,19 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
 
 from auv_msgs_py.contract import topics
-from auv_msgs_py.values.types import STOP
 from auv_sim.bags.bag_repair import repair
 from auv_sim.bags.reading.bag_reader import read_bag
-from auv_sim.checks.faults.expectations import Expectation
+from auv_sim.checks.faults.fault_row import Expectation, Flight
 from auv_sim.checks.faults.graph_listener import says
-from auv_sim.checks.faults.graph_processes import GraphProcesses
+from auv_sim.checks.faults.graph_processes import KINDS, GraphProcesses, write_mission
 from auv_sim.checks.faults.row_judge import RowJudge, RowResult
-from auv_sim.checks.faults.spoiled_graph import PATIENCE, GraphFailed, SpoiledFlight, write_mission
+from auv_sim.checks.faults.spoiled_graph import PATIENCE, GraphFailed, SpoiledFlight
+from auv_sim.vehicle.hulls.rigid_body import body_at
 from auv_sim.vehicle.remus import PlantState
 
 #: What a busy machine may add to every bound, s of wall time.
@@ -28,6 +29,10 @@ _QUIET = 1.5
 _ON_PATH = 2.0
 #: With less rudder than this the vehicle goes straight ahead, rad.
 _STRAIGHT = 0.02
+#: Least speed through the water of a vehicle that dives, before a fault, m/s.
+_UP_TO_SPEED = 1.5
+#: Change of the buoyancy, N: by far more than the trim of the stern planes.
+_BALLAST: dict[str, float] = {"heavy": -12.0, "light": 16.0}
 
 
 class Matrix:
@@ -37,17 +42,24 @@ class Matrix:
         directory: logs and bag.
         speed: of the simulator, times real time.
         on_result: called with each result.
+        flight: that is spoiled.
     """
 
     def __init__(
-        self, directory: Path, speed: float, on_result: Callable[[RowResult], None] = lambda _: None
+        self,
+        directory: Path,
+        speed: float,
+        on_result: Callable[[RowResult], None] = lambda _: None,
+        flight: Flight = "plane",
     ) -> None:
         self.directory, self.speed, self.on_result = directory, speed, on_result
-        mission, self._start_pose = write_mission(directory)
+        mission, self._start_pose = write_mission(directory, flight)
+        self._kind, self._vehicle = flight, KINDS[flight].vehicle
         self.bag = directory / "bag"
-        self.nodes = GraphProcesses(
-            directory / "log", mission, {topics.RECORDER: {"directory": str(self.bag)}}
-        )
+        controllers = (topics.OBSERVER, topics.GUIDANCE, topics.AUTOPILOT)
+        parameters = {name: {"vehicle": self._vehicle} for name in controllers}
+        parameters[topics.RECORDER] = {"directory": str(self.bag)}
+        self.nodes = GraphProcesses(directory / "log", mission, parameters)
         self.results: list[RowResult] = []
         self._machine = _MACHINE * speed
 
@@ -60,7 +72,8 @@ class Matrix:
         names = (topics.RECORDER, topics.OBSERVER, topics.AUTOPILOT, topics.GUIDANCE)
         for name in names:
             self.nodes.start(name)
-        self.flight = SpoiledFlight(self.nodes, self.speed, self._start_pose)
+        sea = self.directory / "sea.yaml"
+        self.flight = SpoiledFlight(self.nodes, self.speed, self._start_pose, self._kind, sea)
         self._judge = RowJudge(self.flight, self._machine)
         try:
             self.flight.until(lambda: set(names) <= set(self.flight.graph.said), "all nodes to report")
@@ -90,8 +103,7 @@ class Matrix:
         end = begin + max(row.lasts, min(row.safe, row.lasts) + self._machine)
 
         def over() -> bool:
-            assert flight.plant is not None
-            if math.isnan(result.safe) and flight.plant.command == STOP:
+            if math.isnan(result.safe) and flight.is_stopped:
                 result.safe = flight.now - begin
             ended = (
                 row.outcome == "aborts" and flight.graph.state == "aborted" and not math.isnan(result.safe)
@@ -126,7 +138,10 @@ class Matrix:
                 and flight.plant.command.thrust > 0.0
                 and flight.graph.off_path < _ON_PATH
             )
-            if row.outcome == "aborts" and not row.then_abort:  # its next turn must be missed
+            if row.flight != "plane":  # it has come up to speed
+                calm = calm and flight.plant.simulated.motion.ur > _UP_TO_SPEED
+            turns = row.flight == "plane" and row.outcome == "aborts" and not row.then_abort
+            if turns:  # its next turn must be missed
                 calm = calm and abs(flight.plant.command.rudder) < _STRAIGHT
             if flight.graph.state == "aborted":  # late, after the row before
                 self._back_to_start()
@@ -141,8 +156,11 @@ class Matrix:
         flight = self.flight
         assert flight.plant is not None
         if flight.plant.steps:
-            x, y, psi = self._start_pose
-            flight.plant.simulated.place(PlantState(x, y, psi, 0.0, 0.0, 0.0))
+            x, y, psi, z = self._start_pose
+            still: Any = PlantState(x, y, psi, 0.0, 0.0, 0.0)
+            if self._kind != "plane":
+                still = body_at(x, y, z, 0.0, 0.0, psi, 0.0)
+            flight.plant.simulated.place(still)
             flight.pass_time(4.0)
         flight.graph.s = 0.0
         refused = flight.call(topics.START_SERVICE)
@@ -151,15 +169,23 @@ class Matrix:
         flight.until(lambda: flight.graph.state == "running", "the mission to run")
 
     def _spoil(self, row: Expectation) -> None:
+        assert self.flight.relay is not None and self.flight.plant is not None
+        if row.also:
+            self.flight.relay.inject(row.also, "stop")
         if row.fault == "kill":
             self.nodes.kill(row.place)
+        elif row.fault in _BALLAST:
+            self.flight.plant.simulated.ballast(_BALLAST[row.fault])
         else:
-            assert self.flight.relay is not None
-            self.flight.relay.inject(row.place, row.fault, delay=row.delay)
+            self.flight.relay.inject(row.place, row.fault, delay=row.delay)  # type: ignore[arg-type]
 
     def _mend(self, row: Expectation) -> None:
-        if row.fault != "kill":
-            assert self.flight.relay is not None
+        assert self.flight.relay is not None and self.flight.plant is not None
+        if row.also:
+            self.flight.relay.inject(row.also, "none")
+        if row.fault in _BALLAST:
+            self.flight.plant.simulated.ballast(-_BALLAST[row.fault])
+        elif row.fault != "kill":
             self.flight.relay.inject(row.place, "none")
         elif row.place != topics.RECORDER:
             self.nodes.start(row.place)

@@ -7,8 +7,7 @@ import time
 from dataclasses import dataclass, field
 
 from auv_msgs_py.contract import topics
-from auv_msgs_py.values.types import STOP
-from auv_sim.checks.faults.expectations import Expectation
+from auv_sim.checks.faults.fault_row import Expectation
 from auv_sim.checks.faults.spoiled_graph import SpoiledFlight
 
 #: Tolerated retreat of the path parameter: the virtual point may wait for the vehicle.
@@ -17,6 +16,8 @@ _BACK = 0.1
 _RECOVERY = 6.0
 #: A node has reported "just now" within this, s of wall time.
 _JUST_NOW = 1.0
+#: Largest depth at the end of an ascent, m.
+_AT_SURFACE = 1.5
 
 
 @dataclass
@@ -83,6 +84,8 @@ class RowJudge:
         if row.outcome == "aborts":
             if flight.graph.state != "aborted":
                 result.wrong.append(f"the mission is {flight.graph.state}, not aborted")
+            if row.surfaces:
+                self._judge_depth(result)
             return
         if row.outcome == "waits":
             self._judge_waiting(row, result)
@@ -105,13 +108,19 @@ class RowJudge:
                 f"the path parameter went back from {flight.graph.farthest:.2f} to {flight.graph.s:.2f}"
             )
 
+    def _judge_depth(self, result: RowResult) -> None:
+        """Judge whether the vehicle is at the surface."""
+        assert self._flight.plant is not None
+        depth = self._flight.plant.simulated.motion.z
+        if not depth < _AT_SURFACE:
+            result.wrong.append(f"the vehicle is {depth:.1f} m deep, at most {_AT_SURFACE:g} m")
+
     def _judge_waiting(self, row: Expectation, result: RowResult) -> None:
         """Judge a guidance that was started again: it has no running mission, and the vehicle stays put."""
         flight = self._flight
         flight.until(lambda: flight.graph.state == "idle" and self._reports(row.place), f"{row.name}: back")
         flight.pass_time(2.0)
-        assert flight.plant is not None
-        if flight.plant.command != STOP:
+        if not flight.is_stopped:
             result.wrong.append("the vehicle moves though no mission was started")
 
     def _reports(self, name: str) -> bool:

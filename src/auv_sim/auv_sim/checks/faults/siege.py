@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from auv_msgs_py.contract import topics
-from auv_sim.checks.faults.graph_processes import GraphProcesses
-from auv_sim.checks.faults.spoiled_graph import SpoiledFlight, write_mission
+from auv_sim.checks.faults.graph_processes import GraphProcesses, write_mission
+from auv_sim.checks.faults.spoiled_graph import SpoiledFlight
 from auv_sim.checks.soak.memory import resident
 
 #: Largest growth of a process after the warm-up, MB.

@@ -9,11 +9,11 @@ from pathlib import Path
 from diagnostic_msgs.msg import DiagnosticStatus
 
 from auv_msgs_py.contract import topics
-from auv_sim.checks.faults.expectations import Expectation
+from auv_sim.checks.faults.fault_row import Expectation
 from auv_sim.checks.faults.graph_listener import says
-from auv_sim.checks.faults.graph_processes import GraphProcesses
+from auv_sim.checks.faults.graph_processes import GraphProcesses, write_mission
 from auv_sim.checks.faults.row_judge import RowResult
-from auv_sim.checks.faults.spoiled_graph import GraphFailed, SpoiledFlight, write_mission
+from auv_sim.checks.faults.spoiled_graph import GraphFailed, SpoiledFlight
 
 _CONTROLLERS = (topics.OBSERVER, topics.AUTOPILOT, topics.GUIDANCE)
 #: What a busy machine may add to the bound, s of wall time.
@@ -28,13 +28,14 @@ def kill_simulator(row: Expectation, directory: Path, speed: float) -> RowResult
         directory: of the logs.
         speed: of the simulator, times real time.
     """
-    mission, (x, y, psi) = write_mission(directory)
+    mission, start = write_mission(directory)
+    x, y, psi, _ = start
     plant = {"speed": str(speed), "initial.x": str(x), "initial.y": str(y), "initial.psi": str(psi)}
     nodes = GraphProcesses(directory / "log", mission, {topics.PLANT: plant}, relayed=False)
     names = (*_CONTROLLERS, topics.PLANT)
     for name in names:
         nodes.start(name)
-    flight = SpoiledFlight(nodes, speed, (x, y, psi), own_plant=False)
+    flight = SpoiledFlight(nodes, speed, start, own_plant=False)
     graph, result = flight.graph, RowResult(row)
     try:
         flight.until(lambda: set(names) <= set(graph.said), "all nodes to report")

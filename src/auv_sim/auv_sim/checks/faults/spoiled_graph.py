@@ -18,9 +18,9 @@ from std_srvs.srv import Trigger
 from auv_msgs_py.contract import topics
 from auv_msgs_py.node.run import StopRequest
 from auv_msgs_py.values.errors import SuiteError
-from auv_path_following.missions import mission_file
+from auv_sim.checks.faults.fault_row import Flight
 from auv_sim.checks.faults.graph_listener import GraphListener
-from auv_sim.checks.faults.graph_processes import NAMESPACE, GraphProcesses
+from auv_sim.checks.faults.graph_processes import KINDS, NAMESPACE, GraphProcesses, StartPose
 from auv_sim.nodes.fault_relay import FaultRelay, raw
 from auv_sim.nodes.pacing import Pacer
 from auv_sim.nodes.plant_node import RemusPlantNode
@@ -28,35 +28,9 @@ from auv_sim.nodes.plant_node import RemusPlantNode
 #: Wall time for anything that has to happen at all, s.
 PATIENCE = 60.0
 
-MISSION = """\
-version: 1
-name: fault matrix
-description: figures of eight, so that a rudder or a heading that stays as it is leaves the path soon
-frame: ned
-thrust: 6.48
-limits: {path_distance: 25, path_speed: 0.3, path_speed_window: 30}
-repeat: 200
-figure_of_eight: {centre: [0, 0], radius: 20, separation: 60}
-"""
-
 
 class GraphFailed(SuiteError):
     """Something that has nothing to do with a fault did not happen."""
-
-
-def write_mission(directory: Path) -> tuple[Path, tuple[float, float, float]]:
-    """Write the mission that is spoiled.
-
-    Args:
-        directory: made if it is not there.
-
-    Returns:
-        The file, and the pose of its path's start (north, east in m, psi in rad).
-    """
-    directory.mkdir(parents=True, exist_ok=True)
-    mission = directory / "mission.yaml"
-    mission.write_text(MISSION, encoding="utf-8")
-    return mission, mission_file.load(str(mission)).path.start_pose
 
 
 class AnsweredPacer(Pacer):
@@ -86,14 +60,20 @@ class AnsweredPacer(Pacer):
         return True
 
 
-def _plant_and_relay(speed: float, start: tuple[float, float, float]) -> tuple[RemusPlantNode, FaultRelay]:
+def _plant_and_relay(
+    speed: float, start: StartPose, flight: Flight, sea: Path
+) -> tuple[RemusPlantNode, FaultRelay]:
     """Make the simulator, whose outputs go through the relay, and the relay."""
-    words = [w for name in ("odom", "velocity_through_water") for w in ("-r", f"{name}:={raw(name)}")]
-    values = {"speed": speed, "initial.x": start[0], "initial.y": start[1], "initial.psi": start[2]}
+    kind = KINDS[flight]
+    words = [w for name in kind.relayed for w in ("-r", f"{name}:={raw(name)}")]
+    values: dict[str, Any] = {"speed": speed, "vehicle": kind.vehicle}
+    values |= {"initial.x": start.x, "initial.y": start.y, "initial.psi": start.psi}
+    values |= {"initial.depth": start.depth} | ({"sea": str(sea)} if flight == "bottom" else {})
     overrides = [Parameter(name, value=value) for name, value in values.items()]
     shared: dict[str, Any] = {"namespace": NAMESPACE, "use_global_arguments": False}
     plant = RemusPlantNode(parameter_overrides=overrides, cli_args=["--ros-args", *words], **shared)
-    relay = FaultRelay(parameter_overrides=[Parameter("use_sim_time", value=True)], **shared)
+    forwards = [Parameter("use_sim_time", value=True), Parameter("topics", value=kind.relay)]
+    relay = FaultRelay(parameter_overrides=forwards, **shared)
     plant.pacer = AnsweredPacer(plant.parameters.step, speed, lambda: relay.passed["rudder_cmd"])
     return plant, relay
 
@@ -104,12 +84,20 @@ class SpoiledFlight:
     Args:
         nodes: the processes.
         speed: of the simulator, times real time.
-        start: pose of the vehicle (north, east in m, psi in rad).
+        start: pose of the vehicle.
+        flight: its kind.
+        sea: file of the sea, for a flight above the bottom.
         own_plant: False: the simulator is a process too (so that it can be killed), and there is no relay.
     """
 
     def __init__(
-        self, nodes: GraphProcesses, speed: float, start: tuple[float, float, float], own_plant: bool = True
+        self,
+        nodes: GraphProcesses,
+        speed: float,
+        start: StartPose,
+        flight: Flight = "plane",
+        sea: Path = Path("sea.yaml"),
+        own_plant: bool = True,
     ) -> None:
         self.nodes = nodes
         rclpy.init(
@@ -125,13 +113,19 @@ class SpoiledFlight:
         self.relay: FaultRelay | None = None
         made: list[Any] = [self.node]
         if own_plant:
-            self.plant, self.relay = _plant_and_relay(speed, start)
+            self.plant, self.relay = _plant_and_relay(speed, start, flight, sea)
             made += [self.plant, self.relay]
         for node in made:
             self.executor.add_node(node)
         self.graph = GraphListener(self.node, relayed=own_plant)
         self._start = self.node.create_client(Trigger, topics.START_SERVICE)
         self._abort = self.node.create_client(Trigger, topics.ABORT_SERVICE)
+
+    @property
+    def is_stopped(self) -> bool:
+        """Whether the vehicle's fins and thrust are commanded to 0."""
+        assert self.plant is not None
+        return not any(self.plant.command)
 
     @property
     def now(self) -> float:

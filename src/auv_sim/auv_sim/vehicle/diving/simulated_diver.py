@@ -16,6 +16,7 @@ from auv_msgs_py.values.types import (
 from auv_path_following.vehicle import Vehicle
 from auv_sim.vehicle.diving.diver_at_sea import spatial_at_sea_of
 from auv_sim.vehicle.diving.ideal_diver import SpatialSeen
+from auv_sim.vehicle.hulls.remus_6dof import Remus6dof
 from auv_sim.vehicle.hulls.rigid_body import BodyState, to_body
 from auv_sim.vehicle.hulls.spatial_plant import (
     spatial_ground_velocity,
@@ -47,6 +48,22 @@ class SimulatedDiver(Simulated[BodyState, SpatialCommand, SpatialCurrent, Spatia
         step: float = 0.05,
     ) -> None:
         super().__init__(vehicle, initial, sea, seed, current, step)
+
+    def ballast(self, force: float) -> None:
+        """Change the buoyancy in flight until the next reset: water that comes in, or weight that is lost.
+
+        Args:
+            force: N, up positive.
+
+        Raises:
+            TypeError: a hull that is a program has no buoyancy that can be changed.
+        """
+        plant = self._config if self._sea is None else self._config.plant
+        if not isinstance(plant.hull, Remus6dof):
+            raise TypeError(f"{self._vehicle.name}: a hull without coefficients cannot be ballasted")
+        vertical = plant.hull.vertical
+        plant = plant._replace(hull=plant.hull._replace(vertical=vertical._replace(B=vertical.B + force)))
+        self._config = plant if self._sea is None else self._config._replace(plant=plant)
 
     @property
     def navigation(self) -> SpatialNavigation:
