@@ -10,7 +10,7 @@ from auv_msgs_py.settings.schema import setting, settings
 from auv_path_following.control.autopilot import AutopilotConfig
 from auv_path_following.control.pitch_plane import pitch_gains
 from auv_path_following.guidance.failsafe.ascent import AscentConfig
-from auv_path_following.guidance.failsafe.dive_limits import DiveLimitsConfig
+from auv_path_following.guidance.failsafe.watchdogs import DiveLimitsConfig
 from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.guidance.switching import with_overrides
 from auv_path_following.missions.limits import LimitsConfig

@@ -18,7 +18,7 @@ from auv_path_following.guidance.failsafe.ascent import (
     SURFACED,
     AscentConfig,
 )
-from auv_path_following.guidance.failsafe.dive_limits import DiveLimitsConfig
+from auv_path_following.guidance.failsafe.watchdogs import DiveLimitsConfig
 from auv_path_following.guidance.measured import SpatialMeasured
 from auv_path_following.missions import limits, mission_file
 from auv_path_following.missions import mission_state as states

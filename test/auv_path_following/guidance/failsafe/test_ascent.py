@@ -24,8 +24,9 @@ from auv_path_following.guidance.failsafe.ascent import (
     phase_words,
     prepare,
 )
-from auv_path_following.guidance.failsafe.dive_limits import NOT_DIVED, DiveLimitsConfig
+from auv_path_following.guidance.failsafe.dive_limits import NOT_DIVED
 from auv_path_following.guidance.failsafe.guard import GuardState
+from auv_path_following.guidance.failsafe.watchdogs import DiveLimitsConfig
 from auv_path_following.missions.mission_state import (
     ABORTED,
     DEPTH_DOUBTED,

@@ -13,12 +13,11 @@ from auv_path_following import vehicle
 from auv_path_following.guidance.failsafe.dive_limits import (
     NOT_DIVED,
     DiveInputs,
-    DiveLimitsConfig,
     DiveLimitsState,
     dive_limits,
     prepare,
-    sinking_of,
 )
+from auv_path_following.guidance.failsafe.watchdogs import DiveLimitsConfig, sinking_of
 from auv_path_following.missions.mission_state import (
     BROACHED,
     DEPTH_DOUBTED,

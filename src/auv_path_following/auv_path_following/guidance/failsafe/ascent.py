@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 
 from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.values.pure import numbers, numbers_of, pure
-from auv_path_following.guidance.failsafe.dive_limits import sinking_of
+from auv_path_following.guidance.failsafe.watchdogs import sinking_of
 from auv_path_following.guidance.spatial.spatial_limits import Steepness, steepest_at, steepest_of
 from auv_path_following.missions.mission_state import DEPTH_DOUBTED, PITCHED, ROLLED, SANK, Reason
 from auv_path_following.vehicle import Vehicle

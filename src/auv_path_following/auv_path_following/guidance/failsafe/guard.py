@@ -26,11 +26,11 @@ from auv_path_following.guidance.failsafe.dive_limits import (
     NOT_DIVED,
     DiveInputs,
     DiveLimits,
-    DiveLimitsConfig,
     DiveLimitsState,
     dive_limits,
     first_of,
 )
+from auv_path_following.guidance.failsafe.watchdogs import DiveLimitsConfig
 from auv_path_following.guidance.measured import SpatialMeasured
 from auv_path_following.guidance.spatial.spatial_follow import SpatialOutput
 from auv_path_following.missions.mission_state import (
