@@ -41,11 +41,12 @@ EXECUTABLES = {
     },
 }
 #: Import names that differ from the name to install.
-DISTRIBUTIONS = {"yaml": "PyYAML", "pydantic_core": "pydantic"}
+DISTRIBUTIONS = {"yaml": "PyYAML", "pydantic_core": "pydantic", "mpl_toolkits": "matplotlib"}
 #: Import name -> rosdep key (rosdistro's rosdep/python.yaml), for what is not a ROS package.
 ROSDEP_KEYS = {
     "hypothesis": "python3-hypothesis",
     "matplotlib": "python3-matplotlib",
+    "mpl_toolkits": "python3-matplotlib",
     "numpy": "python3-numpy",
     "pydantic": "python3-pydantic",
     "pydantic_core": "python3-pydantic",
