@@ -103,6 +103,13 @@ def test_shipped_files_are_installed_for_people_and_for_the_package(install: Pat
     assert {path.relative_to(found) for path in found.rglob("*") if path.is_file()} == shipped
 
 
+def test_launch_files_stand_where_ros2_launch_looks(install: Path) -> None:
+    shipped = {path.name for path in (ROOT / "src/auv_sim/launch").iterdir() if ".launch." in path.name}
+    assert shipped == {"mission.launch.py", "vehicle.launch.py", "two_vehicles.launch.xml"}
+    assert {path.name for path in (install / "auv_sim/share/auv_sim/launch").iterdir()} == shipped
+    assert os.access(install / "auv_sim/lib/auv_sim/mission_supervisor", os.X_OK)
+
+
 @pytest.mark.parametrize(("package", "executable"), EXECUTABLES)
 def test_executables_start_in_a_namespace_and_leave_on_sigint(
     install: Path, observer: Node, tmp_path: Path, package: str, executable: str

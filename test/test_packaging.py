@@ -37,6 +37,7 @@ EXECUTABLES = {
         "check_vehicle",
         "mavlink_driver",
         "mavlink_emulator",
+        "mission_supervisor",
         "mavlink_strangers",
     },
 }
@@ -64,6 +65,9 @@ WITHOUT_KEY = {"mcap", "zstandard"}
 OPTIONAL = {"distributed", "numba", "pyarrow"}
 #: The message packages that auv_msgs_py finds by the names in its table of topics, and those of the services.
 BY_NAME = {topic.type.split("/")[0] for topic in (*topics.CONTRACT, *topics.RECORDING)} | {"std_srvs"}
+
+#: What reads the launch files that auv_sim installs.
+LAUNCH = {"launch_xml", "ros2launch"}
 
 
 def manifest(name: str) -> Package:
@@ -156,6 +160,7 @@ def test_the_manifest_names_what_is_imported_and_nothing_else(name: str) -> None
     """By rosdep key where there is one; ROS packages and the suite's own by their names."""
     declared = {dependency.name for dependency in manifest(name).exec_depends}
     used = sources(name) | (BY_NAME if name == "auv_msgs_py" else set())
+    used |= LAUNCH if name == "auv_sim" else set()
     assert declared == {ROSDEP_KEYS.get(top, top) for top in used - WITHOUT_KEY - OPTIONAL}
 
 

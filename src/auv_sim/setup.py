@@ -27,6 +27,7 @@ setup(
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{name}"]),
         (f"share/{name}", ["package.xml"]),
+        (f"share/{name}/launch", sorted(map(str, Path("launch").glob("*.launch.*")))),
     ],
     python_requires=">=3.11",
     install_requires=[
@@ -60,6 +61,7 @@ setup(
             "check_vehicle = auv_sim.cli.check_vehicle:main",
             "mavlink_driver = auv_sim.nodes.mavlink.driver:main",
             "mavlink_emulator = auv_sim.nodes.mavlink.emulator:main",
+            "mission_supervisor = auv_sim.launch.ros_launch.supervisor:main",
             "mavlink_strangers = auv_sim.checks.faults.strangers:main",
         ]
     },

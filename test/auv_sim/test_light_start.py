@@ -42,6 +42,14 @@ def test_help_needs_no_library(module: str) -> None:
     assert imported(code) == set()
 
 
+def test_launch_files_need_no_library() -> None:
+    """`ros2` may run on an interpreter without them."""
+    assert (
+        imported("from auv_sim.launch.ros_launch import description; description.arguments.of_mission()")
+        == set()
+    )
+
+
 def test_what_draws_and_what_reads_bags_is_loaded_after_the_flight() -> None:
     assert imported("from auv_sim.launch import mission_flight, monitor") == {
         "numpy", "pydantic", "rclpy", "rich", "yaml",

@@ -11,7 +11,7 @@ import shlex
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NoReturn, ParamSpec
+from typing import Any, NoReturn, ParamSpec, TypeVar
 
 from auv_msgs_py.node.log_directory import ensure_log_directory
 from auv_msgs_py.values.errors import (
@@ -24,6 +24,7 @@ from auv_msgs_py.values.errors import (
 from auv_sim.flight.least_share import LEAST_SHARE, LEAST_SHARE_AT_SEA
 
 P = ParamSpec("P")
+A = TypeVar("A", bound=argparse.Action)
 
 EXIT_DONE, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
 
@@ -65,7 +66,19 @@ def command(name: str, interrupted: str = "interrupted") -> Callable[[Callable[P
 
 
 class Parser(argparse.ArgumentParser):
-    """Prints an error as one line, without the usage, and exits with 2."""
+    """Prints an error as one line, without the usage, and exits with 2.
+
+    Attributes:
+        actions: every option and argument, in the order of `--help`.
+    """
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        self.actions: list[argparse.Action] = []
+        super().__init__(*arguments, **options)
+
+    def _add_action(self, action: A) -> A:
+        self.actions.append(action)
+        return super()._add_action(action)
 
     def error(self, message: str) -> NoReturn:
         print(printable(f"{self.prog}: {message} (see --help)"), file=sys.stderr)

@@ -27,7 +27,7 @@ from auv_sim.launch.options import BY_RULE, DEFAULT_MISSION, DEFAULT_VEHICLE, DR
 from auv_sim.launch.processes.adopted import Loader
 
 
-def parser() -> argparse.ArgumentParser:
+def parser() -> Parser:
     """Return the command line's parser."""
     p = Parser(
         prog="mission.py", description="Fly a mission over ROS 2, record it, draw it.", allow_abbrev=False
@@ -141,7 +141,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     Returns:
         The exit code: 0 complete, 1 failed, aborted or incomplete, 2 bad input, 130 interrupted.
     """
-    options = _options(argv)
+    options = checked(vars(parser().parse_args(argv)))
     with Loader() as loader:
         # While the loader loads for the nodes, this process loads for itself.
         from auv_sim.launch.mission_flight import fly
@@ -149,8 +149,15 @@ def main(argv: Sequence[str] | None = None) -> int:
         return fly(options, loader)
 
 
-def _options(argv: Sequence[str] | None) -> Options:
-    given = vars(parser().parse_args(argv))
+def checked(given: dict[str, Any]) -> Options:
+    """Return the options that a command line names.
+
+    Args:
+        given: name -> value, as `parser` returns them.
+
+    Raises:
+        ConfigurationError: two options contradict each other, or an address is none.
+    """
     for name in ("current", "initial"):
         given[name] = tuple(given[name]) if given[name] is not None else None
     options = Options(**given)
@@ -162,6 +169,16 @@ def _options(argv: Sequence[str] | None) -> Options:
         parse_address(options.vehicle_address, "--vehicle-address")
     if options.no_sim and options.vehicle_driver is not None:
         raise ConfigurationError("--vehicle-driver", "together with --no-sim", "one of them")
+    _check_simulated(options)
+    if options.use_sim_time and (options.simulator or options.emulator):
+        raise ConfigurationError(
+            "--use-sim-time", "without --no-sim", "both (the simulator always has its own clock)"
+        )
+    return options
+
+
+def _check_simulated(options: Options) -> None:
+    """Refuse options for the simulator where there is none."""
     conflicts: dict[str, Any] = {"--sea": options.sea, "--seed": options.seed}
     if not options.emulator:
         conflicts |= {
@@ -178,11 +195,6 @@ def _options(argv: Sequence[str] | None) -> Options:
                 raise ConfigurationError(
                     flag, f"together with {reason}", "it only without, it is for the simulator"
                 )
-    if options.use_sim_time and (options.simulator or options.emulator):
-        raise ConfigurationError(
-            "--use-sim-time", "without --no-sim", "both (the simulator always has its own clock)"
-        )
-    return options
 
 
 if __name__ == "__main__":

@@ -16,10 +16,9 @@ from auv_sim.launch.composed import NODES
 from auv_sim.launch.mission_plan import Plan
 from auv_sim.launch.outcome import MissionFailed, Outcome
 from auv_sim.launch.processes import discovery
-from auv_sim.launch.processes.adopted import Loader
 from auv_sim.launch.processes.domains import free_domain
 from auv_sim.launch.processes.placement import Processor
-from auv_sim.launch.processes.process_group import Children
+from auv_sim.launch.processes.process_group import Children, Starter
 from auv_sim.launch.progress_display import ProgressDisplay
 from auv_sim.launch.vehicle_driver import EMULATOR, EMULATOR_MODULE
 
@@ -41,17 +40,23 @@ def domain_of(plan: Plan) -> int:
     """
     if plan.options.domain is not None:
         return plan.options.domain
-    if plan.options.no_sim:
-        # As in ROS, an empty variable counts as unset, and unset means 0.
-        try:
-            return ros_domain(os.environ.get("ROS_DOMAIN_ID") or "0")
-        except argparse.ArgumentTypeError:
-            found = repr(os.environ["ROS_DOMAIN_ID"])
-            raise ConfigurationError("ROS_DOMAIN_ID", found, "a ROS domain from 0 to 232") from None
-    return free_domain()
+    return domain_of_environment() if plan.options.no_sim else free_domain()
 
 
-def fly(plan: Plan, directory: Path, domain: int, progress: ProgressDisplay, loader: Loader) -> Outcome:
+def domain_of_environment() -> int:
+    """Return the ROS domain of the environment; as in ROS, an empty or missing variable means 0.
+
+    Raises:
+        ConfigurationError: ROS_DOMAIN_ID is not a domain.
+    """
+    try:
+        return ros_domain(os.environ.get("ROS_DOMAIN_ID") or "0")
+    except argparse.ArgumentTypeError:
+        found = repr(os.environ["ROS_DOMAIN_ID"])
+        raise ConfigurationError("ROS_DOMAIN_ID", found, "a ROS domain from 0 to 232") from None
+
+
+def fly(plan: Plan, directory: Path, domain: int, progress: ProgressDisplay, loader: Starter) -> Outcome:
     """Run a mission.
 
     Args:
@@ -64,14 +69,14 @@ def fly(plan: Plan, directory: Path, domain: int, progress: ProgressDisplay, loa
     Raises:
         MissionFailed: a node died or never came up; nothing is left running.
     """
-    environment = _environment(plan, directory, domain)
+    environment = environment_of(plan, directory, domain)
     os.environ.update(environment)
     interrupt = StopRequest()
     children = Children(directory / "log", environment)
     separate = plan.lockstep and not plan.options.composed
     processor = Processor(None if separate and not plan.options.any_processor else ())
     try:
-        _start_nodes(plan, children, loader, plan.write(directory / "config"))
+        start_nodes(plan, children, loader, plan.write(directory / "config"))
         # Imported after the fork: the nodes load meanwhile, and a process with DDS threads must not fork.
         from auv_sim.launch.monitor import Monitor
 
@@ -90,7 +95,7 @@ def fly(plan: Plan, directory: Path, domain: int, progress: ProgressDisplay, loa
         interrupt.withdraw()
 
 
-def _environment(plan: Plan, directory: Path, domain: int) -> dict[str, str]:
+def environment_of(plan: Plan, directory: Path, domain: int) -> dict[str, str]:
     """Return the environment variables of all processes of a mission."""
     # ROS's own logs belong to the run, too: a service has no home directory for them.
     environment = {"ROS_DOMAIN_ID": str(domain), "ROS_LOG_DIR": str(directory / "log" / "ros")}
@@ -100,7 +105,15 @@ def _environment(plan: Plan, directory: Path, domain: int) -> dict[str, str]:
     return environment
 
 
-def _start_nodes(plan: Plan, children: Children, loader: Loader, parameters: Path) -> None:
+def start_nodes(plan: Plan, children: Children, loader: Starter, parameters: Path) -> None:
+    """Start the emulated vehicle, if any, and let `loader` prepare the nodes.
+
+    Args:
+        plan: of the mission.
+        children: the processes are added here.
+        loader: of the nodes.
+        parameters: file that `Plan.write` has written.
+    """
     sim_time = "true" if plan.use_sim_time else "false"
     ros = [
         "-r",
@@ -127,7 +140,7 @@ class _Flight:
     ) -> None:
         self._plan: Plan = plan
         self._children: Children = children
-        self._loader: Loader = loader
+        self._loader: Starter = loader
         self._monitor = monitor
         self._progress: ProgressDisplay = progress
         self._interrupt: StopRequest = interrupt

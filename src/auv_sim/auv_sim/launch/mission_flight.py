@@ -15,7 +15,7 @@ from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, EXIT_INTERRUPTED, make_
 from auv_sim.launch import launcher, mission_plan
 from auv_sim.launch.mission_plan import Plan
 from auv_sim.launch.options import Options
-from auv_sim.launch.processes.adopted import Loader
+from auv_sim.launch.processes.process_group import Starter
 from auv_sim.launch.progress_display import ProgressDisplay
 from auv_sim.terminal import console as terminal
 
@@ -27,24 +27,24 @@ _EXIT = {
 }
 
 
-def fly(options: Options, loader: Loader) -> int:
+def fly(options: Options, loader: Starter, domain: int | None = None) -> int:
     """Fly a mission from its files to its picture; returns the exit code.
 
     Args:
         options: the command line.
         loader: of the nodes.
+        domain: ROS domain; None for the launcher's choice.
 
     Raises:
         SuiteError: from the launcher or the mission check.
     """
-    directory = _run_directory(options)
-    resolved = mission_plan.make(options, directory)
-    if not resolved.vehicle.dives:
-        resolved.mission.require_planar()  # whatever --force is
-    domain = launcher.domain_of(resolved)
+    directory = run_directory(options)
+    resolved = prepare(options, directory)
+    if domain is None:
+        domain = launcher.domain_of(resolved)
     console = terminal(options.quiet)
     make_directory(directory, new=True)
-    _announce(resolved, domain, console)
+    announce(resolved, domain, console)
     try:
         with ProgressDisplay(resolved.mission.path, console, options.quiet) as progress:
             outcome = launcher.fly(resolved, directory, domain, progress, loader)
@@ -63,7 +63,19 @@ def fly(options: Options, loader: Loader) -> int:
     return _EXIT[outcome.state]
 
 
-def _announce(resolved: Plan, domain: int, console: Console) -> None:
+def prepare(options: Options, directory: Path) -> Plan:
+    """Return the plan of a mission; `--force` does not make a planar vehicle dive.
+
+    Raises:
+        ConfigurationError: from the plan, or the mission has depths that the vehicle cannot reach.
+    """
+    plan = mission_plan.make(options, directory)
+    if not plan.vehicle.dives:
+        plan.mission.require_planar()
+    return plan
+
+
+def announce(resolved: Plan, domain: int, console: Console) -> None:
     """Print the mission's headline and the findings of its check."""
     path = resolved.mission.path
     timing = "lockstep" if resolved.lockstep else "free running"
@@ -80,7 +92,12 @@ def _announce(resolved: Plan, domain: int, console: Console) -> None:
         console.print(f"[cyan]notice[/cyan] {escape(notice)}", highlight=False, soft_wrap=True)
 
 
-def _run_directory(options: Options) -> Path:
+def run_directory(options: Options) -> Path:
+    """Return the run directory, which does not exist yet: of the command line, else by mission and time.
+
+    Raises:
+        ConfigurationError: the command line's exists.
+    """
     if options.out is not None:
         if options.out.exists():
             raise ConfigurationError("--out", f"{options.out}, which exists", "a new directory")

@@ -51,9 +51,9 @@ def test_a_node_imports_only_ros_and_the_suite_beyond_what_the_loader_has() -> N
 def run(module: str, *arguments: str, log: Path) -> int:
     """Have a loader become a module; returns its exit code."""
     with Loader() as loader:
-        (pid,) = loader.fork({"LC_ALL": "C"}, [("one", module, arguments, str(log))]).values()
-        assert Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[1] == str(os.getpid())
-        return Adopted(pid).wait(20.0)
+        (node,) = loader.fork({"LC_ALL": "C"}, [("one", module, arguments, str(log))]).values()
+        assert Path(f"/proc/{node.pid}/stat").read_text().rpartition(")")[2].split()[1] == str(os.getpid())
+        return node.wait(20.0)
 
 
 def test_what_it_forks_is_a_child_of_the_launcher_with_a_log(tmp_path: Path) -> None:

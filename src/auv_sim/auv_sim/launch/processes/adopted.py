@@ -88,7 +88,7 @@ class Loader:
 
     def fork(
         self, environment: Mapping[str, str], nodes: Sequence[tuple[str, str, Sequence[str], str]]
-    ) -> dict[str, int]:
+    ) -> dict[str, Adopted]:
         """Fork the nodes, which wait at their gate once they have loaded.
 
         Args:
@@ -96,7 +96,7 @@ class Loader:
             nodes: (name, module, arguments, log file) of each.
 
         Returns:
-            Name -> process id.
+            Name -> process.
 
         Raises:
             MissionFailed: the loader has ended.
@@ -113,8 +113,7 @@ class Loader:
             raise MissionFailed("\n  | ".join(["the nodes cannot be loaded:", *lines]))
         os.set_blocking(self._reports, False)
         self._nodes = len(nodes)
-        ids: dict[str, int] = json.loads(answer)
-        return ids
+        return {name: Adopted(pid) for name, pid in json.loads(answer).items()}
 
     def at_gate(self) -> bool:
         """Return whether every node has loaded and waits."""

@@ -12,8 +12,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-from auv_sim.launch.processes.adopted import Adopted, Loader
 from auv_sim.launch.processes.kin import end_with_parent
+
+#: In place of an exit code that only the parent of a process can read.
+UNKNOWN_CODE = 256
 
 
 class Process(Protocol):
@@ -25,6 +27,21 @@ class Process(Protocol):
     def wait(self, timeout: float | None = None) -> int: ...
     def send_signal(self, sig: int) -> None: ...
     def kill(self) -> None: ...
+
+
+class Starter(Protocol):
+    """What starts a mission's nodes: a `Loader`, or `ros2 launch`."""
+
+    def fork(
+        self, environment: Mapping[str, str], nodes: Sequence[tuple[str, str, Sequence[str], str]]
+    ) -> Mapping[str, Process]:
+        """Prepare the nodes, (name, module, arguments, log file) each; return name -> process."""
+
+    def at_gate(self) -> bool:
+        """Return whether every node is ready to enter the graph."""
+
+    def open_gate(self) -> None:
+        """Let the nodes start."""
 
 
 @dataclass(frozen=True)
@@ -41,16 +58,20 @@ class Child:
         return self.process.poll()
 
     def last_lines(self, count: int = 6) -> list[str]:
-        """Return the last lines of its log."""
-        text = self.log.read_text(encoding="utf-8", errors="replace")
+        """Return the last lines of its log; of ROS's own where another process has its output."""
+        ros = self.log.parent.glob(f"ros/*_{self.process.pid}_*.log")
+        log = self.log if self.log.exists() else next(ros, None)
+        text = log.read_text(encoding="utf-8", errors="replace") if log else ""
         return [line for line in text.splitlines() if line.strip()][-count:]
 
     def obituary(self) -> str:
         """Return how it ended, with its last lines."""
         code = self.exit_code or 0
         how = f"was killed by signal {-code}" if code < 0 else f"ended with code {code}"
+        if code == UNKNOWN_CODE:
+            how = "ended"
         lines = "\n".join(f"  | {line}" for line in self.last_lines())
-        return f"{self.name} {how}; its last lines ({self.log}):\n{lines}"
+        return f"{self.name} {how}; its last lines ({self.log}):\n{lines}" if lines else f"{self.name} {how}"
 
 
 class Children:
@@ -82,14 +103,14 @@ class Children:
             )
         self._children[name] = Child(name, process, log)
 
-    def fork(self, loader: Loader, nodes: Mapping[str, tuple[str, Sequence[str]]]) -> None:
-        """Fork nodes by `loader`: name -> module and arguments. They wait at the loader's gate."""
+    def fork(self, loader: Starter, nodes: Mapping[str, tuple[str, Sequence[str]]]) -> None:
+        """Start nodes by `loader`: name -> module and arguments. They wait at its gate."""
         order = [
             (name, module, list(arguments), str(self._log(name)))
             for name, (module, arguments) in nodes.items()
         ]
-        for name, pid in loader.fork(self._environment, order).items():
-            self._children[name] = Child(name, Adopted(pid), self._log(name))
+        for name, process in loader.fork(self._environment, order).items():
+            self._children[name] = Child(name, process, self._log(name))
 
     def _log(self, name: str) -> Path:
         return self._directory / f"{name}.log"

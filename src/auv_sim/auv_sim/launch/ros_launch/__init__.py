@@ -1,0 +1,1 @@
+"""Missions and vehicles under `ros2 launch`."""

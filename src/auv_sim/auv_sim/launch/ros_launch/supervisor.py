@@ -1,0 +1,99 @@
+"""The executable `mission_supervisor`: a mission, or a vehicle's nodes, under `ros2 launch`.
+
+It does what `scripts/mission.py` does (same plan, same refusals, same run directory, same exit codes), but
+`ros2 launch` starts the nodes: see `nodes_file`.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+import shutil
+from collections.abc import Sequence
+from pathlib import Path
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.node.graph_look import GraphTaken
+from auv_msgs_py.node.run import StopRequest
+from auv_sim.cli import mission
+from auv_sim.command_line import EXIT_DONE, Parser, command, make_directory
+from auv_sim.launch import launcher, mission_flight
+from auv_sim.launch.mission_plan import Plan
+from auv_sim.launch.processes import discovery
+from auv_sim.launch.processes.process_group import Children
+from auv_sim.launch.ros_launch.nodes_file import NodesFile
+from auv_sim.terminal import console
+
+
+def parser() -> Parser:
+    """Return the command line's parser: the options of `scripts/mission.py`, and two more."""
+    p = mission.parser()
+    p.prog = "mission_supervisor"
+    p.description = "Supervise a mission whose nodes ros2 launch starts."
+    p.add_argument("--nodes-only", action="store_true", help="start the nodes; the mission begins by `start`")
+    p.add_argument("--no-recorder", action="store_true", help="with --nodes-only: record nothing")
+    return p
+
+
+@command("mission", interrupted="mission interrupted")
+def main(argv: Sequence[str] | None = None) -> int:
+    """Supervise; returns the exit code of `scripts/mission.py`, with --nodes-only 0 after a signal."""
+    given = vars(parser().parse_args(argv))
+    nodes_only, no_recorder = given.pop("nodes_only"), given.pop("no_recorder")
+    if nodes_only and given["vehicle_driver"] is None:
+        given["no_sim"] = True
+    options = mission.checked(given)
+    directory = mission_flight.run_directory(options)
+    domain = launcher.domain_of_environment() if options.domain is None else options.domain
+    options = dataclasses.replace(options, out=directory)
+    nodes = NodesFile(directory)
+    if not nodes_only:
+        return mission_flight.fly(options, nodes, domain)
+    plan = mission_flight.prepare(options, directory)
+    if no_recorder:
+        kept = {name: settings for name, settings in plan.parameters.items() if name != topics.RECORDER}
+        plan = dataclasses.replace(plan, parameters=kept)
+    make_directory(directory, new=True)
+    mission_flight.announce(plan, domain, console())
+    try:
+        _stand_by(plan, directory, domain, nodes)
+    except GraphTaken:
+        shutil.rmtree(directory)  # nothing was started: the same command must work again
+        raise
+    return EXIT_DONE
+
+
+def _stand_by(plan: Plan, directory: Path, domain: int, nodes: NodesFile) -> None:
+    """Start the nodes once the graph has room for them; hold the claim and the emulator until a signal.
+
+    Raises:
+        GraphTaken: another process holds what the nodes claim.
+    """
+    environment = launcher.environment_of(plan, directory, domain)
+    os.environ.update(environment)
+    interrupt = StopRequest()
+    children = Children(directory / "log", environment)
+    try:
+        parameters = plan.write(directory / "config")
+        from auv_sim.launch.monitor import Monitor
+
+        look_for = discovery.look_for(domain)
+        monitor = Monitor(plan.options.namespace)
+        try:
+            look = monitor.look_around(plan.claim(), look_for)
+            while not (interrupt.requested or look.ended()):
+                monitor.look(0.02)
+            if not interrupt.requested:
+                launcher.start_nodes(plan, children, nodes, parameters)
+                nodes.open_gate()
+            while not interrupt.requested:
+                monitor.look(0.1)
+        finally:
+            monitor.close()
+    finally:
+        children.stop()
+        interrupt.withdraw()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
