@@ -20,6 +20,8 @@ SLEEPS = "import time; time.sleep(30)"
 def process(tmp_path: Path) -> Iterator[subprocess.Popen[bytes]]:
     command = [sys.executable, "-S", "-c", SLEEPS, "recorder", str(tmp_path / "params.yaml")]
     with subprocess.Popen(command) as running:
+        while b"recorder" not in Path(f"/proc/{running.pid}/cmdline").read_bytes():
+            pass  # Popen returns a moment before the system has the new command line
         yield running
         running.kill()
 
