@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from auv_msgs_py.values.errors import ConfigurationError
+from auv_msgs_py.values.pure import numbers_of
 from auv_msgs_py.values.types import Current
 from auv_path_following import vehicle
 from auv_path_following.vertical_hull import level_trim, reversal_speed
@@ -18,6 +19,7 @@ from auv_sim.vehicle.hulls.remus_6dof import (
     remus_6dof_step,
     remus_accelerations,
     remus_loads,
+    terms_of,
 )
 from auv_sim.vehicle.hulls.rigid_body import BodyState, angles_of, body_at, quaternion_of
 from auv_sim.vehicle.remus import PlantState, planar_hull_of, planar_step
@@ -33,8 +35,9 @@ def hull(**changes: float) -> Remus6dof:
 
 def flat() -> Remus6dof:
     """Without what couples the planes: no arm of the weight, no buoyancy to spare, no propeller torque."""
-    config = hull(zg=1e-300, B=299.0, Kprop=0.0)
-    return config._replace(vertical=config.vertical._replace(zg=0.0))
+    made = with_vertical(zg=1e-300, B=299.0, Kprop=0.0)
+    no_arm = numbers_of(made.vertical)._replace(zg=0.0)
+    return remus_6dof_of(made)._replace(terms=terms_of(numbers_of(made), no_arm))
 
 
 def test_planar_limit() -> None:
@@ -52,11 +55,11 @@ def test_planar_limit() -> None:
 def test_energy_is_kept_without_lift_and_drag() -> None:
     """Added mass, inertia and gyroscopic terms alone neither give nor take: 30 s at 0.01 s."""
     lost = ("Zww", "Zqq", "Zuw", "Zuud", "Kpp", "Mww", "Mqq", "Muw", "Muud")
-    made = hull(B=299.0, Kprop=0.0, Mrp=-0.0704 + 4.88, Npq=0.0704 - 4.88, Zuq=-35.5, Muq=-1.93)
-    planar = made.planar._replace(
+    made = with_vertical(B=299.0, Kprop=0.0, Mrp=-0.0704 + 4.88, Npq=0.0704 - 4.88, Zuq=-35.5, Muq=-1.93)
+    planar = numbers_of(made)._replace(
         Xuu=0.0, Yvv=0.0, Yrr=0.0, Yuv=0.0, Nvv=0.0, Nrr=0.0, Nuv=0.0, Yuud=0.0, Nuud=0.0,
     )  # fmt: skip
-    vertical = made.vertical._replace(**dict.fromkeys(lost, 0.0))
+    vertical = numbers_of(made.vertical)._replace(**dict.fromkeys(lost, 0.0))
     h, c = planar, vertical
     # The body's own terms of added mass: C_A of a diagonal M_A with heave-pitch and sway-yaw couplings.
     planar = h._replace(Xvr=-h.Yvd, Xrr=-h.Yrd, Yur=h.Xud, Nur=h.Yrd, Nuv=-(h.Xud - h.Yvd))
@@ -64,7 +67,7 @@ def test_energy_is_kept_without_lift_and_drag() -> None:
         Xwq=c.Zwd, Xqq=c.Zqd, Ywp=-c.Zwd, Ypq=-c.Zqd, Zuq=-h.Xud, Zvp=h.Yvd, Zrp=h.Yrd, Muw=-(c.Zwd - h.Xud),
         Muq=-c.Zqd, Mvp=-h.Yrd, Mrp=c.Kpd - h.Nrd, Nwp=c.Zqd, Npq=-(c.Kpd - c.Mqd),
     )  # fmt: skip
-    config = made._replace(planar=planar, vertical=vertical)
+    config = remus_6dof_of(made)._replace(terms=terms_of(planar, vertical))
     body = BodyState(0.0, 0.0, 50.0, *quaternion_of(0.2, 0.1, 0.0), 1.0, 0.1, -0.2, 0.3, 0.1, -0.2)
     before = energy(config, body)
     for _ in range(3000):
@@ -78,8 +81,8 @@ def energy(config: Remus6dof, body: BodyState) -> float:
     second = np.linalg.inv(np.reshape(config.sway_roll_yaw, (3, 3)))
     a, b = np.array([body.ur, body.wr, body.q]), np.array([body.vr, body.p, body.r])
     phi, theta, _ = angles_of(body)
-    height = config.vertical.zg * math.cos(theta) * math.cos(phi)
-    return float(0.5 * a @ first @ a + 0.5 * b @ second @ b) - config.vertical.W * height
+    height = (config.terms.W_zg / config.terms.W) * math.cos(theta) * math.cos(phi)
+    return float(0.5 * a @ first @ a + 0.5 * b @ second @ b) - config.terms.W * height
 
 
 @pytest.mark.parametrize(
@@ -150,7 +153,7 @@ def test_the_propeller_rolls_the_hull_to_port_until_the_weight_holds_it() -> Non
 def test_a_light_hull_without_thrust_floats_up_and_stays_at_the_surface() -> None:
     """Level at first: 0.16 m/s at 3.34 N; at the surface it lies still with its spare buoyancy in the air."""
     config = hull()
-    c = config.vertical
+    c = config.terms
     body = BodyState(0.0, 0.0, 5.0, *quaternion_of(0.0, 0.0, 0.0), *(0.0,) * 6)
     fastest = 0.0
     for _ in range(6000):

@@ -8,6 +8,8 @@ import math
 from collections.abc import Sequence
 from typing import Final, Literal, NamedTuple, get_args
 
+import numpy as np
+
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.curves.spatial.spatial_point import Profile, linear_ramp, smooth_ramp
 
@@ -16,6 +18,8 @@ RampKind = Literal["smooth", "linear"]
 _RAMPS = {"linear": linear_ramp, "smooth": smooth_ramp}
 #: Largest slope of a ramp, in units of D/L, and its largest rate, in units of D/L^2.
 STEEPEST = {"linear": 1.0, "smooth": 1.875}
+#: Points in [-1, 1] and weights of the Gauss quadrature.
+_GAUSS: Final = tuple(zip(*(array.tolist() for array in np.polynomial.legendre.leggauss(32)), strict=True))
 _SHARPEST = {"linear": 0.0, "smooth": 10.0 / math.sqrt(3.0)}
 
 
@@ -80,6 +84,27 @@ class DepthProfile:
         before, after = self.knots[owner], self.knots[owner + 1]
         ramp = _RAMPS[self.kind]
         return ramp(before.depth, after.depth, after.way - before.way, way - before.way)
+
+    def stretch(self, middle: float, half: float, owner: int) -> float:
+        """Return the integral of sqrt(1 + slope^2) over a stretch of one ramp, over half its width.
+
+        It is called once a step, so the slope stands here once more: that of Eq. (3D-11).
+
+        Args:
+            middle, half: of the stretch, horizontal length, m: its middle, and half its width.
+            owner: index of the ramp.
+        """
+        before, after = self.knots[owner], self.knots[owner + 1]
+        length = after.way - before.way
+        mean = (after.depth - before.depth) / length
+        if self.kind == "linear":
+            return 2.0 * math.sqrt(1.0 + mean * mean)
+        begin, total = middle - before.way, 0.0
+        for node, weight in _GAUSS:
+            e = (begin + half * node) / length
+            slope = mean * (30.0 * e * e * (1.0 - e) * (1.0 - e))
+            total += weight * math.sqrt(1.0 + slope * slope)
+        return total
 
     def reversed(self) -> DepthProfile:
         """Return the profile of the same path followed from its end to its start."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from functools import cached_property
 from typing import Any, Final, Protocol
 
@@ -21,7 +20,6 @@ from auv_path_following.curves.spatial.spatial_point import SpatialPoint, lifted
 DEPTH_WIDTH = 2 + TERMS
 #: Kinds on which the length grows evenly with t: a ramp over them is a polynomial of t.
 _EVEN = ("line", "arc", "clothoid")
-_NODES, _WEIGHTS = (array.tolist() for array in np.polynomial.legendre.leggauss(32))
 
 
 class SpatialSegment(Protocol):
@@ -84,12 +82,8 @@ class Lifted:
         planar = self.plan.length_to_go(t)
         if self._is_level:
             return planar
-        end, half = self.begin + self.plan.length, 0.5 * planar
-        total = 0.0
-        for node, weight in zip(_NODES, _WEIGHTS, strict=True):
-            slope = self.profile.at(end - half + half * node, self.ramp)[1]
-            total += weight * math.sqrt(1.0 + slope * slope)
-        return half * total
+        half = 0.5 * planar
+        return half * self.profile.stretch(self.begin + self.plan.length - half, half, self.ramp)
 
     @cached_property
     def depth_pieces(self) -> list[float]:

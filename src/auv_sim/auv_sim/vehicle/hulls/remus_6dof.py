@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_msgs_py.values.pure import numbers_of, pure
+from auv_msgs_py.values.pure import pure
 from auv_path_following.vehicle import Hull
 from auv_path_following.vertical_hull import immersed_share
 from auv_sim.vehicle.actuator import Deflection
@@ -37,17 +37,68 @@ Matrix = tuple[float, float, float, float, float, float, float, float, float]
 BodyInputs = tuple[Deflection, Deflection, float, Vector]
 
 
+class Terms(NamedTuple):
+    """Coefficients of Eq. (3D-4), each for its product of velocities, with the terms of inertia added.
+
+    A rate times a velocity has the rigid body's share in it: `Xwq` is Xwq - m. Moments of weight and inertia
+    about an arm stand alone: `m_zg` is m zg, `W_zg` is W zg.
+    """
+
+    Xuu: float
+    Xwq: float
+    Xqq: float
+    Xvr: float
+    Xrr: float
+    Yvv: float
+    Yrr: float
+    Yuv: float
+    Ywp: float
+    Yur: float
+    Ypq: float
+    Yuud: float
+    Zww: float
+    Zqq: float
+    Zuw: float
+    Zuq: float
+    Zvp: float
+    Zrp: float
+    Zuud: float
+    Kpp: float
+    Kup: float
+    Kqr: float
+    Kprop: float
+    Mww: float
+    Mqq: float
+    Muq: float
+    Muw: float
+    Mvp: float
+    Mrp: float
+    Muud: float
+    Nvv: float
+    Nrr: float
+    Nur: float
+    Nuv: float
+    Nwp: float
+    Npq: float
+    Nuud: float
+    m_zg: float
+    m_xg: float
+    W_zg: float
+    W_xg: float
+    W: float
+    B: float
+
+
 class Remus6dof(NamedTuple):
     """Configuration of a hull.
 
     Attributes:
-        planar, vertical: the coefficients of `Hull` and `VerticalHull` as named tuples of numbers.
+        terms: the coefficients of Eq. (3D-4).
         surge_heave_pitch, sway_roll_yaw: the two halves of the inverse of the mass matrix.
         radius: of the hull, m; at the surface buoyancy acts on its immersed share.
     """
 
-    planar: Any
-    vertical: Any
+    terms: Terms
     surge_heave_pitch: Matrix
     sway_roll_yaw: Matrix
     radius: float
@@ -73,12 +124,25 @@ def remus_6dof_of(hull: Hull) -> Remus6dof:
         [h.m * v.xg - h.Nvd, 0.0, h.Izz - h.Nrd],
     ]
     return Remus6dof(
-        numbers_of(hull),
-        numbers_of(v),
+        terms_of(hull, v),
         _inverse(surge_heave_pitch),
         _inverse(sway_roll_yaw),
         0.5 * v.diameter,
     )
+
+
+def terms_of(h: Any, c: Any) -> Terms:
+    """Return the coefficients of Eq. (3D-4), of a `Hull` and a `VerticalHull`."""
+    m, m_zg, m_xg = h.m, h.m * c.zg, h.m * c.xg
+    inertia = {
+        "Xwq": c.Xwq - m, "Xqq": c.Xqq + m_xg, "Xvr": h.Xvr + m, "Xrr": h.Xrr + m_xg,
+        "Ywp": c.Ywp + m, "Yur": h.Yur - m, "Ypq": c.Ypq - m_xg,
+        "Zuq": c.Zuq + m, "Zvp": c.Zvp - m, "Zrp": c.Zrp - m_xg,
+        "Kqr": -(h.Izz - c.Iyy), "Mrp": c.Mrp - (c.Ixx - h.Izz), "Npq": c.Npq - (c.Iyy - c.Ixx),
+        "m_zg": m_zg, "m_xg": m_xg, "W_zg": c.zg * c.W, "W_xg": c.xg * c.W,
+    }  # fmt: skip
+    own = {name: getattr(c, name, getattr(h, name, None)) for name in Terms._fields if name not in inertia}
+    return Terms(**{name: float(value) for name, value in (inertia | own).items()})
 
 
 def _inverse(matrix: list[list[float]]) -> Matrix:
@@ -89,39 +153,30 @@ def _inverse(matrix: list[list[float]]) -> Matrix:
 @pure
 def remus_loads(hull: Remus6dof, state: BodyState, rudder: float, planes: float, thrust: float) -> Loads:
     """Return the right-hand side of Eq. (3D-4)."""
-    h, c = hull.planar, hull.vertical
-    u, v, w, p, q, r = state.ur, state.vr, state.wr, state.p, state.q, state.r
-    m, W, xg, zg = h.m, c.W, c.xg, c.zg
+    (
+        Xuu, Xwq, Xqq, Xvr, Xrr, Yvv, Yrr, Yuv, Ywp, Yur, Ypq, Yuud, Zww, Zqq, Zuw, Zuq, Zvp, Zrp, Zuud,
+        Kpp, Kup, Kqr, Kprop, Mww, Mqq, Muq, Muw, Mvp, Mrp, Muud, Nvv, Nrr, Nur, Nuv, Nwp, Npq, Nuud,
+        m_zg, m_xg, W_zg, W_xg, W, B,
+    ) = hull.terms  # fmt: skip
+    _, _, z, qw, qi, qj, qk, u, v, w, p, q, r = state
+    av, aw, ap, aq, ar = abs(v), abs(w), abs(p), abs(q), abs(r)
     # Down, in body axes: (-sin theta, cos theta sin phi, cos theta cos phi).
-    down_x, down_y, down_z = to_body(state.qw, state.qi, state.qj, state.qk, 0.0, 0.0, 1.0)
-    heavy = W - c.B * immersed_share(state.z, hull.radius)
-    X = (
-        heavy * down_x + h.Xuu * u * abs(u) + (c.Xwq - m) * w * q + (c.Xqq + m * xg) * q * q
-        + (h.Xvr + m) * v * r + (h.Xrr + m * xg) * r * r - m * zg * p * r + thrust
+    down_x, down_y, down_z = to_body(qw, qi, qj, qk, 0.0, 0.0, 1.0)
+    heavy = W - B * immersed_share(z, hull.radius)
+    return (
+        heavy * down_x + Xuu * u * abs(u) + Xwq * w * q + Xqq * q * q + Xvr * v * r + Xrr * r * r
+        - m_zg * p * r + thrust,
+        heavy * down_y + Yvv * v * av + Yrr * r * ar + Yuv * u * v + Ywp * w * p + Yur * u * r
+        + Ypq * p * q - m_zg * q * r + Yuud * u * u * rudder,
+        heavy * down_z + Zww * w * aw + Zqq * q * aq + Zuw * u * w + Zuq * u * q + Zvp * v * p
+        + Zrp * r * p + m_zg * (p * p + q * q) + Zuud * u * u * planes,
+        -W_zg * down_y + Kpp * p * ap + Kup * abs(u) * p + Kqr * q * r - m_zg * (w * p - u * r)
+        + Kprop * thrust,
+        W_zg * down_x - W_xg * down_z + Mww * w * aw + Mqq * q * aq + Muq * u * q + Muw * u * w
+        + Mvp * v * p + Mrp * r * p + m_zg * (v * r - w * q) + m_xg * (v * p - u * q) + Muud * u * u * planes,
+        W_xg * down_y + Nvv * v * av + Nrr * r * ar + Nur * u * r + Nuv * u * v + Nwp * w * p
+        + Npq * p * q + m_xg * (w * p - u * r) + Nuud * u * u * rudder,
     )  # fmt: skip
-    Y = (
-        heavy * down_y + h.Yvv * v * abs(v) + h.Yrr * r * abs(r) + h.Yuv * u * v + (c.Ywp + m) * w * p
-        + (h.Yur - m) * u * r + (c.Ypq - m * xg) * p * q - m * zg * q * r + h.Yuud * u * u * rudder
-    )  # fmt: skip
-    Z = (
-        heavy * down_z + c.Zww * w * abs(w) + c.Zqq * q * abs(q) + c.Zuw * u * w + (c.Zuq + m) * u * q
-        + (c.Zvp - m) * v * p + (c.Zrp - m * xg) * r * p + m * zg * (p * p + q * q) + c.Zuud * u * u * planes
-    )  # fmt: skip
-    K = (
-        -zg * W * down_y + c.Kpp * p * abs(p) + c.Kup * abs(u) * p - (h.Izz - c.Iyy) * q * r
-        - m * zg * (w * p - u * r) + c.Kprop * thrust
-    )  # fmt: skip
-    M = (
-        zg * W * down_x - xg * W * down_z + c.Mww * w * abs(w) + c.Mqq * q * abs(q) + c.Muq * u * q
-        + c.Muw * u * w + c.Mvp * v * p + (c.Mrp - (c.Ixx - h.Izz)) * r * p + m * zg * (v * r - w * q)
-        + m * xg * (v * p - u * q) + c.Muud * u * u * planes
-    )  # fmt: skip
-    N = (
-        xg * W * down_y + h.Nvv * v * abs(v) + h.Nrr * r * abs(r) + h.Nur * u * r + h.Nuv * u * v
-        + c.Nwp * w * p + (c.Npq - (c.Iyy - c.Ixx)) * p * q + m * xg * (w * p - u * r)
-        + h.Nuud * u * u * rudder
-    )  # fmt: skip
-    return X, Y, Z, K, M, N
 
 
 @pure
