@@ -10,6 +10,7 @@ from auv_path_following import pilots
 from auv_path_following.course import course_of
 from auv_path_following.guidance.approach import empty_approach
 from auv_path_following.guidance.guide import GuideState
+from auv_path_following.guidance.path_follower import distance_to_go
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.navigation import current_observer
 from auv_path_following.nodes.readings import readings_of
@@ -54,7 +55,9 @@ class Chain:
         self._course, self.readings = course_of(mission, vehicle), readings_of(vehicle)
         self.with_altitude = self._course.with_altitude
         self.answered = tuple(topic.name for topic in (*self.readings.commands, *self.readings.references))
-        self.guide = self._course.prepare(guidance, is_limited=False)
+        # The recording says when a mission ran, but not that it ascended: to that, a limit of a dive leads.
+        self.guide = self._course.prepare(guidance, is_limited=vehicle.dives)
+        self._to_go: float = self._course.path.length
         steering = parameters[topics.AUTOPILOT]
         observer = current_observer.prepare(parameters[topics.OBSERVER].observer)
         # In lockstep a node's watchdogs rest, and so does this bound.
@@ -86,7 +89,8 @@ class Chain:
             now: its stamp, s.
             dt: time since the last one, s.
         """
-        measured = self._course.measured(inputs, 0.0, now)
+        measured = self._course.measured(inputs, self._to_go, now)
         self._state, out = pilots.pilot_step(self._config, self._course.rows, self._state, measured, dt)
+        self._to_go = distance_to_go(self._course.path, self.guiding.follower)
         _, guided, reference, command = out
         return (*command, *self.readings.sent(guided, reference.thrust))

@@ -153,7 +153,7 @@ def _in_phase(mission: states.MissionStatus, phase: _Phase) -> states.MissionSta
     if phase.resumes:
         return states.MissionStatus(states.HOLDING)
     if phase.runs:
-        changes = mission.state in (states.HOLDING, states.COMPLETE)
+        changes = mission.state in (states.HOLDING, states.COMPLETE) or states.is_surfacing(mission)
         return mission if changes else states.MissionStatus(states.RUNNING)
     return mission if mission.state == states.COMPLETE else states.MissionStatus()
 
