@@ -1,4 +1,4 @@
-"""The chain of a rerun goes through what guidance does on its own account: the ascent of a dive that a limit ends."""
+"""A rerun against the chain of the nodes where a limit ends a dive: its ascent is in no recorded word."""
 
 from __future__ import annotations
 
