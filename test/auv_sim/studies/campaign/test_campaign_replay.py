@@ -8,10 +8,13 @@ from typing import Any
 
 import pytest
 
+from auv_msgs_py.contract import topics
+from auv_msgs_py.settings import params_file
 from auv_sim.cli import mission as mission_command
 from auv_sim.flight.scenario import Scenario
 from auv_sim.launch import mission_plan
 from auv_sim.launch.options import Options
+from auv_sim.sim_parameters import SUITE
 from auv_sim.studies.campaign.campaign_plan import StudyPlan
 from auv_sim.studies.campaign.campaign_replay import command_line, write_files
 from auv_sim.vehicle.hulls.rigid_body import BodyState
@@ -63,3 +66,7 @@ def test_the_launcher_flies_the_run_that_its_files_say(text: str, tmp_path: Path
     assert (read.path.length, read.path.n) == (wanted.path.length, wanted.path.n)
     assert (read.spatial is None) == (wanted.spatial is None) == (text is PLANAR)
     assert compared(read) == compared(wanted)
+    guidance = params_file.load(tmp_path / "config" / "params.yaml", SUITE)[topics.GUIDANCE]
+    watched = dataclasses.asdict(guidance.diving)
+    kept = {"tilt_after", "depth_tolerance", "depth_rate_error"}  # that only say how a limit is judged
+    assert {name for name, value in watched.items() if value} == kept, "a limit that the engine does not have"

@@ -16,6 +16,7 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.settings import params_file, yaml_file
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
+from auv_path_following.guidance.failsafe.watchdogs import DiveLimitsConfig
 from auv_sim.bags.reading.load import load
 from auv_sim.cli import mission as mission_command
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, to_type
@@ -32,6 +33,17 @@ from auv_sim.vehicle.hulls.rigid_body import BodyState, angles_of
 from auv_sim.vehicle.remus import PlantState
 from auv_sim.views.overview import draw
 from auv_sim.views.signal_rows import limits_of
+
+#: The engine flies to the end what these limits of a dive would end.
+_NO_WATCHDOG = DiveLimitsConfig(
+    roll_deg=0.0,
+    pitch_deg=0.0,
+    slow_after=0.0,
+    broach_after=0.0,
+    depth_patience=0.0,
+    depth_doubt=0.0,
+    hold_sink=0.0,
+)
 
 
 def replay(store: Store, number: int, graph: bool, console: Console) -> int:
@@ -114,7 +126,11 @@ def write_files(plan: StudyPlan, number: int, directory: Path) -> None:
             given[topics.AUTOPILOT], autopilot=scenario.autopilot, pitch=scenario.pitch
         ),
         topics.GUIDANCE: dataclasses.replace(
-            given[topics.GUIDANCE], guidance=scenario.guidance, limits=limits, mission_switching=False
+            given[topics.GUIDANCE],
+            guidance=scenario.guidance,
+            limits=limits,
+            diving=_NO_WATCHDOG,
+            mission_switching=False,
         ),
     }
     yaml_file.dump(params_file.as_ros(parameters), directory / "params.yaml")

@@ -61,8 +61,8 @@ class SimulatedDiver(Simulated[BodyState, SpatialCommand, SpatialCurrent, Spatia
         plant = self._config if self._sea is None else self._config.plant
         if not isinstance(plant.hull, Remus6dof):
             raise TypeError(f"{self._vehicle.name}: a hull without coefficients cannot be ballasted")
-        vertical = plant.hull.vertical
-        plant = plant._replace(hull=plant.hull._replace(vertical=vertical._replace(B=vertical.B + force)))
+        terms = plant.hull.terms
+        plant = plant._replace(hull=plant.hull._replace(terms=terms._replace(B=terms.B + force)))
         self._config = plant if self._sea is None else self._config._replace(plant=plant)
 
     @property
