@@ -97,3 +97,19 @@ def test_stern_planes_choose_the_simulation() -> None:
         simulated_vehicle(DIVER, flat)
     with pytest.raises(TypeError, match="starts from a PlantState"):
         simulated_vehicle(planar, START)
+
+
+@pytest.mark.parametrize(("force", "sinks"), [(-12.0, True), (12.0, False)])
+def test_ballast_sinks_the_hull_or_lifts_it(force: float, sinks: bool) -> None:
+    diver = SimulatedDiver(vehicle.load("remus100_6dof"), body_at(0.0, 0.0, 20.0, 0.0, 0.0, 0.0, 0.0))
+    diver.ballast(force)
+    for _ in range(200):
+        seen = diver.advance(SpatialCommand(0.0, 0.0, 0.0), 0.05)
+    assert (seen.navigation.z > 20.1) == sinks
+    assert (seen.navigation.z < 19.9) != sinks
+
+
+def test_a_hull_that_is_a_program_cannot_be_ballasted() -> None:
+    diver = SimulatedDiver(vehicle.load("mss_remus100"), START)
+    with pytest.raises(TypeError, match="without coefficients"):
+        diver.ballast(-12.0)
