@@ -15,7 +15,7 @@ from auv_msgs_py.contract import topics
 from auv_path_following import config_files
 from auv_sim.bags.content.recorded_mission import mission_in
 from auv_sim.bags.reading.bag_reader import read_bag
-from auv_sim.bags.reading.load import load
+from auv_sim.bags.reading.load import load, load_messages
 from auv_sim.bags.showing.report_data import page_data
 from auv_sim.cli.mission import main
 from auv_sim.flight import closed_loop
@@ -93,6 +93,21 @@ def test_in_one_process_and_in_ned_the_track_is_the_same(
     assert ned.steps == five.steps
     for name in SIGNALS:
         assert difference(ned, five, name) < 1e-9, name
+
+
+def test_a_dive_in_a_rough_sea_equals_closed_loop(tmp_path: Path, domain: int) -> None:
+    """With an altimeter that the mission does not need, and with every error of instruments and servos."""
+    asked = ["--sea", "rough", "--seed", "3", "--flown", "0", "--composed", "--domain", str(domain)]
+    run = flown(tmp_path / "run", *asked)
+    options = Options(**DIVE, sea="rough", seed=3, flown=0.0)
+    reference = closed_loop.fly(mission_plan.make(options, tmp_path).scenario())
+    assert isinstance(reference, SpatialRun)
+    assert run.steps == reference.steps
+    for name in (*SIGNALS, "x_true", "y_true", "z_true", "theta_true"):
+        assert difference(run, reference, name) < 1e-9, name
+    assert np.abs(run.z - run.z_true).max() > 0.01
+    (_, odometry), *_ = load_messages(tmp_path / "run" / "bag", topics.ODOM.name)
+    assert odometry.pose.covariance[14] > 0.0  # of the depth
 
 
 def test_an_altitude_is_held_over_the_graph_as_in_closed_loop(tmp_path: Path, domain: int) -> None:

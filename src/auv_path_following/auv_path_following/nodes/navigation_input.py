@@ -90,6 +90,9 @@ class NavigationInput:
             node.listen(topics.CURRENT_ESTIMATE, self._on_current)
         if with_altitude:
             node.listen(topics.ALTITUDE, self._on_altitude)
+        elif with_current and self._lockstep and hull.dives:
+            # A simulator with an altimeter waits for all readers of the table, whatever the mission needs.
+            node.listen(topics.ALTITUDE, _leave_out)
 
     @property
     def missing(self) -> tuple[str, ...]:
@@ -172,3 +175,7 @@ class NavigationInput:
         current = rest[0] if self._with_current else self._readings.no_current
         altitude = rest[-1] if self._with_altitude else math.nan
         self._step(Inputs(navigation, water, 0.0, current, 0.0, dt, stamp, False, altitude))
+
+
+def _leave_out(_: Any) -> None:
+    """Take a message that the mission does not need."""
