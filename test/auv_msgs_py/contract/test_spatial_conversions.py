@@ -23,6 +23,7 @@ from auv_msgs_py.contract.spatial_conversions import (
     spatial_water_from,
 )
 from auv_msgs_py.contract.wire import Odometry, PoseStamped, TwistWithCovarianceStamped, Vector3Stamped
+from auv_msgs_py.values.attitude import attitude_over_the_wire
 from auv_msgs_py.values.errors import MessageRefused
 from auv_msgs_py.values.types import SpatialCurrent, SpatialNavigation, SpatialWater
 
@@ -45,6 +46,15 @@ def test_an_odometry_comes_back(world, body, x, y, z, phi, theta, psi, q, r) -> 
     assert spatial_navigation_from(odometry(world, body, sent), FRAMES, "odom") == pytest.approx(
         sent, abs=1e-9
     )
+
+
+@given(phi=roll, theta=pitch, psi=heading)
+def test_a_closed_loop_rounds_an_attitude_as_the_wire_does(phi: float, theta: float, psi: float) -> None:
+    message = Odometry("map", "base_link")
+    sent = SpatialNavigation(1.0, 2.0, 3.0, phi, theta, psi, 0.0, 0.0)
+    fill_spatial_odometry(message, sent, (1.0, 0.0, 0.0), 0.0, 0)
+    found = spatial_navigation_from(message, FrameTable(FrameIds()), "odom")
+    assert found[3:6] == attitude_over_the_wire(phi, theta, psi)
 
 
 def test_on_the_wire_z_is_up_and_a_positive_pitch_is_bow_down() -> None:

@@ -44,6 +44,15 @@ def turned_over(w: float, x: float, y: float, z: float) -> Quaternion:
 
 
 @pure
+def attitude_over_the_wire(phi: float, theta: float, psi: float) -> tuple[float, float, float]:
+    """Return an attitude as an odometry in ENU and FLU carries it: equal but for its last bits."""
+    w, x, y, z = quaternion_of(phi, theta, psi)
+    w, x, y, z = turned_over(w, x, y, z)
+    w, x, y, z = turned_over(w, x, y, z)
+    return angles_of_quaternion(w, x, y, z)
+
+
+@pure
 def euler_rates(phi: float, theta: float, q: float, r: float) -> tuple[float, float]:
     """Return psi' and theta', rad/s: Eq. (3D-27). cos(theta) counts as 0.1 at least.
 

@@ -7,8 +7,9 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from auv_msgs_py.contract.frames import heading_over_the_wire
+from auv_msgs_py.values.attitude import attitude_over_the_wire
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_msgs_py.values.types import SpatialCurrent
+from auv_msgs_py.values.types import SpatialCurrent, SpatialNavigation
 from auv_path_following import pilots
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
@@ -137,7 +138,9 @@ def spatial_answer(
     """Answer one measurement of a vehicle that dives; see `Loop`."""
     navigation, water, altitude = seen.navigation, seen.water, seen.altitude
     if at_sea:
-        navigation = navigation._replace(psi=heading_over_the_wire(navigation.psi))
+        x, y, z, phi, theta, psi, q, r = navigation
+        phi, theta, psi = attitude_over_the_wire(phi, theta, psi)
+        navigation = SpatialNavigation(x, y, z, phi, theta, psi, q, r)
     measured = SpatialMeasured(navigation, water, True, False, 0.0, now, altitude)
     state, (estimate, g, _, command) = spatial_pilot(config, path, state, measured, dt)
     # g begins with psi_d, r_d, theta_d, q_d, xe, ye, ze, psi_e, theta_e, s: see `SpatialOutput`.

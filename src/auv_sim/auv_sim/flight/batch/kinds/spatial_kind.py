@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from auv_msgs_py.contract.frames import heading_over_the_wire
+from auv_msgs_py.values.attitude import attitude_over_the_wire
 from auv_msgs_py.values.pure import pure
 from auv_msgs_py.values.types import SpatialCommand, SpatialCurrent, SpatialNavigation
 from auv_path_following.curves.rows import CORNER, JOINT, JOINT_X, JOINT_Y, JOINT_Z
@@ -54,7 +54,8 @@ def spatial_reply(
     navigation = seen.navigation
     if config.by_wire:
         x, y, z, phi, theta, psi, q, r = navigation
-        navigation = SpatialNavigation(x, y, z, phi, theta, heading_over_the_wire(psi), q, r)
+        phi, theta, psi = attitude_over_the_wire(phi, theta, psi)
+        navigation = SpatialNavigation(x, y, z, phi, theta, psi, q, r)
     measured = SpatialMeasured(navigation, seen.water, True, False, 0.0, now, seen.altitude)
     state, (estimate, guided, _, command) = spatial_pilot(config, path, state, measured, dt)
     return state, navigation, estimate, guided, command
