@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from auv_msgs_py.contract.frames import FrameIds
 from auv_msgs_py.settings.schema import setting, settings
 from auv_path_following.control.autopilot import AutopilotConfig
+from auv_path_following.control.fin_watch import FinWatchConfig
 from auv_path_following.control.pitch_plane import pitch_gains
 from auv_path_following.guidance.failsafe.ascent import AscentConfig
 from auv_path_following.guidance.failsafe.watchdogs import DiveLimitsConfig
@@ -109,6 +110,9 @@ class AutopilotParameters(NavigationParameters):
     autopilot: AutopilotConfig = setting(factory=AutopilotConfig, doc="heading: controller and gains")
     pitch: AutopilotConfig = setting(
         factory=pitch_gains, doc="pitch of a vehicle with stern planes: controller and gains"
+    )
+    planes: FinWatchConfig = setting(
+        factory=FinWatchConfig, doc="what is reported of the stern planes; it stops nothing"
     )
     reference_timeout: float = setting(
         0.5, "without guidance for this long: rudder and thrust go to 0", unit="s", ge=0.1, le=10.0, live=True

@@ -11,6 +11,7 @@ from auv_msgs_py.node.run import run_nodes
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_path_following import vehicle
 from auv_path_following.guidance.approach import ApproachWatch
+from auv_path_following.guidance.failsafe.descent import DescentWatch
 from auv_path_following.guidance.path_follower import distance_to_go
 from auv_path_following.missions import mission_file
 from auv_path_following.nodes.mission_course import course_of
@@ -29,7 +30,7 @@ class GuidanceNode(SuiteNode):
         self._course = course_of(self.mission, hull)
         self.keeper = MissionKeeper(self, self._course, self._begins)
         self._to_go = self._course.path.length
-        self._approach = ApproachWatch()
+        self._approach, self._descent = ApproachWatch(), DescentWatch()
         self._messages = self._course.messages(self)
         path = self.advertise(topics.PATH)
         self.close_gate()
@@ -69,6 +70,8 @@ class GuidanceNode(SuiteNode):
         late = thrust > 0.0 and inputs.current_age > p.current_timeout
         self.health.warn("current", f"no fresh {topics.CURRENT_ESTIMATE.name}" if late else "")
         self.health.warn("altitude", self._course.warning(self.keeper.state.follower))
+        depth, _ = self._course.depth_and_heading(inputs.navigation)
+        self.health.warn("sinking", self._descent.update(p.diving, depth, thrust))
         if thrust > 0.0 and has_water:
             if text := self._approach.update(output.approach, dt):
                 self.get_logger().info(text)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.conversions import finite
 from auv_msgs_py.contract.pairing import Pairing
 from auv_msgs_py.contract.wire import Float64, Odometry
 from auv_msgs_py.node.run import run_nodes
@@ -37,6 +38,8 @@ class HeadingAutopilotNode(SuiteNode):
         self._outputs = [(self.advertise(topic), Float64()) for topic in self.autopilot.commands]
         self.close_gate()
         self.listen(topics.ODOM, self._on_odometry)
+        for topic in () if self.parameters.lockstep else self.autopilot.watched:
+            self.listen(topic, self._on_planes)
         self._references = ReferenceInput(self, self.autopilot, self._put, self._starts, _STOPPED)
         if not self.parameters.lockstep:
             self.every(0.1, self._watch)
@@ -68,6 +71,9 @@ class HeadingAutopilotNode(SuiteNode):
             self._answer(self._pairing.take())
         self._put(topic, (navigation, dt), stamp)
 
+    def _on_planes(self, message: Float64) -> None:
+        self.autopilot.planes = finite(message.data, topics.STERNPLANE_STATE.name)
+
     def _starts(self) -> None:
         self._intake.reset_gate()
         self.autopilot.reset()
@@ -86,6 +92,7 @@ class HeadingAutopilotNode(SuiteNode):
             self._command = self.autopilot.stop
         else:
             self._command = self.autopilot.update(navigation, reference, dt)
+        self.health.warn("planes", self.autopilot.watch(self._command, dt))
         self.answer(self._publish)
 
     def _watch(self) -> None:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.frames import flip_yaw
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.values.types import SPATIAL_STOP, STOP, Reference, SpatialReference
+from auv_path_following.control import fin_watch
 from auv_path_following.control.autopilot import HeadingAutopilot
 from auv_path_following.control.diving_autopilot import SpatialAutopilot
 from auv_path_following.nodes.readings import PLANAR, SPATIAL
@@ -25,6 +27,8 @@ class PlanarSteering:
     Attributes:
         references: topic -> largest magnitude beyond any request of guidance (rad, rad/s, N).
         commands: topics in the order of a command's fields.
+        watched: topics of measured angles.
+        planes: measured angle of the stern planes, rad; NaN: not measured.
         stop: the command without thrust.
 
     Raises:
@@ -32,6 +36,8 @@ class PlanarSteering:
     """
 
     commands: tuple[Topic, ...] = PLANAR.commands
+    watched: tuple[Topic, ...] = ()
+    planes = math.nan
     stop: Any = STOP
 
     def __init__(self, vehicle: Vehicle, parameters: AutopilotParameters) -> None:
@@ -72,6 +78,10 @@ class PlanarSteering:
         yaw, rate, thrust = values
         return Reference(flip_yaw(yaw), -rate, thrust)
 
+    def watch(self, command: Any, dt: float) -> str:
+        """Return what is wrong with the fins under a command; empty: nothing. `dt` in s."""
+        return ""
+
     def update(self, navigation: Any, reference: Any, dt: float) -> Any:
         """Return the command for a measurement; `dt` in s."""
         return self._autopilot.update(navigation, reference, dt).command
@@ -85,17 +95,29 @@ class SpatialSteering(PlanarSteering):
     """
 
     commands = SPATIAL.commands
+    watched = (topics.STERNPLANE_STATE,)
     stop = SPATIAL_STOP
 
     def __init__(self, vehicle: Vehicle, parameters: AutopilotParameters) -> None:
         super().__init__(vehicle, parameters)
+        self._fin = fin_watch.NEUTRAL
+        self._watch_for(parameters)
         self.references |= {topics.DESIRED_PITCH: 1.6, topics.DESIRED_PITCH_RATE: 10.0}
 
     def _made(self, parameters: AutopilotParameters) -> Any:
         return SpatialAutopilot(self.vehicle, parameters.autopilot, parameters.pitch)
 
+    def _watch_for(self, parameters: AutopilotParameters) -> None:
+        assert self.vehicle.sternplanes is not None
+        self._watch = fin_watch.prepare(parameters.planes, self.vehicle.sternplanes)
+
     def configure(self, parameters: AutopilotParameters) -> None:
         self._autopilot.configure(parameters.autopilot, parameters.pitch)
+        self._watch_for(parameters)
+
+    def watch(self, command: Any, dt: float) -> str:
+        self._fin, *wrong = fin_watch.watch_fin(self._watch, self._fin, command.sternplanes, self.planes, dt)
+        return fin_watch.complaint(*wrong)
 
     def reference(self, values: tuple[float, ...]) -> Any:
         yaw, yaw_rate, thrust, pitch, pitch_rate = values

@@ -9,7 +9,7 @@ import pytest
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.settings.schema import leaves
-from auv_sim.checks.faults.expectations import REPRESENTATIVE, TABLE, as_markdown, chosen
+from auv_sim.checks.faults.expectations import QUICK, REPRESENTATIVE, TABLE, as_markdown, chosen
 from auv_sim.nodes.fault_injection import DEPTH_FAULTS, FAULTS
 from auv_sim.nodes.fault_relay import RELAYED
 from auv_sim.sim_parameters import SUITE
@@ -80,6 +80,7 @@ def test_names_are_unique_and_choose() -> None:
     names = [row.name for row in TABLE]
     assert len(set(names)) == len(names)
     assert [row.name for row in chosen(("odom nan", "odom stop"))] == ["odom stop", "odom nan"]
-    assert len(chosen(REPRESENTATIVE)) == len(REPRESENTATIVE)
+    assert len(chosen(QUICK)) == len(QUICK) > len(REPRESENTATIVE)
+    assert {row.flight for row in chosen(QUICK)} == {"plane", "dive", "bottom"}
     with pytest.raises(KeyError):
         chosen(("odom burn",))

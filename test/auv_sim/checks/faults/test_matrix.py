@@ -18,7 +18,8 @@ from conftest import children_of
 
 def test_what_fails_is_noticed_and_the_vehicle_is_safe(domain: int, tmp_path: Path) -> None:
     record = tmp_path / "matrix.json"
-    code = main(["--domain", str(domain), "--json", str(record), "--out", str(tmp_path / "out")])
+    asked = ["--domain", str(domain), "--json", str(record), "--out", str(tmp_path / "out")]
+    code = main([*REPRESENTATIVE, *asked])
     rows = json.loads(record.read_text(encoding="utf-8"))["rows"]
     assert {row["name"]: row["wrong"] for row in rows} == {name: [] for name in REPRESENTATIVE}
     assert code == 0

@@ -200,6 +200,11 @@ REPRESENTATIVE = (
     "rudder_cmd stop", "mission_state forge", "thrust_cmd freeze then abort", "heading_autopilot kill",
     "ailos_guidance kill",
 )  # fmt: skip
+#: What the command runs without --full: the same, and some of a vehicle that dives.
+QUICK = (
+    *REPRESENTATIVE, "odom depth_turn", "odom rolled", "sternplane_cmd stop", "remus_plant heavy",
+    "altitude jump",
+)  # fmt: skip
 
 
 def chosen(names: tuple[str, ...]) -> list[Expectation]:

@@ -18,7 +18,7 @@ from rich.table import Table
 from auv_msgs_py.contract import topics
 from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.checks.faults.expectations import REPRESENTATIVE, TABLE, chosen
+from auv_sim.checks.faults.expectations import QUICK, TABLE, chosen
 from auv_sim.checks.faults.fault_row import Expectation, Flight
 from auv_sim.command_line import (
     EXIT_DONE,
@@ -73,7 +73,7 @@ def _rows(arguments: argparse.Namespace) -> list[Expectation]:
     if arguments.full:
         return list(TABLE)
     try:
-        return chosen(tuple(arguments.rows) or REPRESENTATIVE)
+        return chosen(tuple(arguments.rows) or QUICK)
     except KeyError as error:
         raise ConfigurationError("ROW", str(error), "a name that --list prints") from None
 
