@@ -18,7 +18,7 @@ import pytest
 
 from auv_msgs_py.contract import topics
 from auv_sim.checks.benchmark import against, contender, figures_page, sheets
-from auv_sim.checks.benchmark.measures import graph_speed, law_speed, start_up
+from auv_sim.checks.benchmark.measures import dimensions, graph_speed, law_speed, start_up
 from auv_sim.checks.benchmark.measures.children import BenchmarkFailed
 from auv_sim.checks.benchmark.measures.rig import LockstepTiming, Setup, free_running, lockstep
 from auv_sim.checks.benchmark.measures.stopwatch import BLOCK
@@ -107,6 +107,26 @@ def test_the_suite_is_compared_with_its_own_floor(
     assert ["all", "500", "320", "160"] in rows
 
 
+def test_three_dimensions_are_compared_with_the_plane(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A dive that takes 1.2 times the planar step; engines that fly, however fast."""
+
+    def timed(setup: Setup) -> LockstepTiming:
+        step = (200e-6 if setup.composed else 800e-6) * (1.2 if setup.dives else 1.0)
+        return LockstepTiming((step, step), {"all": Usage(step, 1.0)}, {})
+
+    monkeypatch.setattr(dimensions, "lockstep", timed)
+    monkeypatch.setattr(
+        dimensions, "engine", SimpleNamespace(fly=lambda _: SimpleNamespace(steps=np.ones(1)))
+    )
+    assert main(["--quick", "--only", "dimensions"]) == 0
+    rows = [[cell.strip() for cell in line.split("│")[1:-1]] for line in capsys.readouterr().out.splitlines()]
+    assert ["one process for each node", "1.20", "800", "960", "800", "960"] in rows
+    assert ["all nodes in one process", "1.20", "200", "240", "200", "240"] in rows
+    assert {"in the plane", "in three dimensions"} <= {row[0] for row in rows if row}
+
+
 def test_what_a_flight_takes_once_is_told_apart_from_its_steps(monkeypatch: pytest.MonkeyPatch) -> None:
     """An engine that takes 70 us a flight and 2 us a step, on a clock that only it moves."""
     now = [0.0]
@@ -172,6 +192,13 @@ def figures() -> dict[str, object]:
             "composed": dict.fromkeys(kinds, run),
             "memory": {"recorder": {"rss": 2**26, "pss": 2**25}},
         },
+        "dimensions": {
+            "compiled": True,
+            **{place: dict.fromkeys(("planar", "dives"), run) for place in ("separate", "composed")},
+            "engine": {
+                "planar": {"closed_loop": 80.0, "batch": 1.0}, "dives": {"closed_loop": 110.0, "batch": 1.5},
+            },
+        },
         "latency": {"20": at, "50": at},
         "simulation": {
             "closed_loop": {"vehicle_steps_per_second": 2e4},
@@ -202,6 +229,7 @@ def test_the_page_is_renewed_between_its_marks(tmp_path: Path) -> None:
     assert "old" not in text
     assert "abacus" in text
     assert "| plain rclpy nodes, empty callbacks | 2.50 | 2500 |" in text
+    assert "| in three dimensions | 73 | 110.0 | 1.50 |" in text
     assert "| batch, 10,000 vehicles | 100.0 | 2,000,000 | 0.500 | 0.400 | 40.0 |" in text
     assert "| batch, 100,000 vehicles, all cores: times the other's closed_loop | 104 |" in text
     assert (tmp_path / "images" / figures_page.PICTURE).stat().st_size > 10_000

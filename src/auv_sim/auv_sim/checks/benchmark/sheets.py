@@ -35,8 +35,8 @@ class Sheet:
 def sheets(figures: dict[str, Any]) -> list[Sheet]:
     """Return the tables of everything that was measured."""
     makers = {
-        "lockstep": _lockstep, "latency": _latency, "simulation": _simulation, "start_up": _start_up,
-        "subpaths": _subpaths, "recording": _recording, "against": _against,
+        "lockstep": _lockstep, "dimensions": _dimensions, "latency": _latency, "simulation": _simulation,
+        "start_up": _start_up, "subpaths": _subpaths, "recording": _recording, "against": _against,
     }  # fmt: skip
     found: list[Sheet] = []
     for name, make in makers.items():
@@ -82,6 +82,32 @@ def _by_node(used: dict[str, float], memory: dict[str, dict[str, float]]) -> She
     total = ("all", f"{sum(used.values()):.0f}", *(f"{size / 2**20:.0f}" for size in sums))
     columns = ("node (recorded mission)", "processor us a step", "RSS MiB", "PSS MiB")
     return Sheet("Processor and memory, by node", columns, (*by_node, total))
+
+
+def _dimensions(figures: dict[str, Any]) -> list[Sheet]:
+    """A step in three dimensions against one in the plane; the compiled engine against `closed_loop`."""
+    places = {"separate": "one process for each node", "composed": "all nodes in one process"}
+    rows = []
+    for place, text in places.items():
+        planar, dives = figures[place]["planar"], figures[place]["dives"]
+        costs = [f"{run[key]:.0f}" for key in ("step_us", "cpu_us") for run in (planar, dives)]
+        rows.append((text, f"{dives['step_us'] / planar['step_us']:.2f}", *costs))
+    heads = ("lockstep", "3-D / planar", "us a step, planar", "3-D", "processor us, planar", "3-D")
+    title = "compiled engine" if figures["compiled"] else "engine, not compiled"
+    engines = [
+        (
+            {"planar": "in the plane", "dives": "in three dimensions"}[kind],
+            f"{run['closed_loop'] / run['batch']:.0f}",
+            f"{run['closed_loop']:.1f}",
+            f"{run['batch']:.2f}",
+        )
+        for kind, run in figures["engine"].items()
+    ]
+    columns = (f"a flight on one core, {title}", "times closed_loop", "us a step, closed_loop", "engine")
+    return [
+        Sheet("Three dimensions against the plane", heads, tuple(rows)),
+        Sheet("Engines, in the plane and in three dimensions", columns, tuple(engines)),
+    ]
 
 
 def _latency(figures: dict[str, Any]) -> list[Sheet]:

@@ -23,6 +23,8 @@ from auv_sim.launch.options import Options
 from auv_sim.launch.processes.placement import Processor
 
 NAMESPACE = "/auv"
+#: What is flown in three dimensions.
+DIVE = Options(quiet=True, mission="paper_ramps", vehicle="remus100_6dof")
 COMPOSED = "composed"
 #: A vehicle's driver would stand in the simulator's place.
 _GRAPH = tuple(name for name in NODES if name != topics.MAVLINK_DRIVER)
@@ -43,6 +45,7 @@ class Setup:
         composed: all nodes in one process.
         placed: processes where the launcher puts them (`launch.processes.placement`).
         steps: how many to time.
+        dives: the mission with ramps of a vehicle that dives, instead of the paper's mission.
     """
 
     floor: bool = False
@@ -51,6 +54,7 @@ class Setup:
     composed: bool = False
     placed: bool = True
     steps: int = 2000
+    dives: bool = False
 
 
 @dataclass(frozen=True)
@@ -104,7 +108,7 @@ def lockstep(setup: Setup) -> LockstepTiming:
             for group in [names] if setup.composed else [[name] for name in names]:
                 children.start(COMPOSED if setup.composed else group[0], _FLOOR, [*group, *words])
             return set(names)
-        resolved = mission_plan.make(Options(quiet=True), directory)
+        resolved = mission_plan.make(DIVE if setup.dives else Options(quiet=True), directory)
         resolved = resolved if setup.recorded else without_recorder(resolved)
         _start_suite(resolved, directory, children, "lockstep", setup.steps, setup.composed)
         return set(names)
