@@ -33,7 +33,8 @@ def parser() -> argparse.ArgumentParser:
     )  # fmt: skip
     p.add_argument(
         "--wiggle", action="store_true",
-        help="move: a small test of rudder and thrust, 20 s within 40 m; asks first",
+        help="move: a small test of rudder and thrust, 20 s within 40 m; with stern planes in the file 27 s,"
+        " and within 4 m of the depth; asks first",
     )  # fmt: skip
     p.add_argument(_CONSENT, action="store_true", dest="consent", help="the answer to that question")
     p.add_argument(

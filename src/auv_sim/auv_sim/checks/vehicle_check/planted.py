@@ -205,9 +205,9 @@ class PlantedVehicle:
         z, w = quaternion_of_yaw(flip_yaw(state.psi))
         u, v = self.plant.ground_velocity if self.moving else (0.0, 0.0)
         odom = OdometrySample(
-            self._now, self._now, "map", "base_link", x, y, (0.0, 0.0, z, w), u, -v, -state.r
+            self._now, self._now, "map", "base_link", x, y, (0.0, 0.0, z, w), u, -v, -state.r, w=0.0
         )
         ur, vr = (state.ur, state.vr) if self.moving else (0.0, 0.0)
-        water = WaterSample(self._now, self._now, "base_link", ur, -vr)
+        water = WaterSample(self._now, self._now, "base_link", ur, -vr, w=0.0)
         planted = self.planted
         return planted.odom(odom, self._count), planted.water(water, self._count), self.plant.rudder

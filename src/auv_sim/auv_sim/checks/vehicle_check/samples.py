@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -16,7 +17,8 @@ Array = NDArray[np.float64]
 class OdometrySample(NamedTuple):
     """One `odom`: ROS time of its arrival and its stamp (s), its frames, and its numbers.
 
-    `orientation` is (x, y, z, w); the covariances are the six of the diagonal.
+    `orientation` is (x, y, z, w); the covariances are the six of the diagonal. What only a vehicle that dives
+    needs stands last: z, the velocity along the body's z axis, and the rates about its x and y axes.
     """
 
     received: float
@@ -31,10 +33,17 @@ class OdometrySample(NamedTuple):
     r: float
     pose_covariance: tuple[float, ...] = (0.0,) * 6
     twist_covariance: tuple[float, ...] = (0.0,) * 6
+    z: float = 0.0
+    w: float = math.nan
+    p: float = 0.0
+    q: float = 0.0
 
 
 class WaterSample(NamedTuple):
-    """One `velocity_through_water`: arrival, stamp (s), frame, velocity (m/s), diagonal of the covariance."""
+    """One `velocity_through_water`: arrival, stamp (s), frame, velocity (m/s), diagonal of the covariance.
+
+    `w` is the velocity along the body's z axis; NaN: not measured.
+    """
 
     received: float
     stamp: float
@@ -42,6 +51,7 @@ class WaterSample(NamedTuple):
     u: float
     v: float
     covariance: tuple[float, ...] = (0.0,) * 6
+    w: float = math.nan
 
 
 class Value(NamedTuple):
@@ -49,6 +59,16 @@ class Value(NamedTuple):
 
     received: float
     value: float
+
+
+class RangeSample(NamedTuple):
+    """One `altitude`: arrival and stamp (s), range (m; infinite without an echo), its limits (m)."""
+
+    received: float
+    stamp: float
+    range: float
+    nearest: float = 0.0
+    farthest: float = 0.0
 
 
 class Endpoint(NamedTuple):
@@ -69,6 +89,7 @@ class Recording:
     Attributes:
         odom, water, rudder_state: from the vehicle.
         rudder_cmd, thrust_cmd: to the vehicle, from any sender.
+        sternplane_state, altitude, sternplane_cmd: the same, of a vehicle with stern planes.
         endpoints: publishers and subscriptions of the contract's topics, without the listener itself.
         duration: of the listening, s of ROS time.
         sim_time: whether ROS time came from /clock.
@@ -81,6 +102,9 @@ class Recording:
     rudder_state: list[Value] = field(default_factory=list)
     rudder_cmd: list[Value] = field(default_factory=list)
     thrust_cmd: list[Value] = field(default_factory=list)
+    sternplane_state: list[Value] = field(default_factory=list)
+    altitude: list[RangeSample] = field(default_factory=list)
+    sternplane_cmd: list[Value] = field(default_factory=list)
     endpoints: tuple[Endpoint, ...] = ()
     duration: float = 0.0
     sim_time: bool = False
@@ -109,17 +133,16 @@ class Motion(NamedTuple):
         return self.t.size >= 20 and float(self.t[-1] - self.t[0]) >= 3.0
 
 
-def motion_of(odom: list[OdometrySample]) -> Motion:
+def usable(odom: list[OdometrySample]) -> list[OdometrySample]:
     """Return the usable odometries; unusable ones have checks of their own.
 
     A jump of the stamps divides the recording: the longest stretch is taken.
     """
     newest = -np.inf
-    rows: list[tuple[float, ...]] = []
+    rows: list[OdometrySample] = []
     stretches = [rows]
     for sample in odom:
-        q = sample.orientation
-        if not np.isfinite((sample.x, sample.y, *q, sample.r)).all():
+        if not np.isfinite((sample.x, sample.y, *sample.orientation, sample.r)).all():
             continue
         if newest - 1.0 < sample.stamp <= newest:
             continue  # overtaken, or sent twice
@@ -127,10 +150,14 @@ def motion_of(odom: list[OdometrySample]) -> Motion:
             rows = []
             stretches.append(rows)
         newest = sample.stamp
-        yaw = yaw_of_quaternion(*q)
-        rows.append((sample.stamp, sample.x, sample.y, yaw, sample.r, sample.u, sample.v))
-    table = np.array(max(stretches, key=len), dtype=float).reshape(-1, 7)
-    t, x, y, yaw_wrapped, r, u, v = table.T
+        rows.append(sample)
+    return max(stretches, key=len)
+
+
+def motion_of(odom: list[OdometrySample]) -> Motion:
+    """Return the motion in the plane that usable odometries show."""
+    rows = [(s.stamp, s.x, s.y, yaw_of_quaternion(*s.orientation), s.r, s.u, s.v) for s in usable(odom)]
+    t, x, y, yaw_wrapped, r, u, v = np.array(rows, dtype=float).reshape(-1, 7).T
     return Motion(t, x, y, np.unwrap(yaw_wrapped), r, u, v)
 
 

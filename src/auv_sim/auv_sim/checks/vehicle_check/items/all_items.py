@@ -6,6 +6,9 @@ import numpy as np
 
 from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.vehicle_check.items.discovered import check_graph
+from auv_sim.checks.vehicle_check.items.dive.attitude import with_sound_rate
+from auv_sim.checks.vehicle_check.items.dive.dive_items import check_dive, with_dive
+from auv_sim.checks.vehicle_check.items.dive.dive_motion import dive_motion_of, is_upright, levelled_water
 from auv_sim.checks.vehicle_check.items.kinematics import check_kinematics
 from auv_sim.checks.vehicle_check.items.response import ITEMS, check_response
 from auv_sim.checks.vehicle_check.items.timing import check_timing
@@ -24,18 +27,23 @@ def check(recording: Recording, vehicle: Vehicle) -> list[Verdict]:
         recording: the samples.
         vehicle: the vehicle's file, for rudder and thrust.
     """
-    motion = motion_of(recording.odom)
-    graph, kinematics = check_graph(recording), check_kinematics(recording, motion)
+    dive = dive_motion_of(recording) if vehicle.dives else None
+    if dive is None or not is_upright(dive):
+        heard, motion = recording, motion_of(recording.odom)
+    else:
+        heard, motion = levelled_water(recording, dive), with_sound_rate(dive).planar
+    graph, kinematics = check_graph(recording, vehicle.dives), check_kinematics(heard, motion)
     deaf = [verdict for verdict in graph if verdict.level is Level.FAIL and verdict.item.endswith("listener")]
     if deaf:
         response = [unknown(item, "the commands are not heard", deaf[0].expected) for item in ITEMS]
     else:
         if mistakes(kinematics) & _RATES:
             motion = motion._replace(r=np.gradient(motion.yaw, motion.t))
-        response = check_response(recording, motion, vehicle)
-    verdicts = [
-        *graph, *check_values(recording, motion), *check_timing(recording), *kinematics, *response
-    ]  # fmt: skip
+        response = check_response(heard, motion, vehicle)
+    values, timing = check_values(recording, motion, vehicle.dives), check_timing(recording)
+    verdicts = [*graph, *values, *timing, *kinematics, *response]
+    if dive is not None:
+        verdicts = with_dive(verdicts, check_dive(recording, dive, vehicle, response[0].mistake))
     if recording.wiggled and not mistakes(verdicts):  # otherwise it follows from what failed
         left = Mistake.NOT_JUDGED
         verdicts = [v._replace(mistake=left) if v.level is Level.UNKNOWN else v for v in verdicts]

@@ -9,21 +9,34 @@ from auv_sim.checks.vehicle_check.verdict import Mistake, Verdict, failed, passe
 
 _FROM_VEHICLE = (topics.ODOM, topics.WATER_VELOCITY)
 _TO_VEHICLE = (topics.RUDDER_CMD, topics.THRUST_CMD)
+#: Topics that a vehicle may publish, and their use.
+_OPTIONAL = ((topics.RUDDER_STATE, "it shows more of the rudder"),)
+_OPTIONAL_OF_DIVERS = (
+    (topics.STERNPLANE_STATE, "it shows more of the stern planes"),
+    (topics.ALTITUDE, "missions with an altitude need it"),
+)
 
 
-def check_graph(recording: Recording) -> list[Verdict]:
-    """Return a verdict for each topic of the vehicle's side of the contract."""
+def check_graph(recording: Recording, dives: bool = False) -> list[Verdict]:
+    """Return a verdict for each topic of the vehicle's side of the contract.
+
+    Args:
+        recording: with what discovery found.
+        dives: whether the vehicle has stern planes.
+    """
     verdicts = [_published(topic, recording) for topic in _FROM_VEHICLE]
-    verdicts.append(_published(topics.RUDDER_STATE, recording, optional=True))
-    return verdicts + [_heard(topic, recording) for topic in _TO_VEHICLE]
+    optional = _OPTIONAL + (_OPTIONAL_OF_DIVERS if dives else ())
+    verdicts += [_published(topic, recording, use) for topic, use in optional]
+    to_vehicle = _TO_VEHICLE + ((topics.STERNPLANE_CMD,) if dives else ())
+    return verdicts + [_heard(topic, recording) for topic in to_vehicle]
 
 
-def _published(topic: Topic, recording: Recording, optional: bool = False) -> Verdict:
+def _published(topic: Topic, recording: Recording, use: str = "") -> Verdict:
     item = f"{topic.name}: publisher"
     there = [e for e in recording.endpoints if e.topic == topic.name and e.publishes]
     if not there:
-        if optional:
-            return passed(item, "not published", "optional; it shows more of the rudder")
+        if use:
+            return passed(item, "not published", f"optional; {use}")
         place = f" in {recording.listened_in}" if recording.listened_in else ""
         return failed(item, Mistake.MISSING_TOPIC, f"no publisher{place}", topic.type)
     wrong = [e for e in there if e.type != topic.type]

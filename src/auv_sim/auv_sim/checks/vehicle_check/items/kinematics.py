@@ -29,6 +29,8 @@ from auv_sim.checks.vehicle_check.verdict import Mistake, Verdict, failed, passe
 
 #: Least turning for the sign of the yaw rate, rad/s.
 LEAST_TURN = 0.02
+#: Least correlation of yaw rate and change of yaw where the vehicle hardly turns.
+ALIKE = 0.5
 #: Heading and course may differ by this much, rms: drift, and a strong current across.
 CRAB = math.radians(35.0)
 
@@ -119,7 +121,10 @@ def _ratio(motion: Motion, angle: Array) -> float:
     # The yaw alone may show the turning, when the rate is in other units.
     if max(math.sqrt(power / turning.size), 0.0) < LEAST_TURN / 60.0 or np.abs(rates).max() < LEAST_TURN:
         return math.nan
-    return float(rates @ turning) / power
+    together, own = float(rates @ turning), float(rates @ rates)
+    if own < rates.size * (2.0 * LEAST_TURN) ** 2 and together**2 < ALIKE**2 * own * power:
+        return math.nan  # noise of a heading that is held
+    return together / power
 
 
 def _course_ratio(motion: Motion, middles: Array, course: Array, moving: NDArray[np.bool_]) -> float:

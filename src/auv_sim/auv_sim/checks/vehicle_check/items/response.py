@@ -27,6 +27,8 @@ from auv_sim.vehicle.simulated import SimulatedVehicle
 _LEAST_RUDDER = math.radians(2.0)
 #: Dead time above which the rudder begins to swing (docs/driver.md), and above which the test fails, s.
 GOOD_DELAY, WORST_DELAY = 0.15, 0.4
+#: Least time of thrust for a speed, s; the test of a vehicle that dives may be cut short.
+_LEAST_PUSH, _LONGER_PUSH = 8.0, 24.0
 
 #: What is judged here.
 ITEMS = ("rudder: sign and scale", "rudder: rate", "rudder: dead time", "thrust: push")
@@ -54,10 +56,11 @@ def _commands(recording: Recording) -> tuple[Array, Array, Array]:
     begin = min(recording.rudder_cmd[0].received, recording.thrust_cmd[0].received)
     end = max(recording.rudder_cmd[-1].received, recording.thrust_cmd[-1].received)
     t = np.arange(begin, end, STEP)
-    return t, _held(recording.rudder_cmd, t), _held(recording.thrust_cmd, t)
+    return t, held(recording.rudder_cmd, t), held(recording.thrust_cmd, t)
 
 
-def _held(values: list[Value], t: Array) -> Array:
+def held(values: list[Value], t: Array) -> Array:
+    """Return values that hold until the next one, at times t (s); 0 before the first."""
     times = np.array([value.received for value in values])
     row = np.searchsorted(times, t, side="right") - 1
     held = np.array([value.value for value in values])
@@ -167,8 +170,9 @@ def _push(item: str, recording: Recording, t: Array, thrust: Array, vehicle: Veh
     late = [
         s.u for s in recording.water if pushed[-1] - 3.0 < s.received <= pushed[-1] and math.isfinite(s.u)
     ]
-    if not late or pushed[-1] - pushed[0] < 8.0:
-        return unknown(item, "thrust for too short a time", "8 s at least")
+    least = _LONGER_PUSH if vehicle.dives else _LEAST_PUSH
+    if not late or pushed[-1] - pushed[0] < least:
+        return unknown(item, "thrust for too short a time", f"{least:g} s at least")
     expected_speed = vehicle.speed_at(float(np.median(thrust[thrust > 0.0])))
     speed = float(np.median(late))
     measured, expected = (

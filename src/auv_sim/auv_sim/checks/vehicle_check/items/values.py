@@ -10,27 +10,41 @@ import numpy as np
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.frames import Convention, FrameIds, FrameTable
 from auv_msgs_py.values.errors import MessageRefused
-from auv_sim.checks.vehicle_check.samples import Motion, Recording
+from auv_sim.checks.vehicle_check.samples import Motion, Recording, usable
 from auv_sim.checks.vehicle_check.verdict import Mistake, Verdict, failed, passed, unknown, warned
 
-#: Largest speed of a vehicle of this kind, m/s, and largest error of a fix, m.
-_FASTEST, _FIX = 6.0, 2.0
+#: Largest speed of a vehicle of this kind, m/s, largest error of a fix, and of a depth sensor, m.
+_FASTEST, _FIX, _SENSOR = 6.0, 2.0, 1.0
 
 
-def check_values(recording: Recording, motion: Motion) -> list[Verdict]:
-    """Judge what single messages hold."""
+def check_values(recording: Recording, motion: Motion, dives: bool = False) -> list[Verdict]:
+    """Judge what single messages hold.
+
+    Args:
+        recording: the messages.
+        motion: what they show in the plane.
+        dives: whether depth, pitch rate and vertical velocities matter as well.
+    """
     verdicts = [*_frames(recording)]
     if recording.odom:
-        verdicts += [_numbers(recording), _quaternions(recording)]
+        verdicts += [_numbers(recording, dives), _quaternions(recording)]
     if recording.water:
-        bad = sum(not math.isfinite(sample.u + sample.v) for sample in recording.water)
+        bad = sum(
+            not math.isfinite(sample.u + sample.v) or (dives and math.isinf(sample.w))
+            for sample in recording.water
+        )
         verdicts.append(_finite(f"{topics.WATER_VELOCITY.name}: numbers", bad, len(recording.water)))
-    if recording.rudder_state:
-        bad = sum(not math.isfinite(sample.value) for sample in recording.rudder_state)
-        verdicts.append(_finite(f"{topics.RUDDER_STATE.name}: numbers", bad, len(recording.rudder_state)))
+    for topic, values in (
+        (topics.RUDDER_STATE, recording.rudder_state), (topics.STERNPLANE_STATE, recording.sternplane_state)
+    ):  # fmt: skip
+        if values:
+            bad = sum(not math.isfinite(sample.value) for sample in values)
+            verdicts.append(_finite(f"{topic.name}: numbers", bad, len(values)))
     verdicts += _covariances(recording)
     if motion.enough:
         verdicts.append(_continuity(motion))
+        if dives:
+            verdicts.append(_depth_continuity(recording))
     return verdicts
 
 
@@ -50,7 +64,7 @@ def _frames(recording: Recording) -> list[Verdict]:
     pairs = sorted({(sample.frame, sample.child) for sample in recording.odom})
     bodies = sorted({sample.frame for sample in recording.water})
     item = f"{topics.ODOM.name}: frame ids"
-    expected = "map or odom with base_link, map_ned or odom_ned with base_link_frd"
+    expected = "map or odom with base_link, map_ned or odom_ned with base_link_frd or base_link_fsd"
     for world, body in pairs:
         try:
             convention = table.of_pose(topics.ODOM.name, world, body)
@@ -64,7 +78,7 @@ def _frames(recording: Recording) -> list[Verdict]:
             verdicts.append(
                 passed(item, f"'{pairs[0][0]}' with '{pairs[0][1]}': {convention.value}", expected)
             )
-    item, expected = f"{topics.WATER_VELOCITY.name}: frame id", "base_link or base_link_frd"
+    item, expected = f"{topics.WATER_VELOCITY.name}: frame id", "base_link, base_link_frd or base_link_fsd"
     for body in bodies:
         try:
             table.of_body(topics.WATER_VELOCITY.name, body)
@@ -83,10 +97,12 @@ def _finite(item: str, bad: int, of: int) -> Verdict:
     return passed(item, f"{of} finite", "finite numbers")
 
 
-def _numbers(recording: Recording) -> Verdict:
+def _numbers(recording: Recording, dives: bool) -> Verdict:
     item = f"{topics.ODOM.name}: numbers"
     bad = sum(
-        not np.isfinite((s.x, s.y, *s.orientation, s.r)).all() or math.isinf(s.u + s.v)
+        not np.isfinite((s.x, s.y, *s.orientation, s.r)).all()
+        or math.isinf(s.u + s.v)
+        or (dives and (not math.isfinite(s.z + s.q) or math.isinf(s.w)))
         for s in recording.odom
     )
     if bad:
@@ -148,3 +164,17 @@ def _continuity(motion: Motion) -> Verdict:
             f"no more than {_FIX:g} m beyond {_FASTEST:g} m/s",
         )  # fmt: skip
     return passed(item, f"steps of up to {steps.max():.2f} m", "no jumps")
+
+
+def _depth_continuity(recording: Recording) -> Verdict:
+    item = f"{topics.ODOM.name}: depths"
+    rows = [(s.stamp, s.z) for s in usable(recording.odom) if math.isfinite(s.z)]
+    t, z = np.array(rows).reshape(-1, 2).T
+    steps = np.abs(np.diff(z))
+    jumps = steps > _FASTEST * np.diff(t) + _SENSOR
+    if jumps.any():
+        return failed(
+            item, Mistake.POSITION_JUMPS, f"{int(jumps.sum())} jumps of z, up to {steps[jumps].max():.1f} m",
+            f"no more than {_SENSOR:g} m beyond {_FASTEST:g} m/s",
+        )  # fmt: skip
+    return passed(item, f"steps of up to {steps.max(initial=0.0):.2f} m", "no jumps")

@@ -7,6 +7,7 @@ import json
 import sys
 import time
 from collections.abc import Callable
+from typing import Any
 
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
@@ -25,6 +26,8 @@ from auv_sim.checks.vehicle_check.live.small_test import SmallTest
 from auv_sim.checks.vehicle_check.samples import Recording
 from auv_sim.checks.vehicle_check.verdict import Verdict
 from auv_sim.checks.vehicle_check.wiggle import END, THRUST_SHARE
+from auv_sim.checks.vehicle_check.wiggle_dive import END as END_OF_DIVE
+from auv_sim.checks.vehicle_check.wiggle_dive import LARGEST_DIVE
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED
 from auv_sim.terminal import console
 
@@ -52,13 +55,13 @@ def run(options: argparse.Namespace, arguments: list[str], consent_option: str) 
 
         return self_test(console(), hull)
     if options.wiggle:
-        _ask(options.consent, consent_option)
+        _ask(options.consent, consent_option, hull)
     elif options.consent:
         raise ConfigurationError(consent_option, "no --wiggle", "both: without it nothing moves")
     return _check(options, arguments, hull)
 
 
-def _ask(consent: bool, consent_option: str) -> None:
+def _ask(consent: bool, consent_option: str, hull: Vehicle) -> None:
     """Ask for consent at the terminal unless it was given: the vehicle moves only with a person's word."""
     if consent:
         return
@@ -66,9 +69,13 @@ def _ask(consent: bool, consent_option: str) -> None:
         raise ConfigurationError(
             "--wiggle", "no terminal to ask at", f"{consent_option} as well, or a terminal"
         )
+    seconds, planes = END, ""
+    if hull.dives:
+        seconds = END_OF_DIVE
+        planes = f" stern planes up to 16 degrees, within {LARGEST_DIVE:g} m of its depth and"
     print(
-        f"The vehicle will move for {END:g} s: {THRUST_SHARE:.0%} of its thrust, rudder up to 20 degrees,"
-        " within some 40 m."
+        f"The vehicle will move for {seconds:g} s: {THRUST_SHARE:.0%} of its thrust, rudder up to 20 degrees,"
+        f"{planes} within some 40 m."
     )
     try:
         answer = input("Type yes if it may: ").strip().lower()
@@ -86,7 +93,9 @@ def _check(options: argparse.Namespace, arguments: list[str], hull: Vehicle) -> 
         remapped = any("__ns:=" in argument for argument in arguments)
         options.namespace = node.get_namespace() if remapped else "/auv"
     try:
-        listener = VehicleListener(node, options.namespace, hears_commands=not options.wiggle)
+        listener = VehicleListener(
+            node, options.namespace, hears_commands=not options.wiggle, dives=hull.dives
+        )
         small_test = SmallTest(listener, hull) if options.wiggle else None
         recording = _Listening(node, listener, stop).record(options, small_test)
     finally:
@@ -159,7 +168,11 @@ class _Listening:
     def _forget(self) -> None:
         """Clear the recording: what came before the clock was found is not judged."""
         kept = self._listener.recording
-        for samples in (kept.odom, kept.water, kept.rudder_state, kept.rudder_cmd, kept.thrust_cmd):
+        heard: tuple[list[Any], ...] = (
+            kept.odom, kept.water, kept.rudder_state, kept.rudder_cmd, kept.thrust_cmd, kept.sternplane_state,
+            kept.altitude, kept.sternplane_cmd,
+        )  # fmt: skip
+        for samples in heard:
             samples.clear()
 
     def _until(self, condition: Callable[[], bool], patience: float) -> bool:

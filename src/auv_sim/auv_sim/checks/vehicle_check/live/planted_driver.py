@@ -65,14 +65,14 @@ class PlantedDriver:
     def live(self, until: float) -> None:
         """Let time pass until `until` (s) and publish what is measured meanwhile."""
         for odometry, water, rudder in self.vehicle.live(until):
-            self._odometry.publish(_odometry(odometry))
-            self._water.publish(_water(self._water_type, water))
+            self._odometry.publish(odometry_of(odometry))
+            self._water.publish(water_of(self._water_type, water))
             if self._state is not None:
                 self._state.publish(Float64(data=rudder))
             self.sent += 1
 
 
-def _odometry(sample: OdometrySample) -> Odometry:
+def odometry_of(sample: OdometrySample) -> Odometry:
     message = Odometry()
     set_stamp(message.header.stamp, round(sample.stamp * 1e9))
     message.header.frame_id, message.child_frame_id = sample.frame, sample.child
@@ -81,14 +81,15 @@ def _odometry(sample: OdometrySample) -> Odometry:
     q = pose.orientation
     q.x, q.y, q.z, q.w = sample.orientation
     twist.linear.x, twist.linear.y, twist.angular.z = sample.u, sample.v, sample.r
+    pose.position.z, twist.linear.z, twist.angular.x, twist.angular.y = sample.z, sample.w, sample.p, sample.q
     message.pose.covariance[0:36:7] = sample.pose_covariance
     return message
 
 
-def _water(kind: type[Any], sample: WaterSample) -> Any:
+def water_of(kind: type[Any], sample: WaterSample) -> Any:
     message = kind()
     set_stamp(message.header.stamp, round(sample.stamp * 1e9))
     message.header.frame_id = sample.frame
     twist = message.twist.twist if hasattr(message.twist, "twist") else message.twist
-    twist.linear.x, twist.linear.y = sample.u, sample.v
+    twist.linear.x, twist.linear.y, twist.linear.z = sample.u, sample.v, sample.w
     return message

@@ -17,14 +17,18 @@ from rosgraph_msgs.msg import Clock
 from auv_msgs_py.contract.claim import Claim
 from auv_msgs_py.contract.conversions import set_stamp
 from auv_msgs_py.node.graph_look import GraphLook
+from auv_path_following import vehicle
 from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.vehicle_check.items.all_items import check, mistakes
 from auv_sim.checks.vehicle_check.live.listener import VehicleListener
+from auv_sim.checks.vehicle_check.live.planted_diver_driver import PlantedDiverDriver
 from auv_sim.checks.vehicle_check.live.planted_driver import PlantedDriver
 from auv_sim.checks.vehicle_check.live.small_test import SmallTest
 from auv_sim.checks.vehicle_check.planted import PLANTED, Planted
+from auv_sim.checks.vehicle_check.planted_divers import PLANTED_DIVERS, PlantedDiver
 from auv_sim.checks.vehicle_check.verdict import Mistake
-from auv_sim.checks.vehicle_check.wiggle import END, FAREWELL
+from auv_sim.checks.vehicle_check.wiggle import FAREWELL
+from auv_sim.checks.vehicle_check.wiggle_dive import END as END_OF_DIVE
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED
 from auv_sim.terminal import headed_table
 
@@ -35,24 +39,37 @@ _DISCOVERY, _ARRIVAL = 30.0, 2.0
 _ATTEMPTS = 10
 
 
+#: A driver in the plane, or one that dives.
+AnyPlanted = Planted | PlantedDiver
+
+
 class _Examinee:
     """A planted vehicle, its listener and its small test."""
 
-    def __init__(self, planted: Planted, hull: Vehicle, drivers: Node, checks: Node) -> None:
+    def __init__(self, planted: AnyPlanted, hull: Vehicle, drivers: Node, checks: Node) -> None:
         self.planted = planted
-        self.driver = PlantedDriver(drivers, planted, hull, _BEGIN)
-        self.listener = VehicleListener(checks, self.driver.namespace, hears_commands=False)
+        self.driver: PlantedDriver | PlantedDiverDriver
+        if isinstance(planted, PlantedDiver):
+            self.driver = PlantedDiverDriver(drivers, planted, hull, _BEGIN)
+        else:
+            self.driver = PlantedDriver(drivers, planted, hull, _BEGIN)
+        self.listener = VehicleListener(checks, self.driver.namespace, False, hull.dives)
         self.test = SmallTest(self.listener, hull)
 
     def is_measured(self) -> bool:
         """Whether all that the driver sent has arrived."""
         heard, sent = self.listener.recording, self.driver.sent
-        return len(heard.odom) >= sent and (self.planted.bare or len(heard.rudder_state) >= sent)
+        state = heard.sternplane_state if isinstance(self.planted, PlantedDiver) else heard.rudder_state
+        return len(heard.odom) >= sent and (self.planted.bare or len(state) >= sent)
 
     def is_commanded(self) -> bool:
         """Whether all commands have arrived, as far as the mistake allows."""
         sent = len(self.listener.recording.thrust_cmd)
-        return self.driver.heard >= sent or self.planted.latched_commands
+        return self.driver.heard >= sent or self._is_deaf
+
+    @property
+    def _is_deaf(self) -> bool:
+        return isinstance(self.planted, Planted) and self.planted.latched_commands
 
 
 def _look_around(node: Node, executor: EventsExecutor) -> None:
@@ -99,12 +116,12 @@ def _until(condition: Callable[[], bool], patience: float, *executors: EventsExe
 
 
 def find_all(
-    planted: Sequence[Planted], hull: Vehicle, progress: Callable[[float], None] = lambda _: None
+    planted: Sequence[AnyPlanted], hull: Vehicle, progress: Callable[[float], None] = lambda _: None
 ) -> dict[str, set[Mistake]]:
     """Check simulated vehicles over ROS 2, each with its mistake.
 
     Args:
-        planted: the drivers.
+        planted: the drivers, of the vehicle's kind.
         hull: the vehicle.
         progress: called with the share of the work that is done.
 
@@ -157,25 +174,37 @@ def _drive(
         is_going = all(ticks)
         _until(lambda: all(one.is_commanded() for one in examinees), _ARRIVAL, graph.driving)
         now += _STEP
-        progress((now - _BEGIN) / (END + FAREWELL))
+        progress((now - _BEGIN) / (END_OF_DIVE + FAREWELL))
 
 
 def self_test(console: Console, hull: Vehicle) -> int:
-    """Check every planted mistake and print what was found; return the exit code."""
+    """Check every planted mistake and print what was found; return the exit code.
+
+    Args:
+        console: of the terminal.
+        hull: the vehicle of one kind; the other kind is checked with a shipped vehicle.
+    """
     begin = time.monotonic()
+    planar = hull if not hull.dives else vehicle.load("remus100")
+    diver = hull if hull.dives else vehicle.load("remus100_6dof")
+    found: dict[str, set[Mistake]] = {}
     with console.status("checking simulated vehicles") as status:
-        found = find_all(
-            PLANTED, hull, lambda share: status.update(f"checking simulated vehicles: {share:.0%}")
-        )
+        for kind, drivers, one in (("planar", PLANTED, planar), ("diving", PLANTED_DIVERS, diver)):
+
+            def show(share: float, kind: str = kind) -> None:
+                status.update(f"checking simulated {kind} vehicles: {share:.0%}")
+
+            found |= find_all(drivers, one, show)
+    everyone: tuple[AnyPlanted, ...] = (*PLANTED, *PLANTED_DIVERS)
     table = headed_table("one mistake each", ("driver", "verdict", "found"))
     wrong = 0
-    for planted in PLANTED:
+    for planted in everyone:
         right = found[planted.name] == ({planted.mistake} if planted.mistake else set())
         wrong += not right
         names = "; ".join(sorted(mistake.value for mistake in found[planted.name])) or "nothing"
         table.add_row(planted.name, "[green]ok[/green]" if right else "[bold red]missed[/bold red]", names)
     console.print(table)
     console.print(
-        f"{len(PLANTED) - wrong} of {len(PLANTED)} as they should be, {time.monotonic() - begin:.0f} s"
+        f"{len(everyone) - wrong} of {len(everyone)} as they should be, {time.monotonic() - begin:.0f} s"
     )
     return EXIT_FAILED if wrong else EXIT_DONE

@@ -1,4 +1,4 @@
-"""Gives the commands of the small test of rudder and thrust, and ends it where it becomes dangerous."""
+"""Gives the commands of the small test, and ends it where it becomes dangerous."""
 
 from __future__ import annotations
 
@@ -9,11 +9,13 @@ from std_msgs.msg import Float64
 
 from auv_msgs_py.contract import qos
 from auv_msgs_py.contract.topics import Topic
-from auv_msgs_py.values.types import STOP
+from auv_msgs_py.values.types import SPATIAL_STOP, STOP
 from auv_path_following.vehicle import Vehicle
-from auv_sim.checks.vehicle_check.live.listener import COMMANDS, VehicleListener
+from auv_sim.checks.vehicle_check.live.listener import VehicleListener
 from auv_sim.checks.vehicle_check.samples import OdometrySample, Value
 from auv_sim.checks.vehicle_check.wiggle import END, FAREWELL, Wiggle
+from auv_sim.checks.vehicle_check.wiggle_dive import END as END_OF_DIVE
+from auv_sim.checks.vehicle_check.wiggle_dive import DivingWiggle, danger
 
 #: Longest silence of the odometry, s, and largest distance from the place of the start, m.
 _SILENCE, _FAR = 1.0, 100.0
@@ -22,7 +24,7 @@ _PERIOD = 0.1
 
 
 class SmallTest:
-    """The commands of `Wiggle` to one vehicle; each is kept in the listener's recording.
+    """The commands of `Wiggle` or `DivingWiggle` to one vehicle, kept in the listener's recording.
 
     Args:
         listener: of the same vehicle; it does not hear commands itself.
@@ -37,11 +39,16 @@ class SmallTest:
         self._listener = listener
         self._recording = listener.recording
         self._recording.wiggled = True
+        self._vehicle = vehicle
         self._wiggle = Wiggle.of(vehicle)
+        self._dive = DivingWiggle(vehicle) if vehicle.dives else None
+        self._end = END if self._dive is None else END_OF_DIVE
         self._answered = 0
         self._begin: float | None = None
         self._origin: OdometrySample | None = None
-        self._publishers = [self._advertise(topic) for topic in COMMANDS]
+        self._stop: Any = STOP if self._dive is None else SPATIAL_STOP
+        self._kept = listener.commands()
+        self._publishers = [self._advertise(topic) for topic, _ in self._kept]
 
     def _advertise(self, topic: Topic) -> Any:
         kind, name = qos.message_class(topic.type), self._listener.name(topic)
@@ -54,15 +61,19 @@ class SmallTest:
         if self._begin is None:
             self._begin, self._origin = now, odom[-1] if odom else None
         seconds = now - self._begin
-        command = STOP if self.cut_short else self._wiggle.at(seconds)
-        if command != STOP:
+        command = self._stop if self.cut_short else self._command(seconds)
+        if command != self._stop:
             self.cut_short = self._danger(now)
-            command = STOP if self.cut_short else command
-        kept = (self._recording.rudder_cmd, self._recording.thrust_cmd)
-        for publisher, value, values in zip(self._publishers, command, kept, strict=True):
+            command = self._stop if self.cut_short else command
+        for publisher, value, (_, values) in zip(self._publishers, command, self._kept, strict=True):
             values.append(Value(now, value))
             publisher.publish(Float64(data=value))
-        return seconds < END + FAREWELL
+        return seconds < self._end + FAREWELL
+
+    def _command(self, seconds: float) -> Any:
+        if self._dive is not None:
+            return self._dive.at(seconds, self._recording)
+        return self._wiggle.at(seconds)
 
     def is_due(self) -> bool:
         """Whether the next command is due: an odometry has come, or none for a period."""
@@ -78,6 +89,8 @@ class SmallTest:
             far = math.hypot(odom[-1].x - self._origin.x, odom[-1].y - self._origin.y)
             if far > _FAR:
                 return f"{far:.0f} m away from where it began"
+            if self._dive is not None:
+                return danger(self._recording, self._origin, self._vehicle)
         return ""
 
     def stop(self) -> None:

@@ -1,0 +1,1 @@
+"""The checks on a vehicle that dives, one group a file."""
