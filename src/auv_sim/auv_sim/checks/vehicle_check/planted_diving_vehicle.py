@@ -96,8 +96,7 @@ class PlantedDivingVehicle:
             u, v, w, water = 0.0, 0.0, 0.0, water._replace(ur=0.0, vr=0.0, wr=0.0)
         odom = OdometrySample(
             now, now, "map", "base_link", east, north, (qx, qy, qz, qw), u, -v, -n.r, z=-n.z, w=-w,
-            p=motion.p,
-            q=-n.q,
+            p=motion.p, q=-n.q,
         )  # fmt: skip
         through = WaterSample(now, now, "base_link", water.ur, -water.vr, w=-water.wr)
         echo = None

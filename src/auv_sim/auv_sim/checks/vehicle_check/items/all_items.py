@@ -6,9 +6,9 @@ import numpy as np
 
 from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.vehicle_check.items.discovered import check_graph
-from auv_sim.checks.vehicle_check.items.dive.attitude import with_sound_rate
 from auv_sim.checks.vehicle_check.items.dive.dive_items import check_dive, with_dive
 from auv_sim.checks.vehicle_check.items.dive.dive_motion import dive_motion_of, is_upright, levelled_water
+from auv_sim.checks.vehicle_check.items.dive.presence import with_sound_rate
 from auv_sim.checks.vehicle_check.items.kinematics import check_kinematics
 from auv_sim.checks.vehicle_check.items.response import ITEMS, check_response
 from auv_sim.checks.vehicle_check.items.timing import check_timing

@@ -6,7 +6,7 @@ import math
 from typing import NamedTuple
 
 from auv_path_following.vehicle import Vehicle
-from auv_sim.checks.vehicle_check.items.dive import altitude, attitude, heave, planes, signs
+from auv_sim.checks.vehicle_check.items.dive import altitude, heave, planes, presence, signs
 from auv_sim.checks.vehicle_check.items.dive.dive_motion import DiveMotion, of_water
 from auv_sim.checks.vehicle_check.items.dive.planes_verdicts import ITEMS, check_planes
 from auv_sim.checks.vehicle_check.items.fits import Fit
@@ -22,7 +22,7 @@ _OF_ATTITUDE = {
     Mistake.WATER_SWAY_SIGN, Mistake.WATER_IN_WORLD, Mistake.WATER_WRONG, Mistake.RUDDER_SIGN,
 }  # fmt: skip
 _KINEMATIC = (
-    attitude.DEPTH, signs.PITCH, attitude.PITCH_RATE, attitude.ROLL_RATE, heave.HEAVE, heave.WATER_HEAVE,
+    presence.DEPTH, signs.PITCH, presence.PITCH_RATE, presence.ROLL_RATE, heave.HEAVE, heave.WATER_HEAVE,
     altitude.AGAINST_DEPTH,
 )  # fmt: skip
 
@@ -47,18 +47,18 @@ def check_dive(
     """
     if dive.t.size < 20 or dive.t[-1] - dive.t[0] < 3.0:
         return [unknown(item, "too little odometry", ENOUGH) for item in (*_KINEMATIC, *ITEMS)]
-    presence = attitude.check_presence(dive)
-    if presence.level is Level.FAIL:
-        assert presence.mistake is not None
-        why = "the depth and the attitude come first", f"without {presence.mistake.value}"
-        return [presence, *(unknown(item, *why) for item in (*_KINEMATIC[1:], *ITEMS))]
-    ratio = attitude.rate_ratio(dive.t, dive.pitch, dive.pitch_rate)
-    rate = attitude.check_pitch_rate(ratio)
-    fits = _plane_fits(recording, attitude.with_sound_rate(dive), vehicle)
+    first = presence.check_presence(dive)
+    if first.level is Level.FAIL:
+        assert first.mistake is not None
+        why = "the depth and the attitude come first", f"without {first.mistake.value}"
+        return [first, *(unknown(item, *why) for item in (*_KINEMATIC[1:], *ITEMS))]
+    ratio = presence.rate_ratio(dive.t, dive.pitch, dive.pitch_rate)
+    rate = presence.check_pitch_rate(ratio)
+    fits = _plane_fits(recording, presence.with_sound_rate(dive), vehicle)
     verdict = _signs(recording, dive, ratio, fits, rudder)
     if verdict.mistake is Mistake.PITCH_SIGN and rate.mistake is Mistake.PITCH_RATE_SIGN:
         rate = rate._replace(mistake=verdict.mistake)
-    kinematic = [presence, verdict, rate, attitude.check_roll_rate(dive)]
+    kinematic = [first, verdict, rate, presence.check_roll_rate(dive)]
     if verdict.mistake is not None:
         why = "the axes come first", f"without {verdict.mistake.value}"
         kinematic += [unknown(item, *why) for item in _KINEMATIC[4:]]
@@ -100,9 +100,9 @@ def with_dive(verdicts: list[Verdict], dive: list[Verdict]) -> list[Verdict]:
         verdicts: of the motion in the plane and the rudder.
         dive: of depth, attitude and stern planes.
     """
-    presence, pitch = dive[0], dive[1]
-    if presence.mistake is Mistake.ATTITUDE_TILTED:
-        cause = presence.mistake
+    first, pitch = dive[0], dive[1]
+    if first.mistake is Mistake.ATTITUDE_TILTED:
+        cause = first.mistake
         verdicts = [
             unknown(v.item, "the attitude comes first", f"without {cause.value}")
             if v.level is Level.FAIL and v.mistake in _OF_ATTITUDE

@@ -5,8 +5,8 @@ The pitch rate q of a hull with planes goes by
     dq/dt = -b (u/U)^2 delta + P u q - C q |q| - K sin(theta) + D u w.
 
 The file gives b, the effect of the planes at top speed U. P, C, K and D are fitted together with a factor of
-b, in integrated form, so that noise is not differentiated. What changes slowly (buoyancy, trim, turns) is taken
-off all signals. That leaves the pulses of the small test, or the corrections of a mission under way.
+b, in integrated form, so that noise is not differentiated. What changes slowly (buoyancy, trim, turns) is
+taken off all signals. That leaves the pulses of the small test, or the corrections of a mission under way.
 """
 
 from __future__ import annotations
