@@ -38,6 +38,7 @@ EXECUTABLES = {
         "mavlink_driver",
         "mavlink_emulator",
         "mission_supervisor",
+        "display",
         "mavlink_strangers",
     },
 }

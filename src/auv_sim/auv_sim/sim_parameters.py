@@ -189,6 +189,22 @@ class FaultRelayParameters(NodeParameters):
     copies: int = setting(100, "copies of each message in the fault flood", ge=1, le=10_000, live=True)
 
 
+@settings
+class DisplayParameters:
+    """display."""
+
+    rate: float = setting(10.0, "rate of markers and transforms, wall time", unit="Hz", ge=0.1, le=50.0)
+    tf: bool = setting(
+        True, "publish transforms; false where the vehicle's own localisation publishes map to base_link"
+    )
+    frame_prefix: str = setting("", "prefix of the vehicle's frames in transforms and model, such as auv1/")
+    mission: str = setting(
+        "", "mission file, or the name of a shipped one, whose joints are drawn; empty: none"
+    )
+    vehicle: str = setting("remus100", "vehicle file, or the name of a shipped one, whose hull is drawn")
+    frames: FrameIds = setting(factory=FrameIds, doc="accepted frame ids of the odometry")
+
+
 #: Node name -> the class of its parameters, which a parameter file may contain.
 SUITE: dict[str, type[Any]] = {
     topics.PLANT: PlantParameters,
@@ -197,4 +213,5 @@ SUITE: dict[str, type[Any]] = {
     topics.AUTOPILOT: AutopilotParameters,
     topics.RECORDER: RecorderParameters,
     topics.MAVLINK_DRIVER: MavlinkDriverParameters,
+    topics.DISPLAY: DisplayParameters,
 }

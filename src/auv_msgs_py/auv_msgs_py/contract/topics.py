@@ -11,6 +11,8 @@ AUTOPILOT = "heading_autopilot"
 RECORDER = "recorder"
 #: The node of `scripts/mission.py`.
 LAUNCHER = "mission_launcher"
+#: Shows the mission to people; no node waits for it.
+DISPLAY = "display"
 #: Replaces the simulator on a real vehicle.
 MAVLINK_DRIVER = "mavlink_driver"
 

@@ -121,7 +121,8 @@ def _add_vehicle(p: argparse.ArgumentParser) -> None:
 
 def _add_run(p: argparse.ArgumentParser) -> None:
     p.add_argument("--out", type=Path, metavar="DIR", help="run directory (default: runs/MISSION-DATE)")
-    p.add_argument("--composed", action="store_true", help="all nodes in one process")
+    p.add_argument("--display", action="store_true", help="markers, transforms and model for RViz, Foxglove")
+    p.add_argument("--composed", action="store_true", help="all nodes but the display in one process")
     p.add_argument(
         "--any-processor", action="store_true", help="lockstep: let the system choose where each process runs"
     )

@@ -17,6 +17,7 @@ NODES = {
     topics.AUTOPILOT: "auv_path_following.nodes.heading_autopilot_node:HeadingAutopilotNode",
     topics.PLANT: "auv_sim.nodes.plant_node:RemusPlantNode",
     topics.MAVLINK_DRIVER: "auv_sim.nodes.mavlink.driver:MavlinkDriverNode",
+    topics.DISPLAY: "auv_sim.nodes.display.display_node:DisplayNode",
 }
 
 

@@ -128,7 +128,9 @@ def start_nodes(plan: Plan, children: Children, loader: Starter, parameters: Pat
     names = [name for name in NODES if name in plan.parameters]
     nodes = {name: (NODES[name].split(":")[0], ["--ros-args", *ros]) for name in names}
     if plan.options.composed:
-        nodes = {_COMPOSED: ("auv_sim.launch.composed", [json.dumps(dict.fromkeys(names, ros))])}
+        together = json.dumps(dict.fromkeys((name for name in names if name != topics.DISPLAY), ros))
+        alone = {name: node for name, node in nodes.items() if name == topics.DISPLAY}
+        nodes = {_COMPOSED: ("auv_sim.launch.composed", [together])} | alone
     children.fork(loader, nodes)
 
 

@@ -175,6 +175,8 @@ def make(options: Options, directory: Path) -> Plan:
         emulator = configure_driver(driver, address, speed, file, hull.dives, settings)
     for name in {topics.PLANT, *DRIVERS.values()} - {topics.PLANT if options.simulator else driver}:
         del settings[name]
+    if not options.display:
+        del settings[topics.DISPLAY]
     return Plan(options, mission, hull, settings, sources, verdicts, model, emulator)
 
 

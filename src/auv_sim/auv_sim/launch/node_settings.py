@@ -60,7 +60,8 @@ def load(options: Options, file: Path, model: Vehicle, by_rule: bool, notices: l
             notices.append(f"{model.name}: gains by the rule of docs/tuning.md; its file names no params")
     lockstep = options.simulator and options.speed is None
     for name in settings:
-        change(settings, name, lockstep=lockstep, recorded=lockstep)
+        if name != topics.DISPLAY:  # for which no node waits
+            change(settings, name, lockstep=lockstep, recorded=lockstep)
     try:
         HeadingAutopilot(model, settings[topics.AUTOPILOT].autopilot)
         if model.dives:
@@ -103,6 +104,7 @@ def set_mission(
     change(settings, topics.GUIDANCE, mission=str(sources["mission"]))
     for node in (topics.GUIDANCE, topics.OBSERVER, topics.AUTOPILOT):
         change(settings, node, vehicle=model_file)
+    change(settings, topics.DISPLAY, mission=str(sources["mission"]), vehicle=str(sources["vehicle"]))
     initial = _initial(options, mission, settings)
     if hull.dives:
         initial = _at_depth(initial, options, mission, hull)

@@ -40,6 +40,7 @@ class Options:
     vehicle_address: str | None = None
     use_sim_time: bool = False
     out: Path | None = None
+    display: bool = False
     composed: bool = False
     any_processor: bool = False
     namespace: str = "/auv"

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
+from auv_msgs_py.contract import topics
 from auv_sim.launch.processes.kin import end_with_parent
 
 #: In place of an exit code that only the parent of a process can read.
@@ -124,8 +125,9 @@ class Children:
         return {name: child.process.pid for name, child in self._children.items()}
 
     def dead(self) -> Child | None:
-        """Return the first child that has ended, None if all run."""
-        return next((child for child in self._children.values() if child.exit_code is not None), None)
+        """Return the first child that has ended, None if all run; a mission does without its display."""
+        needed = (child for child in self._children.values() if child.name != topics.DISPLAY)
+        return next((child for child in needed if child.exit_code is not None), None)
 
     def stop(self, names: Sequence[str] | None = None, patience: float = 10.0) -> None:
         """Send SIGINT to the named children (default: all); kill those that outlive `patience`, s."""
