@@ -43,6 +43,7 @@ PARSERS = {
     "check_vehicle": "auv_sim.cli.check_vehicle",
     "fault_matrix": "auv_sim.cli.fault_matrix",
     "gallery": "auv_sim.cli.gallery",
+    "live_view": "auv_sim.cli.live_view",
     "mission": "auv_sim.cli.mission",
     "plan": "auv_sim.cli.plan",
     "reproduce_paper": "auv_sim.cli.reproduce_paper",

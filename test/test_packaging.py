@@ -43,7 +43,12 @@ EXECUTABLES = {
     },
 }
 #: Import names that differ from the name to install.
-DISTRIBUTIONS = {"yaml": "PyYAML", "pydantic_core": "pydantic", "mpl_toolkits": "matplotlib"}
+DISTRIBUTIONS = {
+    "yaml": "PyYAML",
+    "foxglove": "foxglove-sdk",
+    "pydantic_core": "pydantic",
+    "mpl_toolkits": "matplotlib",
+}
 #: Import name -> rosdep key (rosdistro's rosdep/python.yaml), for what is not a ROS package.
 ROSDEP_KEYS = {
     "hypothesis": "python3-hypothesis",
@@ -63,7 +68,7 @@ ROSDEP_KEYS = {
 #: For these rosdep has no key. mcap brings zstandard; Pillow comes with matplotlib.
 WITHOUT_KEY = {"mcap", "zstandard"}
 #: The suite works without them, or says in one line how to install them.
-OPTIONAL = {"distributed", "numba", "pyarrow"}
+OPTIONAL = {"distributed", "foxglove", "numba", "pyarrow"}
 #: The message packages that auv_msgs_py finds by the names in its table of topics, and those of the services.
 BY_NAME = {topic.type.split("/")[0] for topic in (*topics.CONTRACT, *topics.RECORDING)} | {"std_srvs"}
 
@@ -175,14 +180,14 @@ def test_setup_names_what_pip_has_to_install(name: str, monkeypatch: pytest.Monk
     extras = {Requirement(line).name for line in itertools.chain(*groups.values())}
     ours = {top for top in sources(name) if top in {*ROSDEP_KEYS, *WITHOUT_KEY, *OPTIONAL, *PACKAGES}}
     assert required == {DISTRIBUTIONS.get(top, top) for top in ours - OPTIONAL}
-    assert extras == ours & OPTIONAL
+    assert extras == {DISTRIBUTIONS.get(top, top) for top in ours & OPTIONAL}
 
 
 def test_the_requirement_files_bring_what_the_packages_need() -> None:
     needed = set().union(*(sources(name) for name in PACKAGES)) & {*ROSDEP_KEYS, *WITHOUT_KEY, *OPTIONAL}
     listed = {
         line
-        for name in ("ros", "tools", "batch", "cluster")
+        for name in ("ros", "tools", "batch", "cluster", "foxglove")
         for line in (ROOT / "requirements" / f"{name}.txt").read_text(encoding="utf-8").splitlines()
     }
     assert {DISTRIBUTIONS.get(top, top) for top in needed} <= {line.split("==")[0] for line in listed}

@@ -50,6 +50,7 @@ setup(
         "batch": ["numba"],
         "campaign": ["pyarrow"],
         "cluster": ["distributed"],
+        "foxglove": ["foxglove-sdk"],
         "test": ["hypothesis", "pytest"],
     },
     zip_safe=False,

@@ -30,6 +30,7 @@ def imported(code: str) -> set[str]:
         "auv_sim.cli.check_vehicle",
         "auv_sim.cli.fault_matrix",
         "auv_sim.cli.gallery",
+        "auv_sim.cli.live_view",
         "auv_sim.cli.mission",
         "auv_sim.cli.plan",
         "auv_sim.cli.reproduce_paper",

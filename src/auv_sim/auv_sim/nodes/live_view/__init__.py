@@ -1,0 +1,1 @@
+"""A mission in Foxglove, over its own SDK."""
