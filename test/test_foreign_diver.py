@@ -24,9 +24,14 @@ from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64, String
 from std_srvs.srv import Trigger
 
+from auv_path_following import vehicle
 from auv_path_following.nodes.current_observer_node import CurrentObserverNode
 from auv_path_following.nodes.guidance_node import GuidanceNode
 from auv_path_following.nodes.heading_autopilot_node import HeadingAutopilotNode
+from auv_sim.checks.vehicle_check.items.all_items import check
+from auv_sim.checks.vehicle_check.live.listener import VehicleListener
+from auv_sim.checks.vehicle_check.live.small_test import SmallTest
+from auv_sim.checks.vehicle_check.verdict import Level
 
 MISSION = Path(__file__).parent / "data" / "short_dive.yaml"
 SENSOR = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -205,3 +210,49 @@ def test_a_foreign_vehicle_flies_a_mission_with_depths(ros: None) -> None:
     turn = (north > 20.0) & (east < 20.0)
     assert np.abs(np.hypot(north[turn] - 20.0, east[turn] - 20.0) - 20.0).max() < 1.0
     assert np.hypot(north[-1] - 40.0, east[-1] - 40.0) < 5.0
+
+
+def examined(habits: Habits) -> set[tuple[str, Level]]:
+    """What the small test finds that does not pass."""
+    hull, torpedo = vehicle.load("remus100_6dof"), ForeignDiver(habits)
+    node = rclpy.create_node("check_vehicle", parameter_overrides=[Parameter("use_sim_time", value=True)])
+    listener = VehicleListener(node, "/auv", hears_commands=False, dives=True)
+    small_test, heard = SmallTest(listener, hull), listener.recording
+    executor = EventsExecutor()
+    for each in (torpedo.node, node):
+        executor.add_node(each)
+
+    def until(condition: Callable[[], bool], patience: float) -> None:
+        deadline = time.monotonic() + patience
+        while not condition() and time.monotonic() < deadline:
+            executor.spin_once(timeout_sec=0.01)
+
+    def step() -> bool:
+        """Sense, and return whether time and odometry have arrived."""
+        before = len(heard.odom)
+        torpedo.sense()
+        until(lambda: len(heard.odom) > before and listener.now() >= torpedo.now - 1e-6, 1.0)
+        return len(heard.odom) > before and listener.now() >= torpedo.now - 1e-6
+
+    try:
+        while not step():  # both ends find each other
+            torpedo.now += 0.08
+        heard.odom.clear()
+        heard.water.clear()
+        begin = listener.now()
+        torpedo.act()
+        step()
+        while small_test.tick():
+            until(lambda: len(torpedo.commands) == 3, 1.0)
+            torpedo.act()
+            step()
+        assert small_test.cut_short == ""
+        verdicts = check(listener.finish(begin, sim_time=True), hull)
+        return {(v.item, v.level) for v in verdicts if v.level is not Level.PASS}
+    finally:
+        for each in (torpedo.node, node):
+            each.destroy_node()
+
+
+def test_the_check_passes_it_at_rest_and_without_vertical_velocities(ros: None) -> None:
+    assert examined(Habits(speed=0.0, depth=5.0, vertical=False)) == set()

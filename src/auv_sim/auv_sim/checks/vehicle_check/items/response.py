@@ -46,7 +46,8 @@ def check_response(recording: Recording, motion: Motion, vehicle: Vehicle) -> li
     # A stationary vehicle does not respond to its rudder.
     moves = push.mistake is not Mistake.THRUST_DEAD
     yaw = _fit_yaw(recording, motion, t, rudder, thrust, vehicle) if moves else None
-    return [_sign(items[0], state, yaw), *_rate_and_delay(items[1:3], state, yaw, vehicle), push]
+    loosely = vehicle.dives and state is None
+    return [_sign(items[0], state, yaw, loosely), *_rate_and_delay(items[1:3], state, yaw, vehicle), push]
 
 
 def _commands(recording: Recording) -> tuple[Array, Array, Array]:
@@ -112,7 +113,8 @@ def _speed(recording: Recording, at: float) -> float:
     return min(max(float(np.median(before[-5:])) if before else 0.0, 0.0), 5.0)
 
 
-def _sign(item: str, state: Fit | None, yaw: Fit | None) -> Verdict:
+def _sign(item: str, state: Fit | None, yaw: Fit | None, loosely: bool = False) -> Verdict:
+    """Judge sign and scale; `loosely`: of the scale only the order, which a rolled and pitched hull shows."""
     expected = "1: positive turns to port, radians"
     measured = "; ".join(
         f"{name} {fit.scale * fit.gain:.2g}"
@@ -134,7 +136,7 @@ def _sign(item: str, state: Fit | None, yaw: Fit | None) -> Verdict:
     if state is not None and state.gain < 0.0:
         return failed(item, Mistake.RUDDER_STATE_SIGN, measured, expected)
     scale = state.gain if state is not None and state.gain else judge.gain
-    if not 0.5 < judge.gain < 2.0 or not 0.7 < scale < 1.4:
+    if not 0.5 < judge.gain < 2.0 or not (loosely or 0.7 < scale < 1.4):
         if state is not None and 0.7 < scale < 1.4:
             return warned(item, measured, "a hull as the vehicle's file has it", Mistake.RUDDER_SCALE)
         return failed(item, Mistake.RUDDER_SCALE, measured, expected)
