@@ -10,8 +10,10 @@ from auv_sim.checks.vehicle_check.items.all_items import check, mistakes
 from auv_sim.checks.vehicle_check.planted_divers import PLANTED_DIVERS, PlantedDiver
 from auv_sim.checks.vehicle_check.planted_diving_vehicle import PlantedDivingVehicle
 from auv_sim.checks.vehicle_check.samples import Endpoint, Recording, Value
+from auv_sim.checks.vehicle_check.verdict import Level, Mistake
 from auv_sim.checks.vehicle_check.wiggle import FAREWELL
 from auv_sim.checks.vehicle_check.wiggle_dive import END, DivingWiggle, danger
+from auv_sim.vehicle import sea as seas
 from auv_sim.vehicle.sea import Sea
 
 REMUS = vehicle.load("remus100_6dof")
@@ -66,3 +68,19 @@ def record(
 def test_the_mistake_is_named_and_no_other(planted: PlantedDiver) -> None:
     recording, _ = record(planted)
     assert mistakes(check(recording, REMUS)) == ({planted.mistake} if planted.mistake else set())
+
+
+NAMED = {planted.name: planted for planted in PLANTED_DIVERS}
+
+
+@pytest.mark.parametrize("name", ["diver-ned", "diver-bare"])
+def test_an_honest_diver_passes_in_a_rough_sea(name: str) -> None:
+    recording, cut_short = record(NAMED[name], sea=seas.load("rough"), seed=1)
+    assert mistakes(check(recording, REMUS)) == set()
+    assert cut_short == ""
+
+
+def test_a_vehicle_that_does_not_leave_the_surface_is_not_judged() -> None:
+    verdicts = check(record(NAMED["diver-afloat"], sea=seas.load("rough"))[0], REMUS)
+    assert mistakes(verdicts) == {Mistake.NOT_JUDGED}
+    assert Level.FAIL not in {verdict.level for verdict in verdicts}

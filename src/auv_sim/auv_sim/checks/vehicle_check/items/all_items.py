@@ -6,8 +6,13 @@ import numpy as np
 
 from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.vehicle_check.items.discovered import check_graph
-from auv_sim.checks.vehicle_check.items.dive.dive_items import check_dive, with_dive
-from auv_sim.checks.vehicle_check.items.dive.dive_motion import dive_motion_of, is_upright, levelled_water
+from auv_sim.checks.vehicle_check.items.dive.dive_items import at_the_surface, check_dive, with_dive
+from auv_sim.checks.vehicle_check.items.dive.dive_motion import (
+    dive_motion_of,
+    is_upright,
+    levelled_water,
+    stays_afloat,
+)
 from auv_sim.checks.vehicle_check.items.dive.presence import with_sound_rate
 from auv_sim.checks.vehicle_check.items.kinematics import check_kinematics
 from auv_sim.checks.vehicle_check.items.response import ITEMS, check_response
@@ -43,7 +48,11 @@ def check(recording: Recording, vehicle: Vehicle) -> list[Verdict]:
     values, timing = check_values(recording, motion, vehicle.dives), check_timing(recording)
     verdicts = [*graph, *values, *timing, *kinematics, *response]
     if dive is not None:
-        verdicts = with_dive(verdicts, check_dive(recording, dive, vehicle, response[0].mistake))
+        below = check_dive(recording, dive, vehicle, response[0].mistake)
+        if stays_afloat(dive):
+            kinematics, response, below = map(at_the_surface, (kinematics, response, below))
+            verdicts = [*graph, *values, *timing, *kinematics, *response]
+        verdicts = with_dive(verdicts, below)
     if recording.wiggled and not mistakes(verdicts):  # otherwise it follows from what failed
         left = Mistake.NOT_JUDGED
         verdicts = [v._replace(mistake=left) if v.level is Level.UNKNOWN else v for v in verdicts]

@@ -113,3 +113,9 @@ def with_dive(verdicts: list[Verdict], dive: list[Verdict]) -> list[Verdict]:
         turned = Mistake.RUDDER_SIGN
         verdicts = [v._replace(mistake=pitch.mistake) if v.mistake is turned else v for v in verdicts]
     return [*verdicts, *dive]
+
+
+def at_the_surface(verdicts: list[Verdict]) -> list[Verdict]:
+    """Return verdicts on a vehicle that stays at the surface: what fails there is not judged."""
+    why = "the vehicle stays at the surface", "a start at 2 m of depth or more"
+    return [unknown(v.item, *why) if v.level is Level.FAIL else v for v in verdicts]

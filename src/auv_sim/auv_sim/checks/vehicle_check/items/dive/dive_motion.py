@@ -13,6 +13,9 @@ from auv_msgs_py.values.attitude import angles_of_quaternion
 from auv_sim.checks.vehicle_check.items.values import convention_of
 from auv_sim.checks.vehicle_check.samples import Array, Motion, Recording, mean_over, usable
 
+#: Depth of a vehicle whose hull and fins break the surface, m.
+_AFLOAT = 0.5
+
 
 class DiveMotion(NamedTuple):
     """The usable odometries as arrays of shape (n,), and what their frame ids mean.
@@ -114,3 +117,8 @@ def of_water(
 def is_upright(dive: DiveMotion) -> bool:
     """Return whether the body's z axis mostly points along the world's, so that it can be levelled."""
     return bool(dive.t.size) and float(np.median(np.cos(dive.roll) * np.cos(dive.pitch))) > 0.0
+
+
+def stays_afloat(dive: DiveMotion) -> bool:
+    """Return whether the vehicle is at the surface all the time, where fins and propeller act otherwise."""
+    return bool(dive.t.size) and bool(dive.z.any()) and float(np.percentile(np.abs(dive.z), 90)) < _AFLOAT

@@ -17,7 +17,7 @@ PITCH = f"{topics.ODOM.name}: pitch against depth"
 #: Least vertical speed by pitch, m/s: its changes, rms, or its mean.
 _CHANGES, _MEAN = 0.04, 0.15
 #: Height above the surface that no depth sensor reports of a vehicle in the water, m.
-_ABOVE = 1.0
+_ABOVE = 1.5
 _UP = "in ENU/FLU z is up and positive pitch bow down; in NED/FRD z is depth and positive pitch bow up"
 
 
