@@ -72,7 +72,9 @@ class Child:
         if code == UNKNOWN_CODE:
             how = "ended"
         lines = "\n".join(f"  | {line}" for line in self.last_lines())
-        return f"{self.name} {how}; its last lines ({self.log}):\n{lines}" if lines else f"{self.name} {how}"
+        if not lines and not self.log.exists():
+            return f"{self.name} {how}"
+        return f"{self.name} {how}; its last lines ({self.log}):\n{lines}"
 
 
 class Children:
