@@ -9,7 +9,7 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.mission_word import MissionState
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "interface.md"
-ALL = (*topics.CONTRACT, *topics.SPATIAL_CONTRACT, *topics.RECORDING, topics.GRAPH_CLAIMS)
+ALL = (*topics.CONTRACT, *topics.SPATIAL_CONTRACT, *topics.RECORDING, topics.GRAPH_CLAIMS, topics.GOAL_POSE)
 ROW = re.compile(r"^\| `([^`]+)` \| ([a-z_]+/msg/\w+) \|(?: (\w+) \|)?", re.MULTILINE)
 
 

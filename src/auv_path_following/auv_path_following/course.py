@@ -18,6 +18,7 @@ from auv_path_following.guidance.spatial.spatial_follower import mode_of
 from auv_path_following.missions import limits
 from auv_path_following.missions.limits import LimitsConfig
 from auv_path_following.missions.mission_file import Mission
+from auv_path_following.missions.orders.start_place import path_parameter_of
 from auv_path_following.parameters import GuidanceParameters
 from auv_path_following.vehicle import Vehicle
 
@@ -58,19 +59,22 @@ class PlanarCourse:
         Args:
             parameters: of guidance. In lockstep no mission holds, as the nodes' watchdogs rest.
             is_limited: whether limits and geofence end the mission.
+
+        Raises:
+            ConfigurationError: `start_at` is no place of the path.
         """
         p = parameters
         hold_after = math.inf if p.lockstep else p.holding.hold_after
         bounds: Any = None
         if is_limited:
             bounds = limits.prepare(self._limits(p), self.mission.geofence)
-        return self._guide_of(p, hold_after, bounds)
+        return self._guide_of(p, hold_after, bounds, path_parameter_of(p.start_at, self.path))
 
     def _limits(self, p: GuidanceParameters) -> LimitsConfig:
         return p.limits.stricter(self.mission.limits)
 
-    def _guide_of(self, p: GuidanceParameters, hold_after: float, bounds: Any) -> Guide:
-        return guide.prepare(p.guidance, self._agility, self.mission.thrust, hold_after, bounds)
+    def _guide_of(self, p: GuidanceParameters, hold_after: float, bounds: Any, begins_at: float) -> Guide:
+        return guide.prepare(p.guidance, self._agility, self.mission.thrust, hold_after, bounds, begins_at)
 
     def depth_and_heading(self, navigation: Any) -> tuple[float, float]:
         """Return depth (m) and heading (rad) of what was measured."""
@@ -98,11 +102,11 @@ class SpatialCourse(PlanarCourse):
         self.rows = spatial_rows(self.path)
         self.with_altitude = mission.altitude is not None
 
-    def _guide_of(self, p: GuidanceParameters, hold_after: float, bounds: Any) -> Guide:
+    def _guide_of(self, p: GuidanceParameters, hold_after: float, bounds: Any, begins_at: float) -> Guide:
         config, hull, thrust = p.guidance, self.vehicle, self.mission.thrust
         mode = mode_of(self.mission, config, p.limits, hull)
         watch = None if bounds is None else guard.prepare(p.diving, p.ascent, hull, thrust)
-        return guide.prepare_spatial(config, hull, thrust, mode, hold_after, bounds, watch)
+        return guide.prepare_spatial(config, hull, thrust, mode, hold_after, bounds, watch, begins_at)
 
     def _limits(self, p: GuidanceParameters) -> LimitsConfig:
         found = super()._limits(p)

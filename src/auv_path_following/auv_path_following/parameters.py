@@ -13,7 +13,7 @@ from auv_path_following.control.pitch_plane import pitch_gains
 from auv_path_following.guidance.failsafe.ascent import AscentConfig
 from auv_path_following.guidance.failsafe.watchdogs import DiveLimitsConfig
 from auv_path_following.guidance.path_follower import PathFollowerConfig
-from auv_path_following.guidance.switching import with_overrides
+from auv_path_following.guidance.switching import SwitchingConfig, with_overrides
 from auv_path_following.missions.limits import LimitsConfig
 from auv_path_following.missions.mission_state import HoldingConfig
 from auv_path_following.navigation.current_observer import CurrentObserverConfig
@@ -69,7 +69,19 @@ class ObserverParameters(NavigationParameters):
 class GuidanceParameters(NavigationParameters):
     """ailos_guidance."""
 
-    mission: str = setting("paper_composite", "mission file, or the name of a shipped one")
+    mission: str = setting("paper_composite", "mission file, or the name of a shipped one", live=True)
+    mission_text: str = setting(
+        "", "instead of `mission`: the content of a mission file, without waypoint files beside it", live=True
+    )
+    start_at: str = setting(
+        "", "where the mission begins: `subpath 3`, or `120 m` along the path; empty: its start", live=True
+    )
+    check_mission: bool = setting(
+        True, "refuse a mission set in flight that the check refuses, as the launcher does", live=True
+    )
+    accept_goal: bool = setting(
+        False, "take goal_pose for a mission: a Dubins path from here to there", live=True
+    )
     mission_switching: bool = setting(
         True, "at the start guidance.switching takes the values of the mission file"
     )
@@ -99,7 +111,10 @@ class GuidanceParameters(NavigationParameters):
         if not self.mission_switching:
             return self
         own = mission.switching
-        switching = with_overrides(self.guidance.switching, own.mode, own.radius)
+        return self.with_switching(with_overrides(self.guidance.switching, own.mode, own.radius))
+
+    def with_switching(self, switching: SwitchingConfig) -> GuidanceParameters:
+        """Return these parameters with other circles of acceptance."""
         return dataclasses.replace(self, guidance=dataclasses.replace(self.guidance, switching=switching))
 
 

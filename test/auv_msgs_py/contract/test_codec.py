@@ -19,6 +19,10 @@ OTHERS = {
     "std_msgs/msg/String",
     "std_msgs/msg/UInt64",
     "diagnostic_msgs/msg/DiagnosticArray",
+    # Once a mission, or once a second.
+    "diagnostic_msgs/msg/DiagnosticStatus",
+    "geometry_msgs/msg/PolygonStamped",
+    "sensor_msgs/msg/NavSatFix",
 }
 
 

@@ -33,7 +33,7 @@ def test_its_parameters_show_what_counts(
 
 def test_a_speed_becomes_the_vehicles_thrust(bench: Bench, mission: str) -> None:
     node = bench.start(GuidanceNode, mission=mission, vehicle="remus100")
-    assert node.mission.thrust == pytest.approx(1.62 * 1.5**2)
+    assert node.keeper.config.thrust == pytest.approx(1.62 * 1.5**2)
 
 
 def test_what_is_not_taken_of_a_waypoint_file_is_logged(

@@ -56,6 +56,14 @@ PATH_ERROR = Topic("path_error", "geometry_msgs/msg/Vector3Stamped", GUIDANCE)
 DISTANCE_TO_GO = Topic("distance_to_go", "std_msgs/msg/Float64", GUIDANCE)
 PATH = Topic("path", "nav_msgs/msg/Path", GUIDANCE, latched=True)
 MISSION_STATE = Topic("mission_state", "std_msgs/msg/String", GUIDANCE, (AUTOPILOT, PLANT), latched=True)
+#: The area that must not be left, in `map`; empty: none.
+GEOFENCE = Topic("geofence", "geometry_msgs/msg/PolygonStamped", GUIDANCE, latched=True)
+#: Where `map`'s 0, 0 is; published if the mission has an origin.
+ORIGIN = Topic("origin", "sensor_msgs/msg/NavSatFix", GUIDANCE, latched=True)
+#: State with its reason, the mission's name and digest, its length, when it began, and the share flown.
+MISSION_STATUS = Topic("mission_status", "diagnostic_msgs/msg/DiagnosticStatus", GUIDANCE, latched=True)
+#: From people and their tools; taken if guidance's parameter `accept_goal` allows it.
+GOAL_POSE = Topic("goal_pose", "geometry_msgs/msg/PoseStamped", "any node", (GUIDANCE,))
 RUDDER_CMD = Topic("rudder_cmd", "std_msgs/msg/Float64", AUTOPILOT, (PLANT,))
 THRUST_CMD = Topic("thrust_cmd", "std_msgs/msg/Float64", AUTOPILOT, (PLANT,))
 DIAGNOSTICS = Topic("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", "every node")
@@ -84,7 +92,9 @@ PER_STEP = (
     ODOM, WATER_VELOCITY, RUDDER_STATE, TRUE_CURRENT, CURRENT_ESTIMATE, DESIRED_YAW, DESIRED_YAW_RATE,
     DESIRED_THRUST, VIRTUAL_POINT, PATH_PARAMETER, PATH_ERROR, DISTANCE_TO_GO, RUDDER_CMD, THRUST_CMD,
 )  # fmt: skip
-CONTRACT = (CLOCK, *PER_STEP, TRUE_ODOM, PATH, MISSION_STATE, DIAGNOSTICS)
+#: What an operator sees of the mission beside its state and its path.
+OPERATION = (GEOFENCE, ORIGIN, MISSION_STATUS)
+CONTRACT = (CLOCK, *PER_STEP, TRUE_ODOM, PATH, MISSION_STATE, *OPERATION, DIAGNOSTICS)
 #: The same of a vehicle with stern planes, in addition.
 SPATIAL_PER_STEP = (
     STERNPLANE_CMD, STERNPLANE_STATE, DESIRED_PITCH, DESIRED_PITCH_RATE, DESIRED_DEPTH, PATH_ERROR_3D,
@@ -95,6 +105,8 @@ RECORDING = (RECORDED_STEPS, RECORD_REQUEST)
 
 START_SERVICE = "start"
 ABORT_SERVICE = "abort"
+HOLD_SERVICE = "hold"
+RESUME_SERVICE = "resume"
 RESET_SERVICE = "reset"
 
 #: The simulator's first stamp: zero reads as "unset" in ROS 2.

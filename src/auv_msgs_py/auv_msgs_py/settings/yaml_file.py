@@ -73,9 +73,14 @@ def checked(data: Any, path: Path, cls: type[T]) -> T:
 
 
 def dump(data: Any, path: Path) -> None:
-    """Write plain objects as YAML that this module and ROS 2's parameter parser read alike.
+    """Write plain objects as `text_of` has them.
 
     Raises:
         NotWritten: the file cannot be written.
     """
-    write_text(path, yaml.dump(data, Dumper=_Dumper, sort_keys=False, allow_unicode=True))
+    write_text(path, text_of(data))
+
+
+def text_of(data: Any) -> str:
+    """Return plain objects as YAML that this module and ROS 2's parameter parser read alike."""
+    return str(yaml.dump(data, Dumper=_Dumper, sort_keys=False, allow_unicode=True))

@@ -16,6 +16,7 @@ from auv_path_following.guidance.progress import (
     Progress,
     ProgressConfig,
     approach_to_go,
+    beginning,
     first_progress,
     followed,
     move,
@@ -95,7 +96,7 @@ class GuidanceOutput(NamedTuple):
 @pure
 def first_state(config: FollowerConfig, approach: Any) -> FollowerState:
     """Return the state at the beginning of the path; `approach` as of `approach.empty_approach`."""
-    return FollowerState(first_progress(approach), config.law_begins)
+    return FollowerState(first_progress(config.progress, approach), config.law_begins)
 
 
 def reconfigured(config: FollowerConfig, state: FollowerState) -> FollowerState:
@@ -155,7 +156,7 @@ def follow(
     progress = settled(where, P, legs, way, joined, math.hypot(xe, ye), navigation)
     approach = approach_to_go(legs, way, i, t)
     if legs > 0:
-        i, t = 0, 0.0
+        i, t = beginning(where)
     return FollowerState(progress, law), GuidanceOutput(
         psi_d, r_d, xe, ye, wrap(psi - psi_d), i + t, i, x_p, y_p, chi_p, kappa, U_P, beta_r,
         chi_r, alpha, theta_n, approach, switched, finished,
@@ -179,7 +180,7 @@ def look(
     progress = Progress(VirtualPoint(i, t, 0.0, 0.0, P.finished), legs, approach, planned, joined, x, y)
     left = approach_to_go(legs, approach, i, t)
     if legs > 0:
-        i, t = 0, 0.0
+        i, t = beginning(config.progress)
     return FollowerState(progress, state.law), GuidanceOutput(
         navigation.psi, 0.0, xe, ye, 0.0, i + t, i, x_p, y_p, chi_p, curvature(dx, dy, ddx, ddy), 0.0, 0.0,
         0.0, 0.0, 0.0, left, False, P.finished,

@@ -42,8 +42,10 @@ from auv_path_following.missions.mission_state import (
     RUNNING,
     MissionStatus,
     completed,
+    is_held,
     is_under_way,
     navigation_back,
+    resumed,
     started,
 )
 from auv_path_following.vehicle import Vehicle
@@ -73,6 +75,7 @@ def prepare(
     thrust: float,
     hold_after: float = math.inf,
     bounds: MissionLimits | NoLimits | None = None,
+    begins_at: float = 0.0,
 ) -> Guide:
     """Return the configuration of guidance.
 
@@ -82,8 +85,9 @@ def prepare(
         thrust: of the mission, N.
         hold_after: without usable navigation for this long the mission holds, s.
         bounds: of `limits.prepare`; none if None.
+        begins_at: path parameter s at which the mission begins, Eq. (1).
     """
-    follower = path_follower.prepare(config, agility)
+    follower = path_follower.prepare(config, agility, begins_at)
     return Guide(follower, bounds or NoLimits(), hold_after, float(thrust), NoDive())
 
 
@@ -95,6 +99,7 @@ def prepare_spatial(
     hold_after: float = math.inf,
     bounds: MissionLimits | NoLimits | None = None,
     guard: DiveGuard | NoDive | None = None,
+    begins_at: float = 0.0,
 ) -> Guide:
     """Return the configuration of guidance of a vehicle that dives.
 
@@ -102,13 +107,13 @@ def prepare_spatial(
         config: laws and gains.
         vehicle: hull and fins.
         mode: of `vertical_step`: what the vertical plane follows; the path if left out.
-        thrust, hold_after, bounds: as in `prepare`.
+        thrust, hold_after, bounds, begins_at: as in `prepare`.
         guard: of `guard.prepare`; a limit ends the mission at once if None.
 
     Raises:
         ConfigurationError: the vehicle's file lacks what the pitch autopilot needs.
     """
-    follower = spatial_follower.prepare(config, vehicle, thrust, mode)
+    follower = spatial_follower.prepare(config, vehicle, thrust, mode, begins_at)
     return Guide(follower, bounds or NoLimits(), hold_after, float(thrust), guard or NoDive())
 
 
@@ -153,6 +158,11 @@ def start(config: Guide, state: GuideState) -> GuideState:
     return at_the_beginning(config, started(state.mission), state.follower.progress.approach)
 
 
+def resume(state: GuideState) -> GuideState:
+    """End the operator's hold: the follower rejoins the path at the next measurement."""
+    return state._replace(mission=resumed(state.mission), rejoins=True)
+
+
 def reconfigured(config: Guide, state: GuideState) -> GuideState:
     """Return the state for a new configuration; the place on the path is kept."""
     begins = follower_begins(config.follower, state.follower.progress.approach)
@@ -190,7 +200,7 @@ def guide(
     if blind > config.hold_after:
         guard, mission = without_navigation(guard, mission, config.hold_after, now)
     ascends = surfaces(guard)
-    has_resumed = has_water and mission.state == HOLDING
+    has_resumed = has_water and mission.state == HOLDING and not is_held(mission)
     if has_water:
         blind = 0.0
     if has_resumed:

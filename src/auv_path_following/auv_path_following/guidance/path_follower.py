@@ -19,7 +19,7 @@ from auv_path_following.guidance.follow import (
 )
 from auv_path_following.guidance.laws.registered import LAWS
 from auv_path_following.guidance.measured import Measured
-from auv_path_following.guidance.progress import ProgressConfig, approach_to_go
+from auv_path_following.guidance.progress import ProgressConfig, approach_to_go, beginning
 from auv_path_following.guidance.spatial.vertical_modes import VerticalConfig
 from auv_path_following.guidance.switching import SwitchingConfig, circles_of
 from auv_path_following.guidance.virtual_point import VirtualPoint, VirtualPointConfig
@@ -64,12 +64,15 @@ class PathFollowerConfig:
         return float(getattr(self, self.law).largest_lookahead)
 
 
-def prepare(config: PathFollowerConfig, agility: Agility | None = None) -> FollowerConfig:
+def prepare(
+    config: PathFollowerConfig, agility: Agility | None = None, begins_at: float = 0.0
+) -> FollowerConfig:
     """Return the configuration of guidance.
 
     Args:
         config: laws and gains.
         agility: of the hull, for approach and bounds; None: the laws alone, with neither.
+        begins_at: path parameter s at which a mission begins, Eq. (1), in [0, n).
     """
     law = law_of(LAWS, config.law)
     lookahead, approach = config.lookahead, config.approach
@@ -78,6 +81,7 @@ def prepare(config: PathFollowerConfig, agility: Agility | None = None) -> Follo
         agility is not None and approach.enabled,
         0.0 if agility is None else float(turn_radius(approach, agility, lookahead)),
         float(config.rejoin_reach),
+        float(begins_at),
     )
     return FollowerConfig(
         law.prepare(getattr(config, law.name), None),
@@ -91,10 +95,10 @@ def prepare(config: PathFollowerConfig, agility: Agility | None = None) -> Follo
     )
 
 
-def distance_to_go(path: CompositePath, state: FollowerState) -> float:
+def distance_to_go(path: CompositePath, config: ProgressConfig, state: FollowerState) -> float:
     """Return the length from P to the end of the path, the rest of an approach included, m."""
     P, legs, approach = state.progress[:3]
-    i, t = (0, 0.0) if legs > 0 else (P.i, P.t)
+    i, t = beginning(config) if legs > 0 else (P.i, P.t)
     return approach_to_go(legs, approach, P.i, P.t) + path.distance_to_go(i, t)
 
 
@@ -130,13 +134,14 @@ class PathFollower:
 
     @property
     def s(self) -> float:
-        """P on the path, Eq. (1), in [0, n]; it waits at the start during an approach."""
-        return self.state.progress.point.s if self.state.progress.legs == 0 else 0.0
+        """P on the path, Eq. (1), in [0, n]; during an approach it waits where the mission begins."""
+        progress = self.state.progress
+        return progress.point.s if progress.legs == 0 else self.config.progress.begins_at
 
     @property
     def distance_to_go(self) -> float:
         """Length from P to the end of the path, the rest of an approach included, m."""
-        return distance_to_go(self.path, self.state)
+        return distance_to_go(self.path, self.config.progress, self.state)
 
     def rejoin(self, navigation: Navigation) -> None:
         """Continue after a hold, see `rejoin`."""

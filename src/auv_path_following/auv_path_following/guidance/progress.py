@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from auv_msgs_py.values.pure import pure
 from auv_msgs_py.values.types import Current, Navigation
 from auv_path_following.curves.dubins import PlanarPose
-from auv_path_following.curves.rows import AFTER, LENGTH, PathRows, evaluate
+from auv_path_following.curves.rows import AFTER, LENGTH, SPEED, PathRows, evaluate
 from auv_path_following.guidance.approach import NEAR, plan
 from auv_path_following.guidance.rejoin import closest_ahead
 from auv_path_following.guidance.switching import Circles, reached
@@ -23,19 +23,22 @@ class ProgressConfig(NamedTuple):
         approaches: whether a vehicle away from the path's start flies there first.
         approach_radius: of an approach's turns, m.
         rejoin_reach: largest advance of P after a hold, m.
+        begins_at: path parameter s at which a mission begins, Eq. (1), in [0, n).
     """
 
     circles: Circles
     approaches: bool
     approach_radius: float
     rejoin_reach: float
+    begins_at: float
 
 
 class Progress(NamedTuple):
     """State of P on the mission.
 
-    A mission begins at the path's start; a vehicle that is elsewhere first follows P on a Dubins path to it.
-    The circle of acceptance at the end of a subpath counts only once the vehicle has been within `NEAR` of P.
+    A mission begins at one place of the path; a vehicle that is elsewhere first follows P on a Dubins path
+    there. The circle of acceptance at the end of a subpath counts only once the vehicle has been within
+    `NEAR` of P.
 
     Attributes:
         point: P: on the approach while there is one, then on the path.
@@ -56,9 +59,17 @@ class Progress(NamedTuple):
 
 
 @pure
-def first_progress(approach: Any) -> Progress:
+def beginning(config: ProgressConfig) -> tuple[int, float]:
+    """Return the subpath on which a mission begins, and t on it."""
+    i = int(config.begins_at)
+    return i, config.begins_at - i
+
+
+@pure
+def first_progress(config: ProgressConfig, approach: Any) -> Progress:
     """Return the beginning of a mission; `approach` as of `approach.empty_approach`."""
-    return Progress(VirtualPoint(0, 0.0, 0.0, 0.0, False), 0, approach, False, False, 0.0, 0.0)
+    i, t = beginning(config)
+    return Progress(VirtualPoint(i, t, 0.0, 0.0, False), 0, approach, False, False, 0.0, 0.0)
 
 
 @pure
@@ -106,7 +117,7 @@ def move(
         if legs > 0:
             i, t, finished = 0, 0.0, False
         elif before > 0:
-            i, t, finished, _ = advanced(path, 0, beyond)
+            i, t, finished = _begun(config, path, beyond)
         return i, t, finished, legs, joined, False
     if legs > 0:
         return i, t, finished, legs, joined, False
@@ -119,11 +130,20 @@ def move(
 
 
 @pure
+def _begun(config: ProgressConfig, path: PathRows, length: float) -> tuple[int, float, bool]:
+    """Return P `length` metres after the mission's beginning: subpath, t, and whether the path has ended."""
+    i, t = beginning(config)
+    i, t, finished, _ = advanced(path, i, t * path.subpath[i][SPEED] + length)
+    return i, t, finished
+
+
+@pure
 def _plan(config: ProgressConfig, path: PathRows, approach: Any, navigation: Navigation) -> int:
-    """Plan the approach from here; return its number of subpaths, 0 at the path's start."""
+    """Plan the approach from here; return its number of subpaths, 0 where the mission begins."""
     if not config.approaches:
         return 0
-    x, y, dx, dy, _, _ = evaluate(path, path.subpath[0], 0.0)
+    i, t = beginning(config)
+    x, y, dx, dy, _, _ = evaluate(path, path.subpath[i], t)
     return plan(approach, PlanarPose(x, y, math.atan2(dy, dx)), navigation, config.approach_radius)
 
 

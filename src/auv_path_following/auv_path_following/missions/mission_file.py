@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import hashlib
 import math
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -63,6 +64,7 @@ class Mission:
         spatial: the path with its depths; None for a planar mission, or one above the bottom.
         altitude: to hold above the bottom; None otherwise.
         max_slope: steepest slope that the file allows, rad; 0 for any.
+        text: content of the mission where it comes from no file; empty otherwise.
     """
 
     name: str
@@ -84,6 +86,16 @@ class Mission:
     spatial: SpatialPath | None = None
     altitude: AltitudeSpec | None = None
     max_slope: float = 0.0
+    text: str = ""
+
+    @property
+    def digest(self) -> str:
+        """The first 16 hexadecimal digits of the SHA-256 of the mission's content and waypoint files."""
+        parts = [self.text.encode()] if self.text else [p.read_bytes() for p in (self.source, *self.files)]
+        found = hashlib.sha256()
+        for part in parts:
+            found.update(len(part).to_bytes(8, "big") + part)
+        return found.hexdigest()[:16]
 
     def require_planar(self) -> None:
         """Refuse a mission with depths or an altitude: the vehicle has no stern planes.
@@ -126,6 +138,29 @@ def load(name_or_path: str, hull: Vehicle | None = None) -> Mission:
         spec = yaml_file.load(source, MissionSpec)
     else:
         spec = validated(MissionSpec, assumed, str(source))
+    return _built(spec, source, hull, assumed)
+
+
+def read_text(text: str, hull: Vehicle | None = None, where: str = "mission_text") -> Mission:
+    """Read the content of a mission file.
+
+    Args:
+        text: the YAML; it names no waypoint files, because none are beside it.
+        hull: as in `load`.
+        where: its origin, for errors.
+
+    Raises:
+        ConfigurationError: as in `load`, or the text names a waypoint file.
+    """
+    source = Path(where)
+    spec = yaml_file.checked(yaml_file.parse_text(text, where), source, MissionSpec)
+    if spec.reads_file or isinstance(spec.geofence, GeofenceFile):
+        raise ConfigurationError(where, "a waypoint file", "all points in the text: no file is beside it")
+    return dataclasses.replace(_built(spec, source, hull, None), text=text)
+
+
+def _built(spec: MissionSpec, source: Path, hull: Vehicle | None, assumed: dict[str, Any] | None) -> Mission:
+    """Return the mission of a file's content."""
     site = Site(spec.frame, spec.origin, source.parent)
     with _errors_of(source, spec, is_assumed=assumed is not None):
         check_size(spec)

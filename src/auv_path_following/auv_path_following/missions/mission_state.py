@@ -18,7 +18,8 @@ IDLE, RUNNING, HOLDING, COMPLETE, ABORTED = range(len(STATES))
     WAITS, STARTED, NAVIGATION_BACK, END_OF_PATH, NAVIGATION_LOST, HELD_TOO_LONG, ABORT_CALLED,
     DURATION, PATH_DISTANCE, GEOFENCE, GROUND_SPEED, PATH_SPEED, MAX_DEPTH, MIN_ALTITUDE, DEPTH_ERROR,
     ROLLED, PITCHED, TOO_SLOW, BROACHED, DEPTH_STALLED, DEPTH_DOUBTED, SANK,
-) = range(22)  # fmt: skip
+    HOLD_CALLED, RESUMED,
+) = range(24)  # fmt: skip
 #: Causes that end a mission under way; of a running one: the vehicle ascends for it.
 _ENDS = frozenset((HELD_TOO_LONG, ABORT_CALLED, *range(DURATION, SANK + 1)))
 
@@ -49,6 +50,8 @@ _WORDS = {
     DEPTH_DOUBTED: "limit diving.depth_doubt: the depth differs by {found:.1f} m from pitch and speed,"
     " at most {bound:g} m",
     SANK: "limit diving.hold_sink: sank {found:.1f} m with thrust 0, at most {bound:g} m",
+    HOLD_CALLED: "hold was called",
+    RESUMED: "resume was called",
 }
 
 
@@ -117,6 +120,24 @@ def started(mission: MissionStatus) -> MissionStatus:
 
 
 @pure
+def is_held(mission: MissionStatus) -> bool:
+    """Return whether the operator holds a mission: only `resumed` and `aborted` end that."""
+    return mission.state == HOLDING and mission.reason.cause == HOLD_CALLED
+
+
+def held(mission: MissionStatus) -> MissionStatus:
+    """Hold a mission under way for the operator; any other, and one that surfaces, is unchanged."""
+    if not is_under_way(mission) or is_surfacing(mission):
+        return mission
+    return MissionStatus(HOLDING, Reason(HOLD_CALLED))
+
+
+def resumed(mission: MissionStatus) -> MissionStatus:
+    """End the operator's hold; any other mission is unchanged."""
+    return MissionStatus(RUNNING, Reason(RESUMED)) if is_held(mission) else mission
+
+
+@pure
 def aborted(mission: MissionStatus, reason: Reason) -> MissionStatus:
     """End a mission, started or not; one that has ended is unchanged."""
     if mission.state == COMPLETE or mission.state == ABORTED:
@@ -153,16 +174,22 @@ def navigation_lost(mission: MissionStatus, hold_after: float, now: float) -> Mi
 
 @pure
 def navigation_back(mission: MissionStatus) -> MissionStatus:
-    """Resume a mission that holds."""
-    if mission.state != HOLDING:
+    """Resume a mission that holds, unless the operator holds it."""
+    if mission.state != HOLDING or is_held(mission):
         return mission
     return MissionStatus(RUNNING, Reason(NAVIGATION_BACK, 0.0, 0.0, 0.0), math.nan)
 
 
 @pure
 def waited(mission: MissionStatus, abort_after: float, now: float) -> MissionStatus:
-    """Abort a mission that has held for longer than `abort_after` s. `now` is ROS time, s."""
-    if mission.state != HOLDING:
+    """Abort a mission that has held for longer than `abort_after` s, unless the operator holds it.
+
+    Args:
+        mission: its state.
+        abort_after: longest hold, s.
+        now: ROS time, s.
+    """
+    if mission.state != HOLDING or is_held(mission):
         return mission
     if now < mission.since:  # the clock went back
         return MissionStatus(HOLDING, mission.reason, now)

@@ -5,17 +5,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from rclpy.parameter import Parameter
+
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.mission_word import MissionState
 from auv_msgs_py.node.run import run_nodes
 from auv_msgs_py.node.runtime import SuiteNode
-from auv_path_following import vehicle
+from auv_msgs_py.values.types import NO_CURRENT
 from auv_path_following.guidance.approach import ApproachWatch
 from auv_path_following.guidance.failsafe.descent import DescentWatch
-from auv_path_following.guidance.path_follower import distance_to_go
-from auv_path_following.missions import mission_file
-from auv_path_following.nodes.mission_course import course_of
-from auv_path_following.nodes.mission_keeper import MissionKeeper
+from auv_path_following.nodes.mission.goal_input import GoalInput
+from auv_path_following.nodes.mission.mission_board import MissionBoard
+from auv_path_following.nodes.mission.mission_choice import MissionChoice
+from auv_path_following.nodes.mission.mission_keeper import MissionKeeper
+from auv_path_following.nodes.mission.switching_parameters import SwitchingParameters
 from auv_path_following.nodes.navigation_input import Inputs, NavigationInput
 from auv_path_following.parameters import GuidanceParameters
 
@@ -25,26 +28,44 @@ class GuidanceNode(SuiteNode):
 
     def __init__(self, **arguments: Any) -> None:
         super().__init__(topics.GUIDANCE, GuidanceParameters, **arguments)
-        hull = vehicle.load(self.parameters.vehicle)
-        self.mission = mission_file.load(self.parameters.mission, hull)
-        self._course = course_of(self.mission, hull)
-        self.keeper = MissionKeeper(self, self._course, self._begins)
-        self._to_go = self._course.path.length
+        self._choice = MissionChoice(self.parameters)
+        self._current: Any = NO_CURRENT
+        course = self._choice.course
+        self.keeper = MissionKeeper(self, course, self._begins)
+        self._to_go = course.path.length
         self._approach, self._descent = ApproachWatch(), DescentWatch()
-        self._messages = self._course.messages(self)
-        path = self.advertise(topics.PATH)
+        self._messages = course.messages(self)
+        self._board = MissionBoard(self)
         self.close_gate()
-        self._input = NavigationInput(self, self._step, self.keeper.restart, True, self._course.with_altitude)
+        listens = course.with_altitude or (course.vehicle.dives and not self.parameters.lockstep)
+        self._input = NavigationInput(self, self._step, self.keeper.restart, True, listens)
+        self._goal = GoalInput(self, lambda: self._choice.course, lambda: self.keeper.next_service)
         self.keeper.offer()
-        path.publish(self._course.message(self.get_clock().now().nanoseconds))
-        for notice in self.mission.notices:
-            self.get_logger().info(notice)
-        self.keeper.take_switching()
+        self._switching = SwitchingParameters(self)
+        self._post()
         self.keeper.report.publish(self.keeper.state.mission)
 
+    def validate(self, proposed: GuidanceParameters) -> None:
+        self._choice.propose(proposed, self.keeper.refuses_missions, self._current)
+
     def configure(self) -> None:
+        if self._choice.taken(self.parameters):
+            self.keeper.take(self._choice.course)
+            self._to_go = self._choice.course.path.length
+            self._post()
+            if self.parameters.mission_text and self._choice.has_other_text:
+                self.set_parameters([Parameter("mission_text", value="")])
+            return
         self.keeper.configure()
         self._input.odometry.configure()
+
+    def _post(self) -> None:
+        """Show the chosen mission, with its notices in the log."""
+        course = self._choice.course
+        self._board.post(course.mission, course.message(self.get_clock().now().nanoseconds))
+        for notice in course.mission.notices:
+            self.get_logger().info(notice)
+        self._switching.take(course.mission)
 
     def waiting_for(self) -> str:
         return self.gate_waits_for() or ", ".join(self._input.missing)
@@ -64,19 +85,22 @@ class GuidanceNode(SuiteNode):
         p, has_water = self.parameters, inputs.water is not None
         late = not has_water and inputs.water_age > p.water_velocity_timeout
         self.health.warn("water", f"no fresh {topics.WATER_VELOCITY.name}" if late else "")
-        measured = self._course.measured(inputs, self._to_go, self.now())
+        measured = self._choice.course.measured(inputs, self._to_go, self.now())
+        self._current = inputs.current
+        self._goal.is_at(inputs.navigation)
         dt = 0.0 if self.keeper.state.begins else inputs.dt
         output, thrust = self.keeper.step(measured, inputs.current, inputs.dt)
         late = thrust > 0.0 and inputs.current_age > p.current_timeout
         self.health.warn("current", f"no fresh {topics.CURRENT_ESTIMATE.name}" if late else "")
-        self.health.warn("altitude", self._course.warning(self.keeper.state.follower))
-        depth, _ = self._course.depth_and_heading(inputs.navigation)
+        course = self._choice.course
+        self.health.warn("altitude", course.warning(self.keeper.state.follower))
+        depth, _ = course.depth_and_heading(inputs.navigation)
         self.health.warn("sinking", self._descent.update(p.diving, depth, thrust))
         if thrust > 0.0 and has_water:
             if text := self._approach.update(output.approach, dt):
                 self.get_logger().info(text)
             self.health.warn("approach", self._approach.complaint(p.guidance.approach.overdue))
-        self._to_go = distance_to_go(self._course.path, self.keeper.state.follower)
+        self._to_go = self.keeper.to_go
         self._messages.fill(output, thrust, self._to_go, inputs.stamp)
         self.answer(self._publish)
 

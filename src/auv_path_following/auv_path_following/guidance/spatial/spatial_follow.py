@@ -22,7 +22,15 @@ from auv_path_following.guidance.follow import LONGEST_STEP, FollowerConfig, Fol
 from auv_path_following.guidance.laws.law import LawInputs
 from auv_path_following.guidance.laws.registered import law_step
 from auv_path_following.guidance.measured import SpatialMeasured
-from auv_path_following.guidance.progress import Progress, approach_to_go, followed, move, settled
+from auv_path_following.guidance.progress import (
+    Progress,
+    ProgressConfig,
+    approach_to_go,
+    beginning,
+    followed,
+    move,
+    settled,
+)
 from auv_path_following.guidance.spatial.spatial_laws import (
     VerticalLaw,
     current_along,
@@ -58,6 +66,11 @@ class SpatialFollower(NamedTuple):
     mode: Any
     steepness: Steepness
     pitch_rate: float
+
+    @property
+    def progress(self) -> ProgressConfig:
+        """Configuration of P's motion, as a planar follower has it."""
+        return self.plane.progress
 
 
 class SpatialFollowerState(NamedTuple):
@@ -116,13 +129,16 @@ def first_state(config: SpatialFollower, approach: Any) -> SpatialFollowerState:
 
 
 @pure
-def point_on(path: SpatialRows, legs: int, approach: object, i: int, t: float) -> SpatialPoint:
-    """Return the point at t of subpath i: of the path, or of an approach at the path's first depth."""
+def point_on(
+    config: ProgressConfig, path: SpatialRows, legs: int, approach: object, i: int, t: float
+) -> SpatialPoint:
+    """Return the point at t of subpath i: of the path, or of an approach at the depth that it leads to."""
     if legs == 0:
         return evaluate_spatial(path, i, t)
     along = followed(path.plan, legs, approach)
     x, y, dx, dy, ddx, ddy = evaluate(along, along.subpath[i], t)
-    return SpatialPoint(x, y, evaluate_spatial(path, 0, 0.0).z, dx, dy, 0.0, ddx, ddy, 0.0)
+    first, at = beginning(config)
+    return SpatialPoint(x, y, evaluate_spatial(path, first, at).z, dx, dy, 0.0, ddx, ddy, 0.0)
 
 
 @pure
@@ -155,7 +171,7 @@ def follow_spatial(
     i, t, finished, legs, joined, switched = move(
         plane.progress, path.plan, progress, level, flow.Ur, over_ground, dt, navigation.z
     )
-    point = point_on(path, legs, progress.approach, i, t)
+    point = point_on(plane.progress, path, legs, progress.approach, i, t)
     tangent = tangent_of(point)
     xe, ye, ze = errors_from(navigation, point, tangent)
     Vt, _, Vb = current_along(current, tangent.chi, tangent.gamma)
@@ -175,7 +191,7 @@ def follow_spatial(
     progress = settled(plane.progress, P, legs, way, joined, off, level)
     approach = approach_to_go(legs, way, i, t)
     if legs > 0:
-        i, t = 0, 0.0
+        i, t = beginning(plane.progress)
     return SpatialFollowerState(progress, law, vertical), SpatialOutput(
         wrap(psi_d), r_d, theta_d, q_d, xe, ye, ze, wrap(navigation.psi - psi_d), navigation.theta - theta_d,
         i + t, i, point.x, point.y, point.z, tangent.chi, tangent.gamma, U_P, depth, approach, switched,
@@ -202,13 +218,13 @@ def look_spatial(
     """
     P, legs, way, planned, joined, x, y = state.progress
     i, t = P.i, P.t
-    point = point_on(path, legs, way, i, t)
+    point = point_on(config.plane.progress, path, legs, way, i, t)
     tangent = tangent_of(point)
     xe, ye, ze = errors_from(navigation, point, tangent)
     progress = Progress(VirtualPoint(i, t, 0.0, 0.0, P.finished), legs, way, planned, joined, x, y)
     approach = approach_to_go(legs, way, i, t)
     if legs > 0:
-        i, t = 0, 0.0
+        i, t = beginning(config.plane.progress)
     return SpatialFollowerState(progress, state.law, state.vertical), SpatialOutput(
         navigation.psi, 0.0, 0.0, 0.0, xe, ye, ze, 0.0, navigation.theta, i + t, i, point.x, point.y,
         point.z, tangent.chi, tangent.gamma, 0.0, point.z, approach, False, P.finished,

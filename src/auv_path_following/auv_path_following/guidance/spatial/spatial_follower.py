@@ -20,7 +20,9 @@ from auv_path_following.vehicle import Vehicle
 CURRENT_SHARE = 0.95
 
 
-def prepare(config: PathFollowerConfig, vehicle: Vehicle, thrust: float, mode: Any) -> SpatialFollower:
+def prepare(
+    config: PathFollowerConfig, vehicle: Vehicle, thrust: float, mode: Any, begins_at: float = 0.0
+) -> SpatialFollower:
     """Return the configuration of guidance.
 
     Args:
@@ -28,11 +30,12 @@ def prepare(config: PathFollowerConfig, vehicle: Vehicle, thrust: float, mode: A
         vehicle: hull and fins.
         thrust: of the mission, N.
         mode: of `vertical_step`.
+        begins_at: path parameter s at which a mission begins, in [0, n).
 
     Raises:
         ConfigurationError: the vehicle's file lacks what the pitch autopilot needs.
     """
-    plane = path_follower.prepare(config, agility_of(vehicle, thrust))
+    plane = path_follower.prepare(config, agility_of(vehicle, thrust), begins_at)
     law = VerticalLaw(float(config.vertical.lookahead), CURRENT_SHARE, plane.minimum_speed)
     rate = agility_of(pitch_plane_of(vehicle), thrust).turn_rate
     return SpatialFollower(plane, law, mode, steepest_of(vehicle, thrust), rate)

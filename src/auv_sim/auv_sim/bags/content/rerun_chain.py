@@ -91,6 +91,6 @@ class Chain:
         """
         measured = self._course.measured(inputs, self._to_go, now)
         self._state, out = pilots.pilot_step(self._config, self._course.rows, self._state, measured, dt)
-        self._to_go = distance_to_go(self._course.path, self.guiding.follower)
+        self._to_go = distance_to_go(self._course.path, self.guide.follower.progress, self.guiding.follower)
         _, guided, reference, command = out
         return (*command, *self.readings.sent(guided, reference.thrust))

@@ -1,13 +1,17 @@
-"""Publication of the mission's state, with its reason in the log and the diagnostics."""
+"""Publication of the mission's state and status, with the reason in the log and the diagnostics."""
 
 from __future__ import annotations
 
+import math
+
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from rclpy.clock import Clock, ClockType
 from std_msgs.msg import String
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.mission_word import PERIOD, TIMES, MissionState
 from auv_msgs_py.node.runtime import SuiteNode
+from auv_path_following.missions.mission_file import Mission
 from auv_path_following.missions.mission_state import (
     HOLDING,
     NAVIGATION_LOST,
@@ -17,6 +21,11 @@ from auv_path_following.missions.mission_state import (
     is_surfacing,
     words,
 )
+
+_LEVELS: dict[MissionState | None, bytes] = {
+    MissionState.HOLDING: DiagnosticStatus.WARN,
+    MissionState.ABORTED: DiagnosticStatus.ERROR,
+}
 
 
 class MissionReport:
@@ -32,6 +41,13 @@ class MissionReport:
     def __init__(self, node: SuiteNode) -> None:
         self._node = node
         self._publisher = node.advertise(topics.MISSION_STATE)
+        self._status = node.advertise(topics.MISSION_STATUS)
+        self._status_at = -math.inf
+        self._facts: dict[str, str] = {}
+        #: Stamp of the first odometry of the mission, s; None before it.
+        self.begun_at: float | None = None
+        #: Flown share of the path.
+        self.flown = 0.0
         self._lockstep = bool(node.parameters.lockstep)
         self.word: MissionState | None = None
         self._cause = -1
@@ -39,6 +55,11 @@ class MissionReport:
         self._published = 0.0
         if not self._lockstep:
             node.create_timer(PERIOD, self._publish, clock=Clock(clock_type=ClockType.STEADY_TIME))
+
+    def describe(self, mission: Mission, length: float) -> None:
+        """Take the mission that is reported from now on; `length` of its path, m."""
+        self._facts = {"mission": mission.name, "digest": mission.digest, "length [m]": f"{length:.3f}"}
+        self.begun_at, self.flown, self._status_at = None, 0.0, -math.inf
 
     def values(self) -> dict[str, str]:
         """Return state and reason, for the diagnostics."""
@@ -58,6 +79,7 @@ class MissionReport:
         stopped = surfaces or word in (MissionState.HOLDING, MissionState.ABORTED)
         health.error("mission", "")
         health.error("mission", f"{word.value}: {self.reason}" if stopped else "", log=False)
+        self._status_at = -math.inf
         for _ in range(TIMES):
             self._publish()
         self._node.get_logger().info(f"{word.value}: {self.reason}")
@@ -76,6 +98,24 @@ class MissionReport:
             self._publish()
 
     def _publish(self) -> None:
-        self._published = self._node.now()
-        if self.word is not None:
-            self._publisher.publish(String(data=self.word.value))
+        now = self._published = self._node.now()
+        if self.word is None:
+            return
+        self._publisher.publish(String(data=self.word.value))
+        # In lockstep a state without thrust is published with every answer; its status once a second.
+        if abs(now - self._status_at) >= PERIOD or not self._lockstep:
+            self._status_at = now
+            self._status.publish(self.status())
+
+    def status(self) -> DiagnosticStatus:
+        """Return the message `mission_status`."""
+        begun = "" if self.begun_at is None else f"{self.begun_at:.9f}"
+        values = {"state": str(self.word or ""), "reason": self.reason, **self._facts}
+        values |= {"begun at [s]": begun, "flown share": f"{self.flown:.6f}"}
+        return DiagnosticStatus(
+            level=_LEVELS.get(self.word, DiagnosticStatus.OK),
+            name="mission",
+            message=f"{self.word}: {self.reason}",
+            hardware_id=self._node.get_namespace(),
+            values=[KeyValue(key=key, value=value) for key, value in values.items()],
+        )

@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from rclpy.parameter import Parameter
 from std_srvs.srv import Trigger
 
 from auv_msgs_py.contract import topics
@@ -26,11 +25,14 @@ from auv_path_following.guidance.guide import (
     first_state,
     guide,
     reconfigured,
+    resume,
     start,
 )
+from auv_path_following.guidance.path_follower import distance_to_go
 from auv_path_following.missions import mission_state as states
 from auv_path_following.missions.mission_state import MissionStatus
-from auv_path_following.nodes.mission_report import MissionReport
+from auv_path_following.nodes.mission.flown_length import FlownLength
+from auv_path_following.nodes.mission.mission_report import MissionReport
 
 
 class MissionKeeper:
@@ -49,10 +51,39 @@ class MissionKeeper:
         self._last_usable: float | None = None
         self._place, self._placed_at = (0.0, 0.0), -math.inf
         self._clock_went_back = False
+        #: Whether a mission was taken that has not begun yet.
+        self._is_new = False
         self.report = MissionReport(node)
+        self._describe()
+
+    def take(self, course: PlanarCourse) -> None:
+        """Take another mission; it begins with the next start, or when the operator's hold ends."""
+        self._course, self._is_new = course, True
+        self.config = self._prepared()
+        self.state = at_the_beginning(self.config, self.state.mission, empty_approach())
+        self._describe()
+
+    @property
+    def refuses_missions(self) -> str:
+        """Why no other mission can be taken now; empty where one can."""
+        mission = self.state.mission
+        is_free = not states.is_under_way(mission) or states.is_held(mission)
+        return "" if is_free else f"a change while a mission is {states.STATES[mission.state].value}"
+
+    @property
+    def next_service(self) -> str:
+        """Name of the service that begins the mission."""
+        return topics.RESUME_SERVICE if states.is_under_way(self.state.mission) else topics.START_SERVICE
+
+    @property
+    def to_go(self) -> float:
+        """Length of path that is left, the rest of an approach included, m."""
+        return distance_to_go(self._course.path, self.config.follower.progress, self.state.follower)
 
     def offer(self) -> None:
         """Offer the services, and start the watchdog of navigation."""
+        self._node.create_service(Trigger, topics.HOLD_SERVICE, self._on_hold)
+        self._node.create_service(Trigger, topics.RESUME_SERVICE, self._on_resume)
         self._node.create_service(Trigger, topics.START_SERVICE, self._on_start)
         self._node.create_service(Trigger, topics.ABORT_SERVICE, self._on_abort)
         if not self._node.parameters.lockstep:
@@ -63,21 +94,14 @@ class MissionKeeper:
         self.config = self._prepared()
         self.state = reconfigured(self.config, self.state)
 
-    def take_switching(self) -> None:
-        """Set the parameters to the mission's switching, where it can be seen and changed."""
-        parameters = self._node.parameters
-        switching = parameters.with_mission_overrides(self._course.mission).guidance.switching
-        if switching != parameters.guidance.switching:
-            mode = Parameter("guidance.switching.mode", value=switching.mode)
-            radius = Parameter("guidance.switching.radius", value=switching.radius)
-            self._node.set_parameters([mode, radius])
-
     def step(self, measured: Any, current: Any, dt: float) -> tuple[Any, float]:
         """Take one measurement, see `guide`; return the follower's result and the desired thrust, N."""
         self._place, self._placed_at = self._course.depth_and_heading(measured.navigation), measured.now
+        jumps = self.state.rejoins or self.state.begins or measured.moved
         self.state, output, thrust, has_resumed = guide(
             self.config, self._course.rows, self.state, measured, current, dt
         )
+        self._count(measured.now, jumps or has_resumed or thrust == 0.0 or output.approach > 0.0)
         if measured.has_water or surfaces(self.state.guard):
             self._last_usable = measured.now
         if has_resumed:
@@ -103,6 +127,33 @@ class MissionKeeper:
         response.message = self.report.reason if response.success else f"already {self.report.word}"
         return response
 
+    def _on_hold(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        before = self.state.mission
+        self._become(states.held(before))
+        response.success = states.is_held(self.state.mission)
+        is_new = response.success and not states.is_held(before)
+        response.message = self.report.reason if is_new else f"already {self.report.word}"
+        return response
+
+    def _on_resume(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        if not states.is_held(self.state.mission):
+            response.message = f"{self.report.word}: no hold that the service hold began"
+        elif self._is_blind:
+            response.message = "no usable navigation"
+        else:
+            self.state = resume(self.state)
+            if self._is_new:
+                self._begin(True)
+            self.report.publish(self.state.mission)
+            response.success, response.message = True, self.report.reason
+        return response
+
+    @property
+    def _is_blind(self) -> bool:
+        """Whether navigation is missing for longer than a mission runs without it."""
+        since = self._node.now() - (self._last_usable if self._last_usable is not None else math.inf)
+        return not self._node.parameters.lockstep and since > self.config.hold_after
+
     def _on_abort(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         mission, before = self.state.mission, self.state.guard
         guard, mission = asked_to_abort(self.config.guard, before, mission, self._place)
@@ -115,8 +166,22 @@ class MissionKeeper:
     def _begin(self, by_request: bool) -> None:
         """Go to the beginning of the path, after a start or a restart of time."""
         self.state = at_the_beginning(self.config, self.state.mission, empty_approach())
-        self._last_usable, self._clock_went_back = None, False
+        self._last_usable, self._clock_went_back, self._is_new = None, False, False
+        self._describe()
         self._begins(by_request)
+
+    def _describe(self) -> None:
+        """Begin a report of the course's mission."""
+        self._flown = FlownLength(self._course.path.length)
+        self.report.describe(self._course.mission, self._course.path.length)
+
+    def _count(self, now: float, jumps: bool) -> None:
+        """Count what was flown up to the measurement of `now`, s."""
+        report = self.report
+        if report.begun_at is None and self.state.mission.state == states.RUNNING:
+            report.begun_at = now
+        self._flown.update(self.to_go, jumps)
+        report.flown = self._flown.share
 
     def _watch(self) -> None:
         """Hold a mission without usable navigation, and end one that holds for too long."""

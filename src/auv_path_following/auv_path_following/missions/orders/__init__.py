@@ -1,0 +1,1 @@
+"""What an operator orders: where a mission begins, and a goal instead of a mission file."""

@@ -1,0 +1,1 @@
+"""The mission in the guidance node: chosen, kept, reported and posted."""
