@@ -71,7 +71,9 @@ class GuidanceParameters(NavigationParameters):
 
     mission: str = setting("paper_composite", "mission file, or the name of a shipped one", live=True)
     mission_text: str = setting(
-        "", "instead of `mission`: the content of a mission file, without waypoint files beside it", live=True
+        "",
+        "instead of `mission`, which is then empty: the content of a mission file, without waypoint files",
+        live=True,
     )
     start_at: str = setting(
         "", "where the mission begins: `subpath 3`, or `120 m` along the path; empty: its start", live=True

@@ -53,8 +53,6 @@ class GuidanceNode(SuiteNode):
             self.keeper.take(self._choice.course)
             self._to_go = self._choice.course.path.length
             self._post()
-            if self.parameters.mission_text and self._choice.has_other_text:
-                self.set_parameters([Parameter("mission_text", value="")])
             return
         self.keeper.configure()
         self._input.odometry.configure()
@@ -66,6 +64,8 @@ class GuidanceNode(SuiteNode):
         for notice in course.mission.notices:
             self.get_logger().info(notice)
         self._switching.take(course.mission)
+        if other := self._choice.empty_again(self.parameters):
+            self.set_parameters([Parameter(other, value="")])
 
     def waiting_for(self) -> str:
         return self.gate_waits_for() or ", ".join(self._input.missing)

@@ -28,7 +28,7 @@ class MissionChoice:
 
     def __init__(self, parameters: GuidanceParameters) -> None:
         self._hull = vehicle.load(parameters.vehicle)
-        self._chosen = parameters.mission, parameters.mission_text
+        self._chosen = ("", parameters.mission_text) if parameters.mission_text else (parameters.mission, "")
         self._start_at = parameters.start_at
         self.course = self._course_of(*self._chosen)
         self._next: tuple[GuidanceParameters, PublishedCourse] | None = None
@@ -67,17 +67,17 @@ class MissionChoice:
         self.course, self._next = self._next[1], None
         return True
 
-    @property
-    def has_other_text(self) -> bool:
-        """Whether the parameter `mission_text` no longer holds what is flown: `mission` was set after it."""
-        return not self._chosen[1]
+    def empty_again(self, parameters: GuidanceParameters) -> str:
+        """Return which of `mission` and `mission_text` is set and not flown; empty if neither is."""
+        if self._chosen[1]:
+            return "mission" if parameters.mission else ""
+        return "mission_text" if parameters.mission_text else ""
 
     def _named(self, parameters: GuidanceParameters) -> tuple[str, str]:
-        """Return the mission's name and text; of two the one that changes, and else the text, counts."""
+        """Return the mission's name and text, one of them empty: of two that are set the newer one counts."""
         name, text = parameters.mission, parameters.mission_text
-        if name != self._chosen[0] and text == self._chosen[1]:
-            text = ""
-        return name, text
+        is_older = text == self._chosen[1] and name not in ("", self._chosen[0])
+        return ("", text) if text and not is_older else (name, "")
 
     def _course_of(self, name: str, text: str) -> PublishedCourse:
         read: Callable[..., Mission] = mission_file.read_text if text else mission_file.load

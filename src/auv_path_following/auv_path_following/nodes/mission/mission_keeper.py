@@ -179,7 +179,7 @@ class MissionKeeper:
         """Count what was flown up to the measurement of `now`, s."""
         report = self.report
         if report.begun_at is None and self.state.mission.state == states.RUNNING:
-            report.begun_at = now
+            report.begins(now)
         self._flown.update(self.to_go, jumps)
         report.flown = self._flown.share
 

@@ -59,7 +59,14 @@ class MissionReport:
     def describe(self, mission: Mission, length: float) -> None:
         """Take the mission that is reported from now on; `length` of its path, m."""
         self._facts = {"mission": mission.name, "digest": mission.digest, "length [m]": f"{length:.3f}"}
-        self.begun_at, self.flown, self._status_at = None, 0.0, -math.inf
+        self.begun_at, self.flown = None, 0.0
+        if self.word is not None:
+            self._publish_status(self._node.now())
+
+    def begins(self, stamp: float) -> None:
+        """Take the first odometry of the mission, s."""
+        self.begun_at = stamp
+        self._publish_status(self._node.now())
 
     def values(self) -> dict[str, str]:
         """Return state and reason, for the diagnostics."""
@@ -104,8 +111,11 @@ class MissionReport:
         self._publisher.publish(String(data=self.word.value))
         # In lockstep a state without thrust is published with every answer; its status once a second.
         if abs(now - self._status_at) >= PERIOD or not self._lockstep:
-            self._status_at = now
-            self._status.publish(self.status())
+            self._publish_status(now)
+
+    def _publish_status(self, now: float) -> None:
+        self._status_at = now
+        self._status.publish(self.status())
 
     def status(self) -> DiagnosticStatus:
         """Return the message `mission_status`."""
