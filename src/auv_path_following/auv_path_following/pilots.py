@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from auv_msgs_py.values.pure import dispatched
 from auv_path_following.control import autopilot, diving_autopilot
-from auv_path_following.control.autopilot import AutopilotConfig
+from auv_path_following.control.autopilot import Autopilot, AutopilotConfig
+from auv_path_following.control.diving_autopilot import DivingAutopilot
 from auv_path_following.guidance.guide import Guide
 from auv_path_following.guidance.spatial.spatial_follow import SpatialFollower
 from auv_path_following.navigation.current_observer import Observer
@@ -17,6 +18,9 @@ pilot_step = dispatched({Pilot: pilot, SpatialPilot: spatial_pilot})
 #: State before a mission, and of a mission that has just been started: (configuration, approach) -> state.
 pilot_waits = dispatched({Pilot: first_state, SpatialPilot: spatial_first_state})
 pilot_begins = dispatched({Pilot: begun, SpatialPilot: spatial_begun})
+
+#: (configuration of the autopilot, its state) -> its state for the configuration.
+autopilot_kept = dispatched({Autopilot: autopilot.kept, DivingAutopilot: diving_autopilot.both_kept})
 
 
 def prepare(

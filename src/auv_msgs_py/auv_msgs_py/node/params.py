@@ -93,6 +93,7 @@ def _accept_changes(
     pending: list[T] = [current]
 
     def check(parameters: list[Parameter]) -> SetParametersResult:
+        node.get_clock()  # in lockstep this sets the time with which rclpy stamps the event of the change
         # Registered last, hence called first: rclpy's own callback would switch the clock at once, and a node
         # whose time jumps by decades refuses every later odometry as old.
         for parameter in parameters:

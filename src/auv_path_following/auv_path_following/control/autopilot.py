@@ -166,6 +166,12 @@ def steer(
     )
 
 
+def kept(config: Autopilot, state: AutopilotState) -> AutopilotState:
+    """Return the state for a new configuration: that of another controller is reset, the rest is kept."""
+    is_same = type(state.controller) is type(config.controller_begins)
+    return state if is_same else state._replace(controller=config.controller_begins)
+
+
 class HeadingAutopilot:
     """The autopilot of one vehicle: configuration and state.
 
@@ -188,10 +194,8 @@ class HeadingAutopilot:
         Raises:
             ConfigurationError: as the constructor; nothing is changed.
         """
-        prepared = prepare(config, self.vehicle)
-        if type(prepared.controller) is not type(self.config.controller):
-            self.state = self.state._replace(controller=prepared.controller_begins)
-        self.config = prepared
+        self.config = prepare(config, self.vehicle)
+        self.state = kept(self.config, self.state)
 
     def reset(self) -> None:
         """Reset the state."""

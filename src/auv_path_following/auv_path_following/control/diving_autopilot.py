@@ -14,7 +14,7 @@ from auv_msgs_py.values.types import (
     SpatialReference,
 )
 from auv_path_following.control import autopilot
-from auv_path_following.control.autopilot import Autopilot, AutopilotConfig, AutopilotState, steer
+from auv_path_following.control.autopilot import Autopilot, AutopilotConfig, AutopilotState, kept, steer
 from auv_path_following.control.pitch_plane import pitch_plane_of
 from auv_path_following.vehicle import Vehicle
 
@@ -83,6 +83,11 @@ def steer_both(
     return DivingAutopilotState(heading, pitch), SpatialCommand(turned.rudder, tilted.rudder, turned.thrust)
 
 
+def both_kept(config: DivingAutopilot, state: DivingAutopilotState) -> DivingAutopilotState:
+    """Return the state for a new configuration, see `autopilot.kept`."""
+    return DivingAutopilotState(*(kept(one, was) for one, was in zip(config, state, strict=True)))
+
+
 class SpatialAutopilot:
     """The autopilots of one vehicle that dives: configuration and state.
 
@@ -105,14 +110,8 @@ class SpatialAutopilot:
         Raises:
             ConfigurationError: as the constructor; nothing is changed.
         """
-        prepared = prepare(heading, pitch, self.vehicle)
-        states = [
-            state
-            if type(after.controller) is type(before.controller)
-            else state._replace(controller=after.controller_begins)
-            for state, before, after in zip(self.state, self.config, prepared, strict=True)
-        ]
-        self.config, self.state = prepared, DivingAutopilotState(*states)
+        self.config = prepare(heading, pitch, self.vehicle)
+        self.state = both_kept(self.config, self.state)
 
     def reset(self) -> None:
         """Reset the state."""

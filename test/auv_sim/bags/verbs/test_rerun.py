@@ -76,7 +76,8 @@ def run_directory(tmp_path_factory: pytest.TempPathFactory) -> Path:
     parameters = params_file.load(config_files.find("params", "paper"), SUITE)
     plain = params_file.as_ros(parameters)
     for body in plain.values():
-        body["ros__parameters"]["lockstep"] = True
+        if "lockstep" in body["ros__parameters"]:
+            body["ros__parameters"]["lockstep"] = True
     yaml_file.dump(plain, config / "params.yaml")
     hull = vehicle.load(str(config / "vehicle.yaml"))
     mission = mission_file.load(str(config / "mission.yaml"), hull)

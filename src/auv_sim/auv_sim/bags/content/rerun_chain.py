@@ -9,7 +9,7 @@ from auv_msgs_py.contract import topics
 from auv_path_following import pilots
 from auv_path_following.course import course_of
 from auv_path_following.guidance.approach import empty_approach
-from auv_path_following.guidance.guide import GuideState
+from auv_path_following.guidance.guide import GuideState, at_the_beginning, reconfigured
 from auv_path_following.guidance.path_follower import distance_to_go
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.navigation import current_observer
@@ -52,9 +52,17 @@ class Chain:
         mission: Mission,
         vehicle: Vehicle,
     ) -> None:
-        self._course, self.readings = course_of(mission, vehicle), readings_of(vehicle)
-        self.with_altitude = self._course.with_altitude
+        self.readings = readings_of(vehicle)
         self.answered = tuple(topic.name for topic in (*self.readings.commands, *self.readings.references))
+        self._prepare(parameters, guidance, mission, vehicle)
+        self._state: Any = None
+        self.restart()
+
+    def _prepare(
+        self, parameters: dict[str, Any], guidance: GuidanceParameters, mission: Mission, vehicle: Vehicle
+    ) -> None:
+        self._course = course_of(mission, vehicle)
+        self.with_altitude = self._course.with_altitude
         # The recording says when a mission ran, but not that it ascended: to that, a limit of a dive leads.
         self.guide = self._course.prepare(guidance, is_limited=vehicle.dives)
         self._to_go: float = self._course.path.length
@@ -64,8 +72,22 @@ class Chain:
         gap = math.inf if guidance.lockstep else steering.odometry_timeout
         gains = steering.autopilot, steering.pitch
         self._config = pilots.prepare(observer, self.guide, *gains, vehicle, gap, by_wire=True)
-        self._state: Any = None
-        self.restart()
+
+    def change(
+        self, parameters: dict[str, Any], guidance: GuidanceParameters, mission: Mission, vehicle: Vehicle
+    ) -> None:
+        """Take other parameters in flight, as the nodes do; arguments as for the class."""
+        same = mission is self._course.mission
+        self._prepare(parameters, guidance, mission, vehicle)
+        before = self._state
+        guiding, steering = before.guide, before.autopilot
+        if same:
+            guiding = reconfigured(self.guide, guiding)
+        else:
+            guiding = at_the_beginning(self.guide, guiding.mission, empty_approach())
+            self._to_go = self._course.path.length
+        steering = pilots.autopilot_kept(self._config.autopilot, steering)
+        self._state = before._replace(guide=guiding, autopilot=steering)
 
     def restart(self) -> None:
         """Take the state before a mission."""

@@ -6,7 +6,7 @@ It includes the conversions of the wire: an angle that was sent as yaw_enu diffe
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from typing import Any, NamedTuple
@@ -23,9 +23,11 @@ from auv_msgs_py.contract.stamps import StampGuard, StampVerdict
 from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
 from auv_path_following.guidance.approach import empty_approach
 from auv_path_following.guidance.guide import at_the_beginning
+from auv_path_following.missions import mission_file
 from auv_path_following.missions import mission_state as states
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
+from auv_sim.bags.content.parameter_changes import MISSION_NAMES, Change, changed
 from auv_sim.bags.content.rerun_chain import Chain, Sensed
 from auv_sim.bags.reading.beside import Beside
 from auv_sim.bags.reading.deserialize import deserializer
@@ -64,7 +66,12 @@ class _Phase(NamedTuple):
 
 
 def answers(
-    bag: Bag, parameters: dict[str, Any], mission: Mission, vehicle: Vehicle, namespace: str | None
+    bag: Bag,
+    parameters: dict[str, Any],
+    mission: Mission,
+    vehicle: Vehicle,
+    namespace: str | None,
+    changes: Sequence[Change] = (),
 ) -> Answers:
     """Feed a recording's sensors to the pilot.
 
@@ -73,6 +80,7 @@ def answers(
         parameters: node name -> settings.
         mission, vehicle: of the flight.
         namespace: of the vehicle.
+        changes: of parameters in flight, in their order.
 
     Raises:
         ConfigurationError: the recording has no odometry, or several vehicles.
@@ -89,12 +97,7 @@ def answers(
     names = rerun.answered
     recorded = {name: _column(bag, name, namespace, log_ns, lockstep) for name in names}
     running = _running(bag, namespace, recorded[topics.DESIRED_THRUST.name])
-    rows, kept = [], []
-    for k, step in enumerate(steps):
-        answer = rerun.step(step, running[k])
-        if answer is not None:
-            rows.append(answer)
-            kept.append(k)
+    rows, kept = _rows(rerun, zip(steps, running, strict=True), changes, lockstep)
     columns = np.array(rows, np.float64).reshape(-1, len(names))
     return Answers(
         np.array([steps[k].stamp for k in kept]) * 1e-9,
@@ -103,10 +106,28 @@ def answers(
     )
 
 
+def _rows(
+    rerun: _RerunPilot, steps: Iterable[tuple[_Step, _Phase]], changes: Sequence[Change], lockstep: bool
+) -> tuple[list[tuple[float, ...]], list[int]]:
+    """Return the answers, and the indices of the odometries that have one."""
+    rows, kept, left = [], [], list(reversed(changes))
+    for k, (step, phase) in enumerate(steps):
+        while left and left[-1].is_before(step.stamp, step.log_ns, lockstep):
+            rerun.change(left.pop())
+        answer = rerun.step(step, phase)
+        if answer is not None:
+            rows.append(answer)
+            kept.append(k)
+    return rows, kept
+
+
 class _RerunPilot:
     """The pilot, with the recorded phases of the mission."""
 
     def __init__(self, parameters: dict[str, Any], mission: Mission, vehicle: Vehicle) -> None:
+        self._parameters, self._mission, self._vehicle = dict(parameters), mission, vehicle
+        #: Whether a mission was set that has not begun yet.
+        self._is_new = False
         guidance = parameters[topics.GUIDANCE].with_mission_overrides(mission)
         self._chain = Chain(parameters, guidance, mission, vehicle)
         self._frames = FrameTable(guidance.frames)
@@ -117,9 +138,28 @@ class _RerunPilot:
         """Names of the topics of an answer."""
         return self._chain.answered
 
+    def change(self, change: Change) -> None:
+        """Take parameters that were changed in flight.
+
+        Raises:
+            ConfigurationError: a mission that was set cannot be read any more.
+        """
+        self._parameters[change.node] = changed(self._parameters[change.node], change.values)
+        if change.node == topics.GUIDANCE:
+            text, name = (change.values.get(key, "") for key in ("mission_text", "mission"))
+            if text or name:
+                read = mission_file.read_text if text else mission_file.load
+                self._mission = read(text or name, self._vehicle)
+            self._is_new = self._is_new or not set(MISSION_NAMES).isdisjoint(change.values)
+        guidance = self._parameters[topics.GUIDANCE].with_mission_overrides(self._mission)
+        self._chain.change(self._parameters, guidance, self._mission, self._vehicle)
+
     def step(self, step: _Step, phase: _Phase) -> tuple[float, ...] | None:
         """Return the answer; None for an odometry that the nodes refuse, too."""
         chain = self._chain
+        if self._is_new and phase.resumes:
+            phase = phase._replace(begins=True, resumes=False)
+        self._is_new = self._is_new and not phase.begins
         if phase.begins:
             running = states.MissionStatus(states.RUNNING)
             chain.guiding = at_the_beginning(chain.guide, running, empty_approach())

@@ -1,7 +1,8 @@
 """Feed the recorded sensors through observer, guidance and autopilot again, as fast as possible and
-without a plant, and compare the commands with the recorded ones. With unchanged parameters a lockstep
-recording gives the same bits; with other gains it shows what they would have commanded in the same situation.
-The recorded vehicle does not follow the new commands, so a law that integrates (NISM) drifts away from them.
+without a plant, and compare the commands with the recorded ones. Parameters and missions that were set in
+flight are set again. A lockstep recording gives the same bits; other gains show what they would have
+commanded in the same situation. The recorded vehicle does not follow the new commands, so a law that
+integrates (NISM) drifts away from them.
 """
 
 from __future__ import annotations
@@ -24,16 +25,18 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files, vehicle
 from auv_path_following.missions import mission_file
 from auv_sim.bags.content.flown_settings import dotted
+from auv_sim.bags.content.parameter_changes import PARAMETER_EVENTS, changes_in, chosen
 from auv_sim.bags.content.recorded_mission import MISSION, PARAMS, configuration, controller_model
 from auv_sim.bags.content.rerun_pilot import Answers, answers
 from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.load import is_used
+from auv_sim.bags.reading.recording import Bag
 from auv_sim.bags.verbs.arguments import add_choice
 from auv_sim.command_line import target
 from auv_sim.sim_parameters import SUITE
 from auv_sim.terminal import console as terminal
 
-_FURTHER = {topics.MISSION_STATE.name, topics.DESIRED_THRUST.name, topics.ALTITUDE.name}
+_FURTHER = {topics.MISSION_STATE.name, topics.DESIRED_THRUST.name, topics.ALTITUDE.name, PARAMETER_EVENTS}
 _DEGREES = (
     topics.RUDDER_CMD.name, topics.DESIRED_YAW.name, topics.DESIRED_YAW_RATE.name,
     topics.STERNPLANE_CMD.name, topics.DESIRED_PITCH.name, topics.DESIRED_PITCH_RATE.name,
@@ -107,24 +110,24 @@ def rerun(
     bag = read_bag(path, _is_needed, odometry)
     with configuration(bag) as directory:
         parameters = _parameters(directory / PARAMS, params)
-        chosen = {}
-        recorded = {
-            "missions": (directory / MISSION, mission),
-            "vehicles": (controller_model(directory), hull),
-        }
-        for kind, (file, given) in recorded.items():
-            if given is not None:
-                chosen[kind] = config_files.find(kind, given)  # type: ignore[arg-type]
-            elif file.exists():
-                chosen[kind] = file
-            else:
-                option = f"--{kind[:-1]}"
-                raise ConfigurationError(
-                    str(bag.path), f"no {file.name} in or beside the recording", f"{option} FILE"
-                )
-        known = vehicle.load(str(chosen["vehicles"]))
-        flown = mission_file.load(str(chosen["missions"]), known)
-        return answers(bag, parameters, flown, known, namespace)
+        known = vehicle.load(str(_file(bag, "vehicles", controller_model(directory), hull)))
+        flown = mission_file.load(str(_file(bag, "missions", directory / MISSION, mission)), known)
+        changes = chosen(changes_in(bag, namespace), gains=params is None, mission=mission is None)
+        return answers(bag, parameters, flown, known, namespace, changes)
+
+
+def _file(bag: Bag, kind: config_files.Kind, recorded: Path, given: str | None) -> Path:
+    """Return the file that was given, or the recorded one.
+
+    Raises:
+        ConfigurationError: there is neither.
+    """
+    if given is not None:
+        return config_files.find(kind, given)
+    if not recorded.exists():
+        found = f"no {recorded.name} in or beside the recording"
+        raise ConfigurationError(str(bag.path), found, f"--{kind[:-1]} FILE")
+    return recorded
 
 
 def _is_needed(name: str, type_name: str) -> bool:

@@ -44,6 +44,7 @@ LOADED = (
     "auv_msgs_py.contract.wire",
     "diagnostic_msgs.msg",
     "rosgraph_msgs.msg",
+    "sensor_msgs.msg",
     "std_msgs.msg",
     "rcl_interfaces.msg",
     "rcl_interfaces.srv",

@@ -1,0 +1,131 @@
+"""An operator steers a flight over the graph; a rerun of its recording gives the same bits."""
+
+from __future__ import annotations
+
+import math
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from geometry_msgs.msg import PoseStamped
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import SetParametersAtomically
+
+from auv_msgs_py.contract import qos, topics
+from auv_sim.bags.reading.load import load_messages
+from auv_sim.bags.verbs.rerun import rerun
+from node_bench import Bench
+
+OTHER = """\
+version: 1
+name: other
+frame: ned
+thrust: 6.48
+segments: [{{line: {{start: [0, 0], length: 3000, course_deg: {course}}}}}]
+{more}
+"""
+
+
+class Operator:
+    """Another process as far as the graph can tell: services, parameters and topics."""
+
+    def __init__(self, bench: Bench) -> None:
+        self._bench = bench
+        self.call = bench.call
+        self.s = 0.0
+        self.state = ""
+        for topic, keep in ((topics.PATH_PARAMETER, self._at), (topics.MISSION_STATE, self._is)):
+            kind = qos.message_class(topic.type)
+            bench.node.create_subscription(
+                kind, topic.name, keep, qos.requested(topic, reliable=False, depth=1)
+            )
+        self.goal = bench.node.create_publisher(PoseStamped, "goal_pose", qos.offered(topics.GOAL_POSE))
+
+    def _at(self, message: Any) -> None:
+        self.s = message.data
+
+    def _is(self, message: Any) -> None:
+        self.state = message.data
+
+    def flies(self, after: float = 0.0) -> None:
+        """Wait until a new message says that the mission runs, and another that P is after a place."""
+        self.s, self.state = 0.0, ""
+        self._bench.until(lambda: self.state == "running" and self.s > after, 60.0)
+
+    def set(self, node: str, **values: Any) -> str:
+        """Set parameters; return why they were refused."""
+        client = self._bench.node.create_client(SetParametersAtomically, f"{node}/set_parameters_atomically")
+        self._bench.until(client.service_is_ready)
+        request = SetParametersAtomically.Request()
+        for name, value in values.items():
+            text = isinstance(value, str)
+            kind = ParameterType.PARAMETER_STRING if text else ParameterType.PARAMETER_DOUBLE
+            kind = ParameterType.PARAMETER_BOOL if isinstance(value, bool) else kind
+            found = ParameterValue(type=kind)
+            field = {1: "bool_value", 3: "double_value", 4: "string_value"}[kind]
+            setattr(found, field, value)
+            request.parameters.append(Parameter(name=name.replace("__", "."), value=found))
+        future = client.call_async(request)
+        self._bench.until(future.done)
+        return str(future.result().result.reason)
+
+
+def test_a_drill_is_recorded_and_flown_again_by_a_rerun(
+    bench: Bench,
+    domain: int,
+    tmp_path: Path,
+    command_line: Callable[..., list[str]],
+    spawn: Callable[..., subprocess.Popen[str]],
+) -> None:
+    run = tmp_path / "run"
+    operator = Operator(bench)
+    flight = spawn(
+        command_line("auv_sim.cli.mission", "--composed", "--domain", domain, "--out", run, "--quiet")
+    )
+    operator.flies(0.05)
+    assert operator.set(topics.GUIDANCE, mission_text="version: 1").startswith("mission_text: ")
+    assert operator.call("hold").success
+    assert operator.set(topics.AUTOPILOT, autopilot__nism__k1=0.55) == ""
+    assert "out of range" in operator.set(topics.AUTOPILOT, autopilot__nism__k1=-1.0)
+    assert operator.call("resume").success
+    operator.flies(0.1)
+    assert operator.call("hold").success
+    tight = OTHER.format(course=90, more="geofence: [[0, 0], [1, 0], [1, 1]]")
+    assert "geofence" in operator.set(topics.GUIDANCE, mission_text=tight)
+    assert operator.set(topics.GUIDANCE, mission_text=OTHER.format(course=90, more=""), start_at="50 m") == ""
+    assert operator.call("resume").success
+    operator.flies(51.0 / 3000.0)
+    assert operator.call("hold").success
+    assert operator.set(topics.GUIDANCE, accept_goal=True, start_at="") == ""
+    goal = PoseStamped()
+    goal.header.frame_id = "map"
+    goal.pose.position.x, goal.pose.position.y = 2000.0, 2000.0
+    goal.pose.orientation.w = 1.0
+    bench.until(operator.goal.get_subscription_count)
+    operator.goal.publish(goal)
+    bench.spin(0.5)
+    assert operator.call("resume").success
+    operator.flies(0.5)
+    assert operator.call("abort").success
+    assert flight.wait(60) == 1
+
+    statuses = [
+        {pair.key: pair.value for pair in message.values}
+        for _, message in load_messages(run / "bag", "mission_status")
+    ]
+    flown = list(dict.fromkeys((one["mission"], one["reason"]) for one in statuses))
+    assert flown == [
+        ("paper_composite", "waiting for the start service"), ("paper_composite", "started"),
+        ("paper_composite", "hold was called"), ("paper_composite", "resume was called"),
+        ("other", "hold was called"), ("other", "resume was called"),
+        ("goal", "hold was called"), ("goal", "resume was called"), ("goal", "abort was called"),
+    ]  # fmt: skip
+    again = rerun(run / "bag")
+    for name in ("rudder_cmd", "thrust_cmd", "desired_yaw", "path_parameter"):
+        recorded, new = again.recorded[name], again.new[name]
+        there = np.isfinite(recorded)
+        assert math.isfinite(recorded[there].sum()) and there.sum() > 200
+        differs = np.flatnonzero(recorded[there] != new[there])
+        assert differs.size == 0, (name, differs[:5], again.t[there][differs[:5]])
