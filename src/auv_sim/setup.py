@@ -58,6 +58,7 @@ setup(
         "console_scripts": [
             "remus_plant = auv_sim.nodes.plant_node:main",
             "recorder = auv_sim.nodes.recorder_node:main",
+            "fleet_clock = auv_sim.nodes.fleet.fleet_clock_node:main",
             "fault_relay = auv_sim.nodes.fault_relay:main",
             "check_vehicle = auv_sim.cli.check_vehicle:main",
             "mavlink_driver = auv_sim.nodes.mavlink.driver:main",

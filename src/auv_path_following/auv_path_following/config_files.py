@@ -9,7 +9,7 @@ from typing import Literal
 from auv_msgs_py.settings import user_files
 from auv_msgs_py.values.errors import ConfigurationError
 
-Kind = Literal["missions", "vehicles", "params", "seas", "studies"]
+Kind = Literal["missions", "vehicles", "params", "seas", "studies", "fleets"]
 
 _WORD: dict[Kind, str] = {
     "missions": "mission",
@@ -17,6 +17,7 @@ _WORD: dict[Kind, str] = {
     "params": "parameter",
     "seas": "sea",
     "studies": "study",
+    "fleets": "fleet",
 }
 
 

@@ -13,10 +13,12 @@ import typing
 from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
+from auv_msgs_py.contract import topics
 from auv_path_following.missions.mission_spec import MissionSpec
 from auv_path_following.parameters import NavigationParameters, NodeParameters
 from auv_path_following.vehicle import Vehicle
-from auv_sim.sim_parameters import SUITE, FaultRelayParameters
+from auv_sim.launch.fleet.fleet_file import Fleet
+from auv_sim.sim_parameters import SUITE, FaultRelayParameters, FleetClockParameters
 from auv_sim.studies.campaign.study_file import Study
 from auv_sim.vehicle.sea import Sea
 
@@ -56,12 +58,14 @@ def page() -> str:
     parts += _section(
         "Every node that reads the vehicle's navigation", _parameters(NavigationParameters, every)
     )
-    for name, cls in (SUITE | {"fault_relay": FaultRelayParameters}).items():
+    others = {"fault_relay": FaultRelayParameters, topics.FLEET_CLOCK: FleetClockParameters}
+    for name, cls in (SUITE | others).items():
         above = navigating if issubclass(cls, NavigationParameters) else every
         parts += _section(f"`{name}`", _parameters(cls, above))
     parts.append(_FILES)
     for title, cls in (
         ("Mission file", MissionSpec), ("Vehicle file", Vehicle), ("Sea file", Sea), ("Study", Study),
+        ("Fleet", Fleet),
     ):  # fmt: skip
         parts += _section(title, keys(cls))
     return "\n\n".join(parts) + "\n"

@@ -99,6 +99,9 @@ class PlantParameters(NodeParameters):
         ge=0.1,
         le=3600.0,
     )
+    shared_clock: bool = setting(
+        False, "one of several simulated vehicles, for which fleet_clock publishes /clock"
+    )
     world_frame: str = setting(
         "map", "frame id of the odometry; map and odom are ENU, map_ned and odom_ned NED"
     )
@@ -127,6 +130,9 @@ class RecorderParameters(NodeParameters):
     )
     contract: bool = setting(True, "record the wire contract, /rosout and /parameter_events from the start")
     sternplanes: bool = setting(False, "record the topics of a vehicle with stern planes as well")
+    shared_clock: bool = setting(
+        False, "lockstep: take the time from the vehicle_clock of a simulator with shared_clock"
+    )
     topics: str = setting("", "further topics: names, separated by spaces")
     regex: str = setting("", "further topics: regular expression for their full names")
     exclude: str = setting("", "regular expression for full names not to record, unless named elsewhere")
@@ -142,6 +148,15 @@ class RecorderParameters(NodeParameters):
     min_free_space: int = setting(
         200, "free space on the disk below which the recording is closed, MB; 0: never", ge=0, le=1_000_000
     )
+
+
+@settings
+class FleetClockParameters(NodeParameters):
+    """fleet_clock."""
+
+    vehicles: str = setting("", "the vehicles' namespaces, separated by spaces")
+    step: float = setting(0.05, "free running: period of /clock", unit="s", ge=0.001, le=1.0)
+    speed: float = setting(1.0, "free running: times real time", ge=0.01, le=1000.0)
 
 
 #: Faults of `fault_relay`; `auv_sim.nodes.fault_injection` describes each.

@@ -16,7 +16,7 @@ from hulls import REMUS
 class Simulator:
     """The part of the simulator that lockstep uses."""
 
-    parameters = SimpleNamespace(recorded=False, answer_timeout=0.0)
+    parameters = SimpleNamespace(recorded=False, shared_clock=False, answer_timeout=0.0)
     mission_running = True
     steps, stamp, fault = 7, 1_350_000_000, ""
 

@@ -11,6 +11,8 @@ AUTOPILOT = "heading_autopilot"
 RECORDER = "recorder"
 #: The node of `scripts/mission.py`.
 LAUNCHER = "mission_launcher"
+#: Publishes /clock for several simulated vehicles.
+FLEET_CLOCK = "fleet_clock"
 #: Shows the mission to people; no node waits for it.
 DISPLAY = "display"
 #: Replaces the simulator on a real vehicle.
@@ -77,6 +79,13 @@ GRAPH_CLAIMS = Topic("/graph_claims", "std_msgs/msg/String", "every launcher and
 #: them at once, so that no step waits for a timer.
 RECORD_REQUEST = Topic("record_request", "std_msgs/msg/UInt64", PLANT, (RECORDER,))
 
+#: Extension of the contract, a fleet in lockstep only: the time of this vehicle's step, in place of /clock,
+#: which `fleet_clock` publishes.
+VEHICLE_CLOCK = Topic("vehicle_clock", CLOCK.type, PLANT)
+#: Extension of the contract, a fleet only: the time up to which the nodes have answered this vehicle's steps,
+#: at least once in `FLEET_REPORT_NS`; not recorded.
+VEHICLE_PROGRESS = Topic("vehicle_progress", CLOCK.type, PLANT)
+
 # Of a vehicle with stern planes only; the others neither publish nor subscribe to them.
 STERNPLANE_CMD = Topic("sternplane_cmd", "std_msgs/msg/Float64", AUTOPILOT, (PLANT,))
 STERNPLANE_STATE = Topic("sternplane_state", "std_msgs/msg/Float64", PLANT)
@@ -122,3 +131,8 @@ RECORDING_REPORT = 8
 #: Interval between the simulator's requests to the recorder, steps: a third of the lead, or half of it with
 #: stern planes, so that the report is back before the lead is used up.
 RECORDING_REQUEST = 10
+
+#: Lockstep of a fleet: a vehicle reports its time when at least this much has passed, ns, and waits when it
+#: is `FLEET_LEAD_NS` ahead of /clock. The lead is at least one report and one step, so the last vehicle waits
+#: for nothing but its own report.
+FLEET_REPORT_NS, FLEET_LEAD_NS = 500_000_000, 1_000_000_000

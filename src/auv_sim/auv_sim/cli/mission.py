@@ -26,6 +26,9 @@ from auv_sim.command_line import (
 from auv_sim.launch.options import BY_RULE, DEFAULT_MISSION, DEFAULT_VEHICLE, DRIVERS, Options
 from auv_sim.launch.processes.adopted import Loader
 
+#: Options that concern a fleet as a whole.
+_OF_FLEET = ("speed", "out", "composed", "any_processor", "domain", "flown", "force", "quiet")
+
 
 def parser() -> Parser:
     """Return the command line's parser."""
@@ -142,12 +145,36 @@ def main(argv: Sequence[str] | None = None) -> int:
     Returns:
         The exit code: 0 complete, 1 failed, aborted or incomplete, 2 bad input, 130 interrupted.
     """
-    options = checked(vars(parser().parse_args(argv)))
+    given = vars(_parser_with_fleet().parse_args(argv))
+    if (fleet := given.pop("fleet")) is not None:
+        return _fly_fleet(fleet, given)
+    options = checked(given)
     with Loader() as loader:
         # While the loader loads for the nodes, this process loads for itself.
         from auv_sim.launch.mission_flight import fly
 
         return fly(options, loader)
+
+
+def _parser_with_fleet() -> Parser:
+    p = parser()
+    shipped = ", ".join(config_files.shipped("fleets"))
+    p.add_argument("--fleet", metavar="FILE", help=f"several vehicles: file or one of: {shipped}")
+    return p
+
+
+def _fly_fleet(fleet: str, given: dict[str, Any]) -> int:
+    """Fly a fleet; refuse the options that its file holds for each vehicle."""
+    for name, value in given.items():
+        if name not in _OF_FLEET and value != getattr(Options, name):
+            option = f"--{name.replace('_', '-')}"
+            raise ConfigurationError(
+                option, "together with --fleet", "it in the fleet's file, where it has it"
+            )
+    with Loader() as loader:
+        from auv_sim.launch.fleet.fleet_flight import fly
+
+        return fly(fleet, Options(**given), loader)
 
 
 def checked(given: dict[str, Any]) -> Options:

@@ -23,12 +23,12 @@ from auv_sim.launch.progress_display import ProgressDisplay
 from auv_sim.launch.vehicle_driver import EMULATOR, EMULATOR_MODULE
 
 #: Longest wall time for all nodes to discover each other, s.
-_DISCOVERY_BOUND = 60.0
+DISCOVERY_BOUND = 60.0
 #: Longest wall time until a foreign vehicle's first odometry, s.
 _VEHICLE_BOUND = 120.0
 #: Wall time without a step of the simulator after which the mission has failed, s. The simulator reports a
 #: node that does not answer well before; this bound covers what it cannot detect.
-_STALL_BOUND = 60.0
+STALL_BOUND = 60.0
 _COMPOSED = "composed"
 
 
@@ -114,6 +114,13 @@ def start_nodes(plan: Plan, children: Children, loader: Starter, parameters: Pat
         loader: of the nodes.
         parameters: file that `Plan.write` has written.
     """
+    if plan.emulator is not None:
+        children.start(EMULATOR, EMULATOR_MODULE, plan.emulator)
+    children.fork(loader, commands_of(plan, parameters))
+
+
+def commands_of(plan: Plan, parameters: Path) -> dict[str, tuple[str, list[str]]]:
+    """Return module and arguments of each process of a mission's nodes, by name."""
     sim_time = "true" if plan.use_sim_time else "false"
     ros = [
         "-r",
@@ -123,15 +130,13 @@ def start_nodes(plan: Plan, children: Children, loader: Starter, parameters: Pat
         "-p",
         f"use_sim_time:={sim_time}",
     ]
-    if plan.emulator is not None:
-        children.start(EMULATOR, EMULATOR_MODULE, plan.emulator)
     names = [name for name in NODES if name in plan.parameters]
     nodes = {name: (NODES[name].split(":")[0], ["--ros-args", *ros]) for name in names}
     if plan.options.composed:
         together = json.dumps(dict.fromkeys((name for name in names if name != topics.DISPLAY), ros))
         alone = {name: node for name, node in nodes.items() if name == topics.DISPLAY}
         nodes = {_COMPOSED: ("auv_sim.launch.composed", [together])} | alone
-    children.fork(loader, nodes)
+    return nodes
 
 
 class _Flight:
@@ -196,7 +201,7 @@ class _Flight:
     def _all_listening(self) -> bool:
         """Wait until every node subscribes to its topics; False when interrupted."""
         names = set(self._plan.parameters)
-        deadline = time.monotonic() + _DISCOVERY_BOUND
+        deadline = time.monotonic() + DISCOVERY_BOUND
         while not self._interrupt.requested:
             self._check_children()
             self._look.check()
@@ -205,7 +210,7 @@ class _Flight:
                 return True
             self._progress.waiting_for(", ".join(sorted(missing)))
             if time.monotonic() > deadline:
-                raise MissionFailed(f"no sign of {', '.join(sorted(missing))} within {_DISCOVERY_BOUND:g} s")
+                raise MissionFailed(f"no sign of {', '.join(sorted(missing))} within {DISCOVERY_BOUND:g} s")
             self._monitor.look(0.05)
         return False
 
@@ -233,9 +238,9 @@ class _Flight:
             m.look(0.1)
             if m.stamp != stamp:
                 moved_at, stamp = time.monotonic(), m.stamp
-            elif self._plan.options.simulator and time.monotonic() - moved_at > _STALL_BOUND:
+            elif self._plan.options.simulator and time.monotonic() - moved_at > STALL_BOUND:
                 raise MissionFailed(
-                    f"time stood still at {m.mission_time:.2f} s of the mission for {_STALL_BOUND:g} s"
+                    f"time stood still at {m.mission_time:.2f} s of the mission for {STALL_BOUND:g} s"
                 )
             self._progress.update(m.s, m.ye, m.mission_time, time.monotonic() - begin)
             if m.completed(self._plan.mission.path.n):

@@ -38,7 +38,8 @@ class Monitor:
     """
 
     def __init__(self, namespace: str) -> None:
-        rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+        if not rclpy.ok():  # another vehicle's monitor may have initialised it
+            rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
         self.node = Node(topics.LAUNCHER, namespace=namespace, start_parameter_services=False)
         self._executor = SingleThreadedExecutor()
         self._executor.add_node(self.node)
@@ -166,8 +167,12 @@ class Monitor:
         response = future.result()
         return "" if response.success else str(response.message)
 
-    def close(self) -> None:
-        """Leave the graph."""
+    def leave(self) -> None:
+        """Leave the graph; the monitors of other vehicles stay."""
         self._executor.shutdown()
         self.node.destroy_node()
+
+    def close(self) -> None:
+        """Leave the graph and end ROS."""
+        self.leave()
         rclpy.try_shutdown()

@@ -17,6 +17,7 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.pairing import Pairing
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.values.types import STOP
+from auv_sim.nodes.fleet.member import FleetMember
 from auv_sim.nodes.held_commands import Orders
 from auv_sim.nodes.wait_reports import WaitReports
 
@@ -27,6 +28,7 @@ class Simulator(Protocol):
     parameters: Any
     mission_running: bool
     steps: int
+    step_ns: int
     fault: str
 
     @property
@@ -67,6 +69,7 @@ class Lockstep:
         self._request = node.advertise(topics.RECORD_REQUEST) if node.parameters.recorded else None
         if node.parameters.recorded:
             node.listen(topics.RECORDED_STEPS, self._on_recorded)
+        self._fleet = FleetMember(node, self._proceed) if node.parameters.shared_clock else None
         node.create_timer(0.2, self._check, clock=Clock(clock_type=ClockType.STEADY_TIME))
 
     def waiting_for(self) -> str:
@@ -109,6 +112,9 @@ class Lockstep:
             return
         if self._node.parameters.recorded and self._published - self._recorded >= self._lead:
             return
+        node = self._node
+        if self._begun and self._fleet is not None and not self._fleet.may_take(node.step_ns, node.stamp):
+            return
         if self._begun:
             assert self._command is not None
             self._node.advance(self._command)
@@ -129,6 +135,8 @@ class Lockstep:
         """End the run, naming the culprit, when a step stays without an answer."""
         if self._node.fault:
             return
+        if self._fleet is not None:
+            self._fleet.repeat()
         if self._open_since is None:
             self._check_recorder()
             return

@@ -12,15 +12,15 @@ from std_srvs.srv import Trigger
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.claim import Claim, of_simulator
-from auv_msgs_py.contract.conversions import finite
+from auv_msgs_py.contract.conversions import finite, stamp_of
 from auv_msgs_py.contract.mission_word import MissionState, MissionWord
-from auv_msgs_py.contract.wire import Float64
+from auv_msgs_py.contract.wire import Clock, Float64
 from auv_msgs_py.node.run import run_nodes
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_path_following import vehicle
 from auv_sim.nodes.held_commands import HeldCommands, orders_of
 from auv_sim.nodes.lockstep import Lockstep
-from auv_sim.nodes.pacing import Pacer
+from auv_sim.nodes.pacing import PATIENCE, Pacer
 from auv_sim.nodes.vehicle_outputs import outputs_of
 from auv_sim.sim_parameters import PlantParameters
 from auv_sim.vehicle import sea
@@ -58,12 +58,14 @@ class RemusPlantNode(SuiteNode):
         self._outputs = outputs_of(self, self.simulated, at_sea)
         self.close_gate()
         self._lockstep = Lockstep(self, orders) if p.lockstep else None
-        self.pacer = None if p.lockstep else Pacer(p.step / p.speed)
+        self.pacer = None if p.lockstep or p.shared_clock else Pacer(p.step / p.speed)
         for topic in (topics.RUDDER_CMD, topics.THRUST_CMD, topics.STERNPLANE_CMD):
             if topic.name in orders.limits:
                 self.listen(topic, self._on_command(topic.name))
         self.listen(topics.MISSION_STATE, self._on_mission_state)
         self.create_service(Trigger, topics.RESET_SERVICE, self._on_reset)
+        if p.shared_clock and not p.lockstep:
+            self.listen(topics.CLOCK, self._on_clock)
         if self.pacer is not None:
             steady = ros_clock.Clock(clock_type=ros_clock.ClockType.STEADY_TIME)
             self.create_timer(self.pacer.ask_every, self._tick, clock=steady)
@@ -134,11 +136,23 @@ class RemusPlantNode(SuiteNode):
     def _tick(self) -> None:
         """Take the next step of a free run when the wall clock demands it."""
         assert self.pacer is not None
-        silent = self._at_rest and not self.parameters.publish_at_rest
-        if silent:
+        if self._silent:
             self.pacer.restart(time.monotonic())
-        if silent or not self.pacer.due(time.monotonic()):
+        elif self.pacer.due(time.monotonic()):
+            self._take_free_step()
+
+    def _on_clock(self, message: Clock) -> None:
+        """Take the steps that are due by the fleet's /clock; time that a slow machine loses is caught up."""
+        now = stamp_of(message.clock, topics.CLOCK.name)
+        if self._silent:
+            self.steps = max(0, now - topics.FIRST_STAMP_NS) // self.step_ns
             return
+        for _ in range(PATIENCE):
+            if self._begun and self.stamp + self.step_ns > now:
+                break
+            self._take_free_step()
+
+    def _take_free_step(self) -> None:
         self.command = self._held_command()
         if self._begun and self._at_rest and not self._reset_requested:
             self.steps += 1
@@ -146,6 +160,11 @@ class RemusPlantNode(SuiteNode):
             self.advance(self.command)
         self._begun = True
         self.publish_step()
+
+    @property
+    def _silent(self) -> bool:
+        """Whether nothing is published before the mission, and the vehicle waits for it."""
+        return self._at_rest and not self.parameters.publish_at_rest
 
     @property
     def _at_rest(self) -> bool:

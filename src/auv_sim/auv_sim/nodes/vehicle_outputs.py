@@ -41,10 +41,13 @@ class VehicleOutputs:
         self._odometry = Odometry(p.world_frame, p.body_frame)
         self._truth = Odometry(p.world_frame, p.body_frame) if sea is not None else None
         self._water, self._true_current = TwistWithCovarianceStamped(p.body_frame), Vector3Stamped()
+        # In free running the fleet's /clock drives the vehicle, which then publishes none.
+        clock = topics.VEHICLE_CLOCK if p.shared_clock else topics.CLOCK
+        has_clock = p.lockstep or not p.shared_clock
         self._outputs: list[tuple[Any, Any]] = [
             (node.advertise(topic), message)
             for topic, message in (
-                (topics.CLOCK, self._clock), (topics.ODOM, self._odometry),
+                (clock, self._clock if has_clock else None), (topics.ODOM, self._odometry),
                 (topics.WATER_VELOCITY, self._water), (topics.RUDDER_STATE, self._rudder),
                 (topics.TRUE_CURRENT, self._true_current), (topics.TRUE_ODOM, self._truth),
             )

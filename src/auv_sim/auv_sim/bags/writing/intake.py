@@ -42,11 +42,13 @@ class PolledTopic:
         profile: the requested QoS.
         channel: of the writer.
         fixed: whether the QoS must not change (lockstep waits for exactly this reader).
+        is_clock: whether it has the time of the recording.
     """
 
     def __init__(
-        self, node: Node, name: str, type_name: str, profile: QoSProfile, channel: Channel, fixed: bool
-    ) -> None:
+        self, node: Node, name: str, type_name: str, profile: QoSProfile, channel: Channel, fixed: bool,
+        is_clock: bool,
+    ) -> None:  # fmt: skip
         self.name = name
         self.channel = channel
         self.fixed = fixed
@@ -57,7 +59,7 @@ class PolledTopic:
         self._node = node
         self._fetched: list[ReceivedMessage] = []
         self._type = message_class(type_name)
-        self.is_clock = name == CLOCK.name
+        self.is_clock = is_clock
         self._subscribe(profile)
 
     def _subscribe(self, profile: QoSProfile) -> None:

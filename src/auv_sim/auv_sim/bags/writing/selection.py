@@ -44,10 +44,14 @@ class Selection:
         self._listed = {node.resolve_topic_name(name) for name in parameters.topics.split()}
         self._seeks = bool(self._listed or parameters.regex or parameters.all_topics)
         self._promised: dict[str, QoSProfile] = {}
+        self._has_own_clock = parameters.lockstep and parameters.shared_clock
+        clock = topics.VEHICLE_CLOCK if self._has_own_clock else topics.CLOCK
+        self._clock = node.resolve_topic_name(clock.name)
         self.topics: list[PolledTopic] = []
         if parameters.contract:
             spatial = topics.SPATIAL_CONTRACT if parameters.sternplanes else ()
-            for topic in (*topics.CONTRACT, *spatial, *ROS_OWN):
+            own_clock = (topics.VEHICLE_CLOCK,) if self._has_own_clock else ()
+            for topic in (*own_clock, *topics.CONTRACT, *spatial, *ROS_OWN):
                 self._follow_contract(topic)
         elif not self._seeks:
             raise ConfigurationError(
@@ -66,7 +70,9 @@ class Selection:
 
     def _follow(self, name: str, type_name: str, offers: list[Any], requested: Any, fixed: bool) -> None:
         channel = self._writer.add_topic(name, type_name, [qos_record(offer) for offer in offers])
-        self.topics.append(PolledTopic(self._node, name, type_name, requested, channel, fixed))
+        self.topics.append(
+            PolledTopic(self._node, name, type_name, requested, channel, fixed, name == self._clock)
+        )
 
     def look_around(self) -> list[str]:
         """Subscribe to selected topics that have appeared, and adapt the QoS of those that are still silent.

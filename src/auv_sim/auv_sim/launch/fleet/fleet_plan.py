@@ -1,0 +1,102 @@
+"""The plan of a fleet: the plan of each vehicle's mission, and the fleet's clock."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+from pathlib import Path
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.claim import Claim
+from auv_msgs_py.settings import params_file, result_files, yaml_file
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.launch import mission_plan
+from auv_sim.launch.fleet import fleet_file
+from auv_sim.launch.fleet.fleet_file import Fleet
+from auv_sim.launch.mission_plan import Plan
+from auv_sim.launch.options import Options
+from auv_sim.sim_parameters import FleetClockParameters
+
+
+@dataclass(frozen=True)
+class FleetPlan:
+    """Several missions in one graph, resolved.
+
+    Attributes:
+        source, fleet: the file and its content.
+        directory: the run directory.
+        members: vehicle's directory name below it -> its plan.
+        clock: settings of the node that publishes /clock.
+    """
+
+    source: Path
+    fleet: Fleet
+    directory: Path
+    members: dict[str, Plan]
+    clock: FleetClockParameters
+
+    @property
+    def lockstep(self) -> bool:
+        """Whether each simulator waits for its nodes."""
+        return self.clock.lockstep
+
+    def claims(self) -> dict[str, Claim]:
+        """Return what each vehicle claims in the graph; the first one claims /clock for the fleet."""
+        claims = {
+            label: dataclasses.replace(plan.claim(), clock=False) for label, plan in self.members.items()
+        }
+        first = next(iter(claims))
+        return claims | {first: dataclasses.replace(claims[first], clock=True)}
+
+    def write(self) -> dict[str, Path]:
+        """Write the resolved configuration; return the parameter file of each vehicle and of the clock.
+
+        Raises:
+            NotWritten: a file cannot be written.
+        """
+        folder = self.directory / "config"
+        folder.mkdir(parents=True)
+        result_files.copy(self.source, folder / "fleet.yaml")
+        files = {label: plan.write(self.directory / label / "config") for label, plan in self.members.items()}
+        files[topics.FLEET_CLOCK] = folder / "params.yaml"
+        yaml_file.dump(params_file.as_ros({topics.FLEET_CLOCK: self.clock}), folder / "params.yaml")
+        return files
+
+
+def make(name: str, common: Options, directory: Path) -> FleetPlan:
+    """Read and check all files of a fleet.
+
+    Args:
+        name: fleet file, or the name of a shipped one.
+        common: the command line.
+        directory: the run directory.
+
+    Raises:
+        ConfigurationError: one line with file and key, what was found and what was expected.
+    """
+    source, fleet = fleet_file.load(name)
+    members = {}
+    for (place, vehicle), options in zip(
+        fleet_file.places(source, fleet), fleet_file.options_of(source, fleet, common), strict=True
+    ):
+        label = fleet_file.label_of(vehicle.namespace)
+        try:
+            plan = mission_plan.make(options, directory / label)
+            if not plan.vehicle.dives:
+                plan.mission.require_planar()
+        except ConfigurationError as error:
+            where = f"{place}: {error.where.removeprefix('--')}"
+            raise ConfigurationError(where, error.found, error.expected) from None
+        for node in (topics.PLANT, topics.RECORDER):
+            changed = dataclasses.replace(plan.parameters[node], shared_clock=True)
+            plan.parameters[node] = changed
+        members[label] = plan
+    steps = [plan.parameters[topics.PLANT].step for plan in members.values()]
+    lockstep = common.speed is None
+    clock = FleetClockParameters(
+        lockstep=lockstep,
+        vehicles=" ".join(vehicle.namespace for vehicle in fleet.vehicles),
+        step=min(steps),
+        speed=common.speed or 1.0,
+    )
+    return FleetPlan(source, fleet, directory, members, clock)

@@ -1,0 +1,1 @@
+"""Several simulated vehicles in one graph: their common clock."""
