@@ -32,6 +32,14 @@ _OF_FLEET = ("speed", "out", "composed", "any_processor", "domain", "flown", "fo
 
 def parser() -> Parser:
     """Return the command line's parser."""
+    p = parser_of_one()
+    shipped = ", ".join(config_files.shipped("fleets"))
+    p.add_argument("--fleet", metavar="FILE", help=f"several vehicles: file or one of: {shipped}")
+    return p
+
+
+def parser_of_one() -> Parser:
+    """Return the parser without fleets, for `ros2 launch` as well."""
     p = Parser(
         prog="mission.py", description="Fly a mission over ROS 2, record it, draw it.", allow_abbrev=False
     )
@@ -145,7 +153,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     Returns:
         The exit code: 0 complete, 1 failed, aborted or incomplete, 2 bad input, 130 interrupted.
     """
-    given = vars(_parser_with_fleet().parse_args(argv))
+    given = vars(parser().parse_args(argv))
     if (fleet := given.pop("fleet")) is not None:
         return _fly_fleet(fleet, given)
     options = checked(given)
@@ -154,13 +162,6 @@ def main(argv: Sequence[str] | None = None) -> int:
         from auv_sim.launch.mission_flight import fly
 
         return fly(options, loader)
-
-
-def _parser_with_fleet() -> Parser:
-    p = parser()
-    shipped = ", ".join(config_files.shipped("fleets"))
-    p.add_argument("--fleet", metavar="FILE", help=f"several vehicles: file or one of: {shipped}")
-    return p
 
 
 def _fly_fleet(fleet: str, given: dict[str, Any]) -> int:
@@ -181,7 +182,7 @@ def checked(given: dict[str, Any]) -> Options:
     """Return the options that a command line names.
 
     Args:
-        given: name -> value, as `parser` returns them.
+        given: name -> value, as `parser_of_one` returns them.
 
     Raises:
         ConfigurationError: two options contradict each other, or an address is none.

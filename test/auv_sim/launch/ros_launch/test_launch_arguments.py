@@ -21,11 +21,11 @@ DEFAULTS = {argument.name: argument.default for argument in MISSION}
 
 def options_of(**values: str) -> Options:
     words = arguments.command_line(MISSION, DEFAULTS | values)
-    return mission.checked(vars(mission.parser().parse_args(words)))
+    return mission.checked(vars(mission.parser_of_one().parse_args(words)))
 
 
 def test_every_option_is_an_argument_and_nothing_else_is() -> None:
-    assert [argument.name for argument in MISSION] == list(vars(mission.parser().parse_args([])))
+    assert [argument.name for argument in MISSION] == list(vars(mission.parser_of_one().parse_args([])))
     assert {argument.name for argument in MISSION} == {field.name for field in dataclasses.fields(Options)}
     assert all(argument.help for argument in MISSION)
 

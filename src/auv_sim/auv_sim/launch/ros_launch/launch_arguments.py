@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.cli.mission import parser
+from auv_sim.cli.mission import parser_of_one
 
 #: What `mission_supervisor` prints before the name of the nodes' launch file once they may enter the graph.
 READY = "nodes to launch: "
@@ -71,7 +71,7 @@ def is_true(name: str, value: str) -> bool:
 
 def of_mission() -> tuple[Argument, ...]:
     """Return the arguments of mission.launch.py: every option of `scripts/mission.py`."""
-    shown = [action for action in parser().actions if action.help != argparse.SUPPRESS]
+    shown = [action for action in parser_of_one().actions if action.help != argparse.SUPPRESS]
     # The mission is an option and a word; the word has its help.
     texts = {action.dest: action.help or "" for action in shown}
     return tuple(

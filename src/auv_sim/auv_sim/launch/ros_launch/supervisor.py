@@ -27,7 +27,7 @@ from auv_sim.terminal import console
 
 def parser() -> Parser:
     """Return the command line's parser: the options of `scripts/mission.py`, and two more."""
-    p = mission.parser()
+    p = mission.parser_of_one()
     p.prog = "mission_supervisor"
     p.description = "Supervise a mission whose nodes ros2 launch starts."
     p.add_argument("--nodes-only", action="store_true", help="start the nodes; the mission begins by `start`")
