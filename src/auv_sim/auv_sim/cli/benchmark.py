@@ -9,7 +9,16 @@ from pathlib import Path
 from auv_sim.command_line import Parser, command, target
 
 #: What can be measured alone.
-SECTIONS = ("lockstep", "dimensions", "latency", "simulation", "start_up", "subpaths", "recording")
+SECTIONS = (
+    "lockstep",
+    "dimensions",
+    "latency",
+    "operation",
+    "simulation",
+    "start_up",
+    "subpaths",
+    "recording",
+)
 
 
 def parser() -> argparse.ArgumentParser:

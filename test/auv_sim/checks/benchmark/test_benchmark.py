@@ -18,12 +18,12 @@ import pytest
 
 from auv_msgs_py.contract import topics
 from auv_sim.checks.benchmark import against, contender, figures_page, sheets
-from auv_sim.checks.benchmark.measures import dimensions, graph_speed, law_speed, start_up
+from auv_sim.checks.benchmark.measures import dimensions, graph_speed, law_speed, operation, start_up
 from auv_sim.checks.benchmark.measures.children import BenchmarkFailed
 from auv_sim.checks.benchmark.measures.rig import LockstepTiming, Setup, free_running, lockstep
 from auv_sim.checks.benchmark.measures.stopwatch import BLOCK
-from auv_sim.checks.benchmark.measures.usage import MemoryUse, Usage
 from auv_sim.checks.benchmark.scale import QUICK
+from auv_sim.checks.benchmark.usage import MemoryUse, Usage
 from auv_sim.cli.benchmark import main
 from auv_sim.views import doc_pages
 from conftest import children_of
@@ -125,6 +125,17 @@ def test_three_dimensions_are_compared_with_the_plane(
     assert ["one process for each node", "1.20", "800", "960", "800", "960"] in rows
     assert ["all nodes in one process", "1.20", "200", "240", "200", "240"] in rows
     assert {"in the plane", "in three dimensions"} <= {row[0] for row in rows if row}
+
+
+def test_aborts_are_timed_from_the_call_to_the_stop(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Without nodes: the middle and the largest of the times are shown."""
+    monkeypatch.setattr(operation, "_start_nodes", lambda *_: {"ailos_guidance"})
+    monkeypatch.setattr(operation, "_aborts", lambda *_: [0.010, 0.090, 0.030])
+    assert main(["--quick", "--only", "operation"]) == 0
+    rows = [[cell.strip() for cell in line.split("│")[1:-1]] for line in capsys.readouterr().out.splitlines()]
+    assert ["3", "30.0", "90.0"] in rows
 
 
 def test_what_a_flight_takes_once_is_told_apart_from_its_steps(monkeypatch: pytest.MonkeyPatch) -> None:

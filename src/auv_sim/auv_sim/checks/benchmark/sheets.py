@@ -35,7 +35,8 @@ class Sheet:
 def sheets(figures: dict[str, Any]) -> list[Sheet]:
     """Return the tables of everything that was measured."""
     makers = {
-        "lockstep": _lockstep, "dimensions": _dimensions, "latency": _latency, "simulation": _simulation,
+        "lockstep": _lockstep, "dimensions": _dimensions, "latency": _latency,
+        "operation": _operation, "simulation": _simulation,
         "start_up": _start_up, "subpaths": _subpaths, "recording": _recording, "against": _against,
     }  # fmt: skip
     found: list[Sheet] = []
@@ -123,6 +124,12 @@ def _latency(figures: dict[str, Any]) -> list[Sheet]:
     used = [(name, *(f"{at['cpu_percent'][name]:.1f}" for at in figures.values())) for name in names]
     columns = ("% of one core", *(f"{rate} Hz" for rate in figures))
     return [latency, Sheet("Free running: processor time, by node", columns, tuple(used))]
+
+
+def _operation(figures: dict[str, Any]) -> list[Sheet]:
+    row = (str(figures["aborts"]), f"{figures['p50_ms']:.1f}", f"{figures['largest_ms']:.1f}")
+    heads = ("aborts", "p50 ms", "largest ms")
+    return [Sheet("Free running at 20 Hz: from the call of abort to thrust 0", heads, (row,))]
 
 
 def _simulation(figures: dict[str, Any]) -> list[Sheet]:

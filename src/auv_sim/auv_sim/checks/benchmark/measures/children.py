@@ -10,7 +10,7 @@ from pathlib import Path
 
 from auv_msgs_py.node.run import StopRequest
 from auv_msgs_py.values.errors import SuiteError
-from auv_sim.checks.benchmark.measures.usage import Usage, usage
+from auv_sim.checks.benchmark.usage import Usage, usage
 from auv_sim.launch.processes.domains import free_domain
 from auv_sim.launch.processes.process_group import Children
 

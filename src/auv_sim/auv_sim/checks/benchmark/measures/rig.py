@@ -15,7 +15,7 @@ from typing import Any
 from auv_msgs_py.contract import topics
 from auv_sim.checks.benchmark.measures.children import BenchmarkFailed, MeasuredProcesses, processes
 from auv_sim.checks.benchmark.measures.stopwatch import BLOCK, MARK
-from auv_sim.checks.benchmark.measures.usage import MemoryUse, Usage, memory
+from auv_sim.checks.benchmark.usage import MemoryUse, Usage, memory
 from auv_sim.launch import mission_plan
 from auv_sim.launch.composed import NODES
 from auv_sim.launch.mission_plan import Plan
