@@ -10,6 +10,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
 from auv_sim.nodes.held_commands import orders_of
 from auv_sim.nodes.lockstep import Lockstep
+from auv_sim.nodes.wait_reports import WaitReports
 from hulls import REMUS
 
 
@@ -157,3 +158,12 @@ def test_a_forged_start_costs_one_step_at_rest() -> None:
     say(simulator, lockstep, True)
     answer(lockstep, 6.0)
     assert simulator.published == 3
+
+
+def test_a_node_of_another_vehicle_is_no_culprit() -> None:
+    kept = WaitReports("/auv1")
+    for namespace, waits in (("/auv2", "current_estimate"), ("/auv1", "desired_yaw"), ("/auv2", "odom")):
+        array = reports(heading_autopilot=waits)
+        array.status[0].name = f"{namespace}/heading_autopilot"
+        kept.take_in(array, 1.0)
+    assert kept.culprit(("rudder_cmd",), 0.0) == "ailos_guidance did not send desired_yaw"

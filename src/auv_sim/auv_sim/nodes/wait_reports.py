@@ -12,15 +12,22 @@ _BY_NAME = {topic.name: topic for topic in (*topics.CONTRACT, topics.RECORDED_ST
 
 
 class WaitReports:
-    """Keeps the newest report of each node: the topic it waits for, and the message it refused."""
+    """Keeps the newest report of each node: the topic it waits for, and the message it refused.
 
-    def __init__(self) -> None:
+    Args:
+        namespace: of the nodes, where there are others in the graph; empty: all are of one vehicle.
+    """
+
+    def __init__(self, namespace: str = "") -> None:
+        self._prefix = f"{namespace}/" if namespace else ""
         self._waits: dict[str, tuple[float, str]] = {}
         self._refused: dict[str, str] = {}
 
     def take_in(self, diagnostics: Any, now: float) -> None:
         """Note the reports of a DiagnosticArray that arrived at `now`, s of steady time."""
         for status in diagnostics.status:
+            if not status.name.startswith(self._prefix):
+                continue
             for pair in status.values:
                 if pair.key == "waiting_for":
                     self._waits[status.hardware_id] = now, pair.value
