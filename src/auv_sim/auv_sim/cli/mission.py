@@ -131,6 +131,16 @@ def _add_vehicle(p: argparse.ArgumentParser) -> None:
 
 
 def _add_run(p: argparse.ArgumentParser) -> None:
+    p.add_argument(
+        "--start-at",
+        metavar="PLACE",
+        help="begin at this place of the path: 'subpath 3', or '120 m' along it (default: its start)",
+    )
+    p.add_argument(
+        "--wait",
+        action="store_true",
+        help="begin when the service start is called, and stay for further missions until Ctrl-C",
+    )
     p.add_argument("--out", type=Path, metavar="DIR", help="run directory (default: runs/MISSION-DATE)")
     p.add_argument("--display", action="store_true", help="markers, transforms and model for RViz, Foxglove")
     p.add_argument("--composed", action="store_true", help="all nodes but the display in one process")
@@ -142,7 +152,9 @@ def _add_run(p: argparse.ArgumentParser) -> None:
         "--domain", type=ros_domain, help="ROS domain (default: one of its own; with --no-sim ROS_DOMAIN_ID)"
     )
     add_flown_option(p, None)
-    p.add_argument("--force", action="store_true", help="fly what the check of the plan refuses")
+    p.add_argument(
+        "--force", action="store_true", help="fly what the check of the plan refuses, in flight too"
+    )
     p.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
 
 

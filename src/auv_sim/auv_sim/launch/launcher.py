@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import os
 import time
 from pathlib import Path
 
 from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.mission_word import MissionState
 from auv_msgs_py.node.run import StopRequest
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.command_line import ros_domain
 from auv_sim.launch.composed import NODES
 from auv_sim.launch.mission_plan import Plan
+from auv_sim.launch.operation.stand_by import StandBy
 from auv_sim.launch.outcome import MissionFailed, Outcome
 from auv_sim.launch.processes import discovery
 from auv_sim.launch.processes.domains import free_domain
@@ -152,6 +155,8 @@ class _Flight:
         self._progress: ProgressDisplay = progress
         self._interrupt: StopRequest = interrupt
         self._processor = processor
+        #: The newest stamp, and since when it has been that, by wall time.
+        self._moved = -1, math.inf
 
     def run(self, look: float) -> Outcome:
         """Fly, after observing the graph for at least `look` s."""
@@ -160,6 +165,9 @@ class _Flight:
             return Outcome("interrupted", "stopped before the mission began", time.monotonic() - begin, 0.0)
         self._processor.place(self._children.ids)
         self._look.check()
+        if self._plan.options.wait:
+            m = self._monitor
+            return StandBy(self._plan, m, self._progress, self._interrupt, self._check_progress).run()
         refused = self._monitor.start()
         if refused:
             raise MissionFailed(f"the mission could not be started: {refused}")
@@ -232,22 +240,29 @@ class _Flight:
 
     def _until_over(self, begin: float) -> str:
         m = self._monitor
-        moved_at, stamp = begin, m.stamp
         while not self._interrupt.requested:
-            self._check_children()
+            self._check_progress(m.state != MissionState.HOLDING)
             m.look(0.1)
-            if m.stamp != stamp:
-                moved_at, stamp = time.monotonic(), m.stamp
-            elif self._plan.options.simulator and time.monotonic() - moved_at > STALL_BOUND:
-                raise MissionFailed(
-                    f"time stood still at {m.mission_time:.2f} s of the mission for {STALL_BOUND:g} s"
-                )
             self._progress.update(m.s, m.ye, m.mission_time, time.monotonic() - begin)
             if m.completed(self._plan.mission.path.n):
                 return "complete"
             if m.state == "aborted":
                 return "aborted"
         return "interrupted"
+
+    def _check_progress(self, has_to_pass: bool) -> None:
+        """Check the processes, and the simulator's time where it has to pass: in a hold it may stand still.
+
+        Raises:
+            MissionFailed: a process ended, or time stood still for `STALL_BOUND` s.
+        """
+        self._check_children()
+        stamp, now = self._monitor.stamp, time.monotonic()
+        if stamp != self._moved[0] or not has_to_pass:
+            self._moved = stamp, now
+        elif self._plan.options.simulator and now - self._moved[1] > STALL_BOUND:
+            at = self._monitor.mission_time
+            raise MissionFailed(f"time stood still at {at:.2f} s of the mission for {STALL_BOUND:g} s")
 
     def _stop_vehicle(self) -> None:
         """Abort, and allow time for the zero commands to reach the vehicle: no propeller may keep running."""

@@ -24,6 +24,8 @@ _EXIT = {
     "incomplete": EXIT_FAILED,
     "aborted": EXIT_FAILED,
     "interrupted": EXIT_INTERRUPTED,
+    "idle": EXIT_DONE,
+    "ended": EXIT_FAILED,
 }
 
 
@@ -51,8 +53,15 @@ def fly(options: Options, loader: Starter, domain: int | None = None) -> int:
     except GraphTaken:
         shutil.rmtree(directory)  # nothing was flown: the same command must work again
         raise
+    if outcome.state == "idle":
+        console.print("no mission was started")
+        return _EXIT[outcome.state]
     if outcome.state != "complete":
         say(f"mission {outcome.state}: {outcome.reason}", error=True)
+    if outcome.other:
+        names = f"{escape(outcome.other)}, not {escape(resolved.mission.name)}"
+        console.print(f"no figures: the last mission flown was {names}", highlight=False, soft_wrap=True)
+        return _EXIT[outcome.state]
     from auv_sim.launch import mission_results  # after the flight: it imports plotting libraries
 
     outcome, summary = mission_results.conclude(resolved, directory, outcome)

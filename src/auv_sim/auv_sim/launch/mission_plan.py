@@ -21,6 +21,7 @@ from auv_path_following.guidance.spatial.spatial_follower import mode_of
 from auv_path_following.mission_check.flyable import Findings, check, refusal, require_planes
 from auv_path_following.missions import mission_file
 from auv_path_following.missions.mission_file import Mission
+from auv_path_following.missions.orders.start_place import path_parameter_of
 from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.scenario import Scenario
 from auv_sim.launch import node_settings
@@ -41,6 +42,7 @@ class Plan:
         verdicts: the findings of the mission check.
         controller_model: the hull that the nodes assume.
         emulator: command line of the emulated vehicle, None without one.
+        begin: s of Eq. (1) at which the mission begins.
     """
 
     options: Options
@@ -51,6 +53,7 @@ class Plan:
     verdicts: Findings
     controller_model: Vehicle
     emulator: tuple[str, ...] | None = None
+    begin: float = 0.0
 
     @property
     def path(self) -> CompositePath | SpatialPath:
@@ -91,10 +94,14 @@ class Plan:
 
         Raises:
             ValueError: there is no simulator in this plan.
+            ConfigurationError: the mission begins elsewhere than at the start of its path.
         """
         if not self.options.simulator:
             raise ValueError("a mission without the simulator has no closed loop")
         plant, guidance = self.parameters[topics.PLANT], self.parameters[topics.GUIDANCE]
+        if self.begin > 0.0:
+            expected = "none: closed_loop flies a path from its start"
+            raise ConfigurationError("--start-at", repr(guidance.start_at), expected)
         dives = self.vehicle.dives
         return Scenario(
             path=self.mission.path,
@@ -161,7 +168,8 @@ def make(options: Options, directory: Path) -> Plan:
     _check_simulated(options, hull, sources["vehicle"])
     notices: list[str] = []
     settings = node_settings.load(options, sources["params"], model, by_rule, notices)
-    node_settings.set_mission(settings, options, mission, sources, directory, hull)
+    begin = _set_beginning(settings, options, mission, model, sources)
+    node_settings.set_mission(settings, options, mission, sources, directory, hull, begin)
     mean = node_settings.set_options(settings, options, sources)
     _check_altimeter(options, mission, settings)
     verdicts = _check(options, mission, hull, settings, mean)
@@ -177,7 +185,7 @@ def make(options: Options, directory: Path) -> Plan:
         del settings[name]
     if not options.display:
         del settings[topics.DISPLAY]
-    return Plan(options, mission, hull, settings, sources, verdicts, model, emulator)
+    return Plan(options, mission, hull, settings, sources, verdicts, model, emulator, begin)
 
 
 def scenario(options: Options) -> Scenario:
@@ -205,6 +213,29 @@ def _find_files(options: Options) -> node_settings.Sources:
     if options.controller_model is not None:
         sources["controller_model"] = config_files.find("vehicles", options.controller_model).absolute()
     return sources
+
+
+def _set_beginning(
+    settings: node_settings.NodeSettings, options: Options, mission: Mission, model: Vehicle,
+    sources: node_settings.Sources,
+) -> float:  # fmt: skip
+    """Set where the mission begins; return its s of Eq. (1).
+
+    Raises:
+        ConfigurationError: it is no place of the path.
+    """
+    where = "--start-at"
+    if options.start_at is None:
+        where = f"{sources['params']}: {topics.GUIDANCE}: start_at"
+    else:
+        node_settings.change(settings, topics.GUIDANCE, start_at=options.start_at)
+    path: CompositePath | SpatialPath = mission.spatial or mission.path
+    if model.dives:
+        path = flown_path(mission.path, mission.spatial, model, mission.thrust)
+    try:
+        return path_parameter_of(settings[topics.GUIDANCE].start_at, path)
+    except ConfigurationError as error:
+        raise ConfigurationError(where, error.found, error.expected) from None
 
 
 def _check_simulated(options: Options, hull: Vehicle, file: Path) -> None:

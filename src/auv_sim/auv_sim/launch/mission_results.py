@@ -35,6 +35,9 @@ from auv_sim.views.signal_rows import limits_of
 #: The outcome is judged by the recording, not by `mission_state`.
 _UNFINISHED = "found a recording without the path's end, expected it where mission_state is complete"
 
+#: Stamps that differ by less are one, s.
+_SAME_STAMP = 1e-6
+
 #: At most this many subpaths and corners are printed, those farthest off the path; summary.json has all.
 _MOST_ROWS, _MOST_CORNERS = 40, 10
 
@@ -79,7 +82,10 @@ def conclude(plan: Plan, directory: Path, outcome: Outcome) -> tuple[Outcome, Mi
         run = load(directory / "bag")
     except ConfigurationError:
         return outcome, None
-    summary = summarise(run, plan.path)
+    run = run.select(run.t > outcome.since - _SAME_STAMP)
+    if not run.steps:
+        return outcome, None
+    summary = summarise(run, plan.path, plan.begin)
     if outcome.state == "complete":
         reason = summary.shortfall(plan.options.least_flown) or ("" if summary.completed else _UNFINISHED)
         if reason:

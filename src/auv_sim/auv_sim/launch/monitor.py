@@ -8,6 +8,7 @@ import time
 from typing import Any
 
 import rclpy
+from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import Vector3Stamped
 from nav_msgs.msg import Odometry
 from rclpy.executors import SingleThreadedExecutor
@@ -23,6 +24,7 @@ from auv_msgs_py.contract.mission_word import PERIOD, MissionState, MissionWord
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.node.graph_look import GraphLook
 from auv_msgs_py.values.errors import MessageRefused
+from auv_sim.launch.operation.flown_missions import FlownMissions
 
 #: A path of which at most this much is left counts as flown to its end, m.
 _ARRIVED = 1e-3
@@ -61,6 +63,8 @@ class Monitor:
         self._listen(topics.DISTANCE_TO_GO, Float64, self._on_to_go)
         self._listen(topics.PATH_ERROR, Vector3Stamped, self._on_error)
         self._listen(topics.MISSION_STATE, String, self._on_state)
+        self.missions = FlownMissions()
+        self._listen(topics.MISSION_STATUS, DiagnosticStatus, self._on_status)
 
     def _listen(self, topic: Topic, kind: Any, callback: Any) -> None:
         depth = qos.DEPTH if topic.latched else 1
@@ -95,6 +99,10 @@ class Monitor:
                 self._completed_at = None
             elif self._completed_at is None:
                 self._completed_at = now
+
+    def _on_status(self, message: DiagnosticStatus) -> None:
+        values = {pair.key: pair.value for pair in message.values}
+        self.missions.hear(values, self.stamp * 1e-9, time.monotonic())
 
     @property
     def state(self) -> str:

@@ -86,7 +86,7 @@ def _take_rule(settings: NodeSettings, model: Vehicle, notices: list[str]) -> No
 
 def set_mission(
     settings: NodeSettings, options: Options, mission: Mission, sources: Sources, directory: Path,
-    hull: Vehicle,
+    hull: Vehicle, begin: float = 0.0,
 ) -> None:  # fmt: skip
     """Set the files, the mission's overrides, the initial state and the bag; change `settings` in place.
 
@@ -97,17 +97,20 @@ def set_mission(
         sources: the input files.
         directory: the run directory.
         hull: the vehicle.
+        begin: s of Eq. (1) at which the mission begins.
     """
     overridden = settings[topics.GUIDANCE].with_mission_overrides(mission).guidance
     model_file = str(sources.get("controller_model", sources["vehicle"]))
     change(settings, topics.GUIDANCE, guidance=overridden, mission_switching=False)
     change(settings, topics.GUIDANCE, mission=str(sources["mission"]))
+    if options.force:
+        change(settings, topics.GUIDANCE, check_mission=False)
     for node in (topics.GUIDANCE, topics.OBSERVER, topics.AUTOPILOT):
         change(settings, node, vehicle=model_file)
     change(settings, topics.DISPLAY, mission=str(sources["mission"]), vehicle=str(sources["vehicle"]))
-    initial = _initial(options, mission, settings)
+    initial = _initial(options, mission, settings, begin)
     if hull.dives:
-        initial = _at_depth(initial, options, mission, hull)
+        initial = _at_depth(initial, options, mission, hull, begin)
     plant_file = str(sources["vehicle"])
     change(settings, topics.PLANT, vehicle=plant_file, initial=initial, publish_at_rest=False)
     change(settings, topics.RECORDER, directory=str(directory / "bag"), sternplanes=hull.dives)
@@ -156,23 +159,24 @@ def _set_sea(settings: NodeSettings, options: Options, sources: Sources) -> Pair
     return sea.load(str(sources["sea"])).current.mean
 
 
-def _initial(options: Options, mission: Mission, settings: NodeSettings) -> Any:
-    """Return the vehicle's initial state: as configured, else on the path's start, heading along it."""
+def _initial(options: Options, mission: Mission, settings: NodeSettings, begin: float) -> Any:
+    """Return the vehicle's initial state: as configured, else where the mission begins, heading along it."""
     initial = settings[topics.PLANT].initial
     if options.initial is not None:
         x, y, psi = options.initial[0], options.initial[1], math.radians(options.initial[2])
     elif initial == type(initial)():
-        x, y, psi = mission.path.start_pose
+        point = mission.path.at(begin)
+        x, y, psi = point.x, point.y, point.chi
     else:
         return initial
     return dataclasses.replace(initial, x=x, y=y, psi=psi)
 
 
-def _at_depth(initial: Any, options: Options, mission: Mission, hull: Vehicle) -> Any:
+def _at_depth(initial: Any, options: Options, mission: Mission, hull: Vehicle, begin: float) -> Any:
     """Return the initial state with depth and pitch.
 
-    Without `--depth` a vehicle that starts at the path's start has the path's first depth and elevation; but
-    none starts higher than it floats.
+    Without `--depth` a vehicle that starts on the path has the path's depth and elevation there; but none
+    starts higher than it floats.
     """
     if options.depth is not None:
         return dataclasses.replace(initial, depth=options.depth, theta=0.0)
@@ -180,7 +184,7 @@ def _at_depth(initial: Any, options: Options, mission: Mission, hull: Vehicle) -
         return initial
     if mission.spatial is None:
         return dataclasses.replace(initial, depth=hull.depth.surface)
-    start, floating = mission.spatial.start_pose, hull.shallowest
+    start, floating = mission.spatial.pose_at(begin), hull.shallowest
     is_on_path = options.initial is None and start.z >= floating
     theta = start.gamma if is_on_path else 0.0
     return dataclasses.replace(initial, depth=max(start.z, floating), theta=theta)

@@ -31,6 +31,7 @@ class Options:
     upwelling: float | None = None
     initial: tuple[float, float, float] | None = None
     depth: float | None = None
+    start_at: str | None = None
     sea: str | None = None
     seed: int | None = None
     switching: str | None = None
@@ -47,6 +48,7 @@ class Options:
     domain: int | None = None
     quiet: bool = False
     force: bool = False
+    wait: bool = False
     flown: float | None = None
 
     @property

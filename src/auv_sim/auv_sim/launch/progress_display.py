@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from types import TracebackType
 
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import BarColumn, TaskProgressColumn, TextColumn, TimeElapsedColumn
 from rich.progress import Progress as Bar
 
@@ -46,6 +48,16 @@ class ProgressDisplay:
         """Show what the mission waits for."""
         self._bar.update(self._task, description=f"waiting for {what}")
 
+    def say(self, text: str) -> None:
+        """Print lines above the bar."""
+        self._bar.console.print(escape(text), highlight=False, soft_wrap=True)
+
+    def update_other(self, name: str, length: float, to_go: float, ye: float, mission_time: float) -> None:
+        """Show a mission that was set in flight, of which only name and length of path (m) are known."""
+        flown = min(max(length - to_go, 0.0), length) if math.isfinite(to_go) else 0.0
+        text = f"{name} {flown:.0f}/{length:.0f} m  off {abs(ye):5.2f} m  {mission_time:6.1f} s"
+        self._bar.update(self._task, total=length, completed=flown, description=escape(text))
+
     def update(self, s: float, ye: float, mission_time: float, wall_time: float) -> None:
         """Show the vehicle's progress: s of Eq. (1), cross-track error (m), times (s)."""
         i = min(int(s), self._path.n - 1)
@@ -56,4 +68,4 @@ class ProgressDisplay:
             f"subpath {i + 1}/{self._path.n} {segment.kind:<16.16} s {s:5.2f}  off {abs(ye):5.2f} m  "
             f"{mission_time:6.1f} s  x{speed:.0f}"
         )
-        self._bar.update(self._task, completed=flown, description=text)
+        self._bar.update(self._task, total=self._path.length, completed=flown, description=text)

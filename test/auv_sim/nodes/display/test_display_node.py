@@ -61,7 +61,7 @@ def test_it_shows_path_joints_fence_vehicle_and_fins(domain: int) -> None:
     start = ((north, east, 3.0), 0.0, 0.0)  # of the mission's joints the first alone lies on this path
     sources = [
         publish(other, topics.PATH, spatial_path_message([start], 0)),
-        publish(other, display_topics.GEOFENCE, polygon),
+        publish(other, topics.GEOFENCE, polygon),
     ]
     feeds = [
         (other.create_publisher(type(message), topic.name, 10), message)

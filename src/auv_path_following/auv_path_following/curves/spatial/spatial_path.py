@@ -140,9 +140,14 @@ class SpatialPath:
     @property
     def start_pose(self) -> SpatialPose:
         """Start of the path, and its direction there."""
-        start = self.evaluate(0, 0.0)
-        along = tangent_of(start)
-        return SpatialPose(start.x, start.y, start.z, along.gamma, along.chi)
+        return self.pose_at(0.0)
+
+    def pose_at(self, s: float) -> SpatialPose:
+        """Return the place at s, Eq. (1), in [0, n], and the direction of the path there."""
+        i = min(int(s), self.n - 1)
+        point = self.evaluate(i, s - i)
+        along = tangent_of(point)
+        return SpatialPose(point.x, point.y, point.z, along.gamma, along.chi)
 
     def distance(self, x: Array, y: Array, z: Array, i: npt.NDArray[Any]) -> Array:
         """Return the distance of a track from the path, as `closest` does without the depth."""

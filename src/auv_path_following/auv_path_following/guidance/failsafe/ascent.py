@@ -54,10 +54,10 @@ class AscentConfig:
         gt=0.0, le=60.0, live=True,
     )  # fmt: skip
     patience: float = setting(
-        20.0, "an ascent that has not risen by 0.5 m for this long ends with thrust 0", unit="s", gt=0.0,
+        20.0, "an ascent that has not risen by 0.5 m for this long ends with thrust 0", unit="s", ge=1.0,
         live=True,
     )  # fmt: skip
-    longest: float = setting(300.0, "longest ascent; then thrust 0", unit="s", gt=0.0, live=True)
+    longest: float = setting(300.0, "longest ascent; then thrust 0", unit="s", ge=1.0, live=True)
     linger: float = setting(
         0.0,
         "at the surface the vehicle drives on for this long",

@@ -19,7 +19,7 @@ READY = "nodes to launch: "
 #: Options that mean something on a real vehicle or on an emulated one.
 _OF_VEHICLE = (
     "mission", "vehicle", "controller_model", "params", "switching", "vehicle_driver", "vehicle_address",
-    "use_sim_time", "display", "out", "namespace", "domain", "force",
+    "use_sim_time", "display", "out", "namespace", "domain", "force", "start_at",
 )  # fmt: skip
 
 

@@ -41,7 +41,7 @@ from auv_sim.sim_parameters import DisplayParameters
 _ON_PATH = 1.0
 _HEARD = (
     topics.ODOM, topics.PATH, topics.MISSION_STATE, topics.VIRTUAL_POINT, topics.CURRENT_ESTIMATE,
-    topics.PATH_ERROR, topics.RUDDER_STATE, display_topics.GEOFENCE,
+    topics.PATH_ERROR, topics.RUDDER_STATE, topics.GEOFENCE,
 )  # fmt: skip
 
 
@@ -113,7 +113,7 @@ class DisplayNode(Node):  # type: ignore[misc]
 
     def _draw_mission(self) -> None:
         """Publish the latched markers when path or fence are new."""
-        sources = tuple(self._newest.get(topic) for topic in (topics.PATH, display_topics.GEOFENCE))
+        sources = tuple(self._newest.get(topic) for topic in (topics.PATH, topics.GEOFENCE))
         if all(new is old for new, old in zip(sources, self._drawn or (None, None), strict=True)):
             return
         self._drawn = sources

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from auv_msgs_py.contract.topics import DISPLAY, GUIDANCE, Topic
+from auv_msgs_py.contract.topics import DISPLAY, Topic
 
 MARKERS = Topic("markers", "visualization_msgs/msg/MarkerArray", DISPLAY, latched=True)
 LIVE_MARKERS = Topic("markers_live", "visualization_msgs/msg/MarkerArray", DISPLAY)
 ROBOT_DESCRIPTION = Topic("robot_description", "std_msgs/msg/String", DISPLAY, latched=True)
 JOINT_STATES = Topic("joint_states", "sensor_msgs/msg/JointState", DISPLAY)
-#: Area that must not be left, in `map`.
-GEOFENCE = Topic("geofence", "geometry_msgs/msg/PolygonStamped", GUIDANCE, latched=True)

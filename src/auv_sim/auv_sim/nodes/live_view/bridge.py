@@ -20,8 +20,8 @@ from auv_sim.nodes.display import display_topics
 _ROSOUT = Topic("/rosout", "rcl_interfaces/msg/Log", "every node")
 #: What is handed on.
 SHOWN = (
-    *topics.CONTRACT, *topics.SPATIAL_CONTRACT, display_topics.GEOFENCE, display_topics.MARKERS,
-    display_topics.LIVE_MARKERS, _ROSOUT,
+    *topics.CONTRACT, *topics.SPATIAL_CONTRACT, display_topics.MARKERS, display_topics.LIVE_MARKERS,
+    _ROSOUT,
 )  # fmt: skip
 _SERVED = "Foxglove: open connection ws://{}:{} (read-only; any web page on this machine can read it too)"
 _INSTALL = "pip install -r requirements/foxglove.txt"

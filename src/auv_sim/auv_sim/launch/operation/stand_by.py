@@ -1,0 +1,96 @@
+"""The launcher waits: an operator starts, holds and sets missions until Ctrl-C."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import Any
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.mission_word import MissionState
+from auv_msgs_py.node.run import StopRequest
+from auv_sim.launch.mission_plan import Plan
+from auv_sim.launch.operation.flown_missions import FlownMissions
+from auv_sim.launch.outcome import Outcome
+from auv_sim.launch.progress_display import ProgressDisplay
+
+_INTERRUPTED = "stopped by a signal"
+_OVER = (MissionState.COMPLETE, MissionState.ABORTED)
+
+
+def how_to_start(namespace: str, domain: str) -> str:
+    """Return the command that starts the mission."""
+    service = topics.full_name(namespace, topics.START_SERVICE)
+    return f"ROS_DOMAIN_ID={domain} ros2 service call {service} std_srvs/srv/Trigger"
+
+
+class StandBy:
+    """Stays with the nodes until Ctrl-C, and shows the mission that is under way.
+
+    Args:
+        plan: what was set at the start.
+        monitor: the launcher's node.
+        progress: the display on the terminal.
+        interrupt: of Ctrl-C.
+        check: called at each look with whether time has to pass; raises `MissionFailed`.
+    """
+
+    def __init__(
+        self, plan: Plan, monitor: Any, progress: ProgressDisplay, interrupt: StopRequest,
+        check: Callable[[bool], None],
+    ) -> None:  # fmt: skip
+        self._plan, self._monitor, self._progress = plan, monitor, progress
+        self._interrupt, self._check = interrupt, check
+        self._missions: FlownMissions = monitor.missions
+        self._digest = plan.mission.digest
+
+    def run(self) -> Outcome:
+        """Wait for Ctrl-C; return the outcome of the mission that was flown last."""
+        command = how_to_start(self._plan.options.namespace, os.environ["ROS_DOMAIN_ID"])
+        self._progress.say(f"start the mission: {command}\nCtrl-C ends the nodes")
+        m = self._monitor
+        try:
+            while not self._interrupt.requested:
+                self._check(m.state == MissionState.RUNNING)
+                m.look(0.1)
+                self._show()
+            is_under_way = self._stop()
+        finally:
+            for mission in self._missions.flown:
+                self._progress.say(mission.line)
+        return self._outcome(is_under_way)
+
+    def _show(self) -> None:
+        m, last, state = self._monitor, self._missions.last, self._monitor.state
+        if state == MissionState.HOLDING:
+            self._progress.waiting_for("the service resume, or navigation: the mission holds")
+        elif state != MissionState.RUNNING or last is None:
+            before = f" ({last.name} is {state})" if last is not None else ""
+            self._progress.waiting_for(f"the service {topics.START_SERVICE}{before}")
+        else:
+            if last.digest == self._digest:
+                self._progress.update(m.s, m.ye, last.duration, last.wall_time)
+            else:
+                self._progress.update_other(last.name, last.length, m.to_go, m.ye, last.duration)
+
+    def _stop(self) -> bool:
+        """Abort what is under way or could still begin; return whether a mission was under way."""
+        m = self._monitor
+        m.look(0.0)
+        state = m.state
+        if state not in _OVER:
+            m.abort()
+            m.look(0.3)  # for the zero commands to reach the vehicle: no propeller may keep running
+        is_under_way = state in (MissionState.RUNNING, MissionState.HOLDING)
+        if is_under_way:
+            self._missions.interrupt(_INTERRUPTED)
+        return is_under_way
+
+    def _outcome(self, is_under_way: bool) -> Outcome:
+        last = self._missions.last
+        if last is None:
+            found = ("interrupted", "stopped before the mission began") if is_under_way else ("idle", "")
+            return Outcome(*found, 0.0, 0.0)
+        other = "" if last.digest == self._digest else last.name
+        reason = "" if last.state == MissionState.COMPLETE else last.reason
+        return Outcome(last.state, reason, last.wall_time, last.duration, since=last.begun, other=other)

@@ -1,0 +1,115 @@
+"""The launcher waits for an operator: missions are started, set and started again over DDS until Ctrl-C."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+import rclpy
+from diagnostic_msgs.msg import DiagnosticStatus
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import SetParameters
+from std_srvs.srv import Trigger
+
+from auv_msgs_py.contract import qos, topics
+
+OTHER = """\
+version: 1
+name: other
+frame: ned
+thrust: 6.48
+segments: [{line: {start: [30, 35], length: 25, course_deg: 90}}]
+"""
+
+
+class Operator:
+    """A node that calls what an operator calls, and reads `mission_status`."""
+
+    def __init__(self, domain: int) -> None:
+        rclpy.init(args=[], domain_id=domain)
+        self.node = rclpy.create_node("operator", namespace="/auv")
+        self.status: dict[str, str] = {}
+        profile = qos.requested(topics.MISSION_STATUS, reliable=True)
+        self.node.create_subscription(DiagnosticStatus, "mission_status", self._on_status, profile)
+
+    def _on_status(self, message: DiagnosticStatus) -> None:
+        self.status = {pair.key: pair.value for pair in message.values}
+
+    def until(self, condition: Callable[[], object], patience: float = 20.0) -> None:
+        deadline = time.monotonic() + patience
+        while not condition():
+            assert time.monotonic() < deadline, self.status
+            rclpy.spin_once(self.node, timeout_sec=0.05)
+
+    def call(self, kind: Any, service: str, request: Any) -> Any:
+        client = self.node.create_client(kind, service)
+        self.until(client.service_is_ready)
+        future = client.call_async(request)
+        self.until(future.done)
+        return future.result()
+
+    def trigger(self, service: str) -> bool:
+        return bool(self.call(Trigger, service, Trigger.Request()).success)
+
+    def set(self, name: str, value: str) -> str:
+        wanted = ParameterValue(type=ParameterType.PARAMETER_STRING, string_value=value)
+        request = SetParameters.Request(parameters=[Parameter(name=name, value=wanted)])
+        return str(self.call(SetParameters, "ailos_guidance/set_parameters", request).results[0].reason)
+
+    def is_over(self, mission: str, state: str) -> bool:
+        return (self.status.get("mission"), self.status.get("state")) == (mission, state)
+
+
+@pytest.fixture
+def operator(domain: int) -> Iterator[Operator]:
+    made = Operator(domain)
+    yield made
+    made.node.destroy_node()
+    rclpy.try_shutdown()
+
+
+def test_missions_follow_each_other_until_ctrl_c(
+    operator: Operator,
+    domain: int,
+    short_mission: Path,
+    tmp_path: Path,
+    command_line: Callable[..., list[str]],
+    spawn: Callable[..., subprocess.Popen[str]],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    run = tmp_path / "run"
+    asked = ["--mission", short_mission, "--wait", "--start-at", "subpath 3", "--composed", "--out", run]
+    launcher = spawn(command_line("auv_sim.cli.mission", *asked, "--domain", domain))
+    operator.until(lambda: operator.status.get("state") == "idle")
+    assert launcher.stdout is not None
+    lines = [launcher.stdout.readline() for _ in range(2)]
+    start = f"ROS_DOMAIN_ID={domain} ros2 service call /auv/start std_srvs/srv/Trigger\n"
+    while not lines[-1].startswith("start the mission"):
+        lines.append(launcher.stdout.readline())
+    assert lines[-1] == f"start the mission: {start}"
+    # Time stands still until the start: nothing has been sent.
+    assert operator.trigger("start")
+    operator.until(lambda: operator.is_over("short", "complete"))
+    assert operator.set("start_at", "") == ""
+    assert operator.set("mission_text", OTHER) == ""
+    operator.until(lambda: operator.is_over("other", "complete"))  # set, not begun
+    assert operator.status["begun at [s]"] == ""
+    assert operator.trigger("start")
+    operator.until(lambda: operator.is_over("other", "complete") and operator.status["begun at [s]"])
+    assert operator.set("mission", str(run / "config" / "mission.yaml")) == ""
+    operator.set("start_at", "subpath 3")
+    assert operator.trigger("start")
+    operator.until(lambda: operator.is_over("short", "complete") and operator.status["begun at [s]"])
+    assert launcher.poll() is None
+    launcher.send_signal(signal.SIGINT)
+    out, err = launcher.communicate(timeout=60)
+    assert (launcher.returncode, err) == (0, ""), out
+    flown = [line for line in out.splitlines() if ": complete, flown " in line]
+    assert [line.split(":")[0] for line in flown] == ["short", "other", "short"]
+    assert json.loads((run / "summary.json").read_text())["outcome"] == "complete"
