@@ -24,7 +24,7 @@ version: 1
 name: other
 frame: ned
 thrust: 6.48
-segments: [{line: {start: [30, 35], length: 25, course_deg: 90}}]
+segments: [{line: {start: [35, -10], length: 15, course_deg: 90}}]
 """
 
 
@@ -62,7 +62,7 @@ class Operator:
         request = SetParameters.Request(parameters=[Parameter(name=name, value=wanted)])
         return str(self.call(SetParameters, "ailos_guidance/set_parameters", request).results[0].reason)
 
-    def is_over(self, mission: str, state: str) -> bool:
+    def is_it(self, mission: str, state: str) -> bool:
         return (self.status.get("mission"), self.status.get("state")) == (mission, state)
 
 
@@ -81,35 +81,32 @@ def test_missions_follow_each_other_until_ctrl_c(
     tmp_path: Path,
     command_line: Callable[..., list[str]],
     spawn: Callable[..., subprocess.Popen[str]],
-    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     run = tmp_path / "run"
-    asked = ["--mission", short_mission, "--wait", "--start-at", "subpath 3", "--composed", "--out", run]
-    launcher = spawn(command_line("auv_sim.cli.mission", *asked, "--domain", domain))
-    operator.until(lambda: operator.status.get("state") == "idle")
+    asked = ["--mission", short_mission, "--wait", "--start-at", "subpath 3", "--initial", 35, -10, 90]
+    asked += ["--composed", "--domain", domain, "--out", run]
+    launcher = spawn(command_line("auv_sim.cli.mission", *asked))
     assert launcher.stdout is not None
-    lines = [launcher.stdout.readline() for _ in range(2)]
-    start = f"ROS_DOMAIN_ID={domain} ros2 service call /auv/start std_srvs/srv/Trigger\n"
-    while not lines[-1].startswith("start the mission"):
-        lines.append(launcher.stdout.readline())
-    assert lines[-1] == f"start the mission: {start}"
-    # Time stands still until the start: nothing has been sent.
-    assert operator.trigger("start")
-    operator.until(lambda: operator.is_over("short", "complete"))
+    before = list(iter(launcher.stdout.readline, "Ctrl-C ends the nodes\n"))
+    line = f"ROS_DOMAIN_ID={domain} ros2 service call /auv/start std_srvs/srv/Trigger\n"
+    assert before[-1] == f"start the mission: {line}"
+    operator.until(lambda: operator.is_it("short", "idle"))
     assert operator.set("start_at", "") == ""
     assert operator.set("mission_text", OTHER) == ""
-    operator.until(lambda: operator.is_over("other", "complete"))  # set, not begun
-    assert operator.status["begun at [s]"] == ""
     assert operator.trigger("start")
-    operator.until(lambda: operator.is_over("other", "complete") and operator.status["begun at [s]"])
+    operator.until(lambda: operator.is_it("other", "complete"))
     assert operator.set("mission", str(run / "config" / "mission.yaml")) == ""
-    operator.set("start_at", "subpath 3")
+    assert operator.set("start_at", "subpath 3") == ""
+    operator.until(lambda: operator.is_it("short", "complete") and not operator.status["begun at [s]"])
     assert operator.trigger("start")
-    operator.until(lambda: operator.is_over("short", "complete") and operator.status["begun at [s]"])
+    operator.until(lambda: operator.is_it("short", "complete") and operator.status["begun at [s]"])
     assert launcher.poll() is None
     launcher.send_signal(signal.SIGINT)
     out, err = launcher.communicate(timeout=60)
     assert (launcher.returncode, err) == (0, ""), out
     flown = [line for line in out.splitlines() if ": complete, flown " in line]
-    assert [line.split(":")[0] for line in flown] == ["short", "other", "short"]
-    assert json.loads((run / "summary.json").read_text())["outcome"] == "complete"
+    assert [line.split(":")[0] for line in flown] == ["other", "short"], out
+    summary = json.loads((run / "summary.json").read_text())
+    assert (summary["outcome"], summary["completed"]) == ("complete", True)
+    assert summary["flown_share"] == 1.0, "of the rest, and of the last mission alone"
+    assert summary["steps"] < 40 / 0.05

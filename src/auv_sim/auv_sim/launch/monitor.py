@@ -23,6 +23,7 @@ from auv_msgs_py.contract.conversions import finite, stamp_of
 from auv_msgs_py.contract.mission_word import PERIOD, MissionState, MissionWord
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.node.graph_look import GraphLook
+from auv_msgs_py.node.private_rclpy import take_polled
 from auv_msgs_py.values.errors import MessageRefused
 from auv_sim.launch.operation.flown_missions import FlownMissions
 
@@ -64,7 +65,10 @@ class Monitor:
         self._listen(topics.PATH_ERROR, Vector3Stamped, self._on_error)
         self._listen(topics.MISSION_STATE, String, self._on_state)
         self.missions = FlownMissions()
-        self._listen(topics.MISSION_STATUS, DiagnosticStatus, self._on_status)
+        # All of them: in lockstep a short mission is flown between two looks, and reported once a second.
+        status, every = topics.MISSION_STATUS, qos.requested(topics.MISSION_STATUS, reliable=True, depth=1000)
+        read = self.node.create_subscription(DiagnosticStatus, status.name, self._on_status, every)
+        self._take_status = take_polled(self.node, read)
 
     def _listen(self, topic: Topic, kind: Any, callback: Any) -> None:
         depth = qos.DEPTH if topic.latched else 1
@@ -135,6 +139,8 @@ class Monitor:
         deadline = time.monotonic() + seconds
         for _ in range(8):
             self._executor.spin_once(timeout_sec=0.0)
+        while (taken := self._take_status(DiagnosticStatus, False)) is not None:
+            self._on_status(taken[0])
         time.sleep(max(0.0, deadline - time.monotonic()))
 
     def look_around(self, claim: Claim, length: float) -> GraphLook:

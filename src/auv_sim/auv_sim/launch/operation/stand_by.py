@@ -15,7 +15,7 @@ from auv_sim.launch.outcome import Outcome
 from auv_sim.launch.progress_display import ProgressDisplay
 
 _INTERRUPTED = "stopped by a signal"
-_OVER = (MissionState.COMPLETE, MissionState.ABORTED)
+_UNDER_WAY = (MissionState.RUNNING, MissionState.HOLDING)
 
 
 def how_to_start(namespace: str, domain: str) -> str:
@@ -75,15 +75,18 @@ class StandBy:
 
     def _stop(self) -> bool:
         """Abort what is under way or could still begin; return whether a mission was under way."""
-        m = self._monitor
-        m.look(0.0)
-        state = m.state
-        if state not in _OVER:
-            m.abort()
-            m.look(0.3)  # for the zero commands to reach the vehicle: no propeller may keep running
-        is_under_way = state in (MissionState.RUNNING, MissionState.HOLDING)
+        m, missions = self._monitor, self._missions
+        number, last = len(missions.flown), missions.last
+        was_under_way = m.state in _UNDER_WAY if last is None else last.is_under_way
+        m.abort()  # a complete mission refuses it
+        for _ in range(15):  # 0.3 s for the zero commands to reach the vehicle: no propeller may keep running
+            m.look(0.02)
+        last = missions.last
+        if last is None or last.state == MissionState.COMPLETE:
+            return was_under_way and last is None
+        is_under_way = was_under_way or len(missions.flown) > number
         if is_under_way:
-            self._missions.interrupt(_INTERRUPTED)
+            missions.interrupt(_INTERRUPTED)
         return is_under_way
 
     def _outcome(self, is_under_way: bool) -> Outcome:
