@@ -126,7 +126,7 @@ def test_time_has_to_pass_only_while_a_mission_runs(plan: Plan, monkeypatch: pyt
     flight = launcher._Flight(plan, Nodes(), None, Nodes(), None, None, None)  # type: ignore[arg-type]
     flight._check_progress(True)
     for has_to_pass in (True, False, True):
-        now[0] += launcher._STALL_BOUND - 1.0
+        now[0] += launcher.STALL_BOUND - 1.0
         flight._check_progress(has_to_pass)
     now[0] += 2.0
     with pytest.raises(MissionFailed, match="time stood still"):
