@@ -42,8 +42,7 @@ def fly(options: Options, loader: Starter, domain: int | None = None) -> int:
     """
     directory = run_directory(options)
     resolved = prepare(options, directory)
-    if domain is None:
-        domain = launcher.domain_of(resolved)
+    domain = launcher.domain_of(resolved) if domain is None else domain
     console = terminal(options.quiet)
     make_directory(directory, new=True)
     announce(resolved, domain, console)
