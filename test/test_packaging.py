@@ -34,6 +34,7 @@ EXECUTABLES = {
         "remus_plant",
         "recorder",
         "fault_relay",
+        "fleet_clock",
         "check_vehicle",
         "mavlink_driver",
         "mavlink_emulator",
