@@ -50,7 +50,7 @@ def test_an_ascent_is_rerun_as_the_nodes_steered_it() -> None:
         sensed = Sensed(navigation, SpatialWater(1.9, 0.0, 0.0), math.nan)
         dt = DT if k else 0.0
         nodes, out = pilots.pilot_step(config, course.rows, nodes, course.measured(sensed, to_go, now), dt)
-        to_go = distance_to_go(course.path, nodes.guide.follower)
+        to_go = distance_to_go(course.path, config.guide.follower.progress, nodes.guide.follower)
         _, guided, reference, command = out
         chain.guiding = chain.guiding._replace(
             mission=_in_phase(chain.guiding.mission, _Phase(True, k == 0, False))

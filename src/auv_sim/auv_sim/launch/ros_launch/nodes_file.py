@@ -14,6 +14,7 @@ from xml.etree import ElementTree
 
 from auv_msgs_py.node.start_gate import GATE, PASSED
 from auv_msgs_py.settings.result_files import write_text
+from auv_sim.command_line import say
 from auv_sim.launch.composed import NODES
 from auv_sim.launch.processes.launched import Launched
 from auv_sim.launch.ros_launch.launch_arguments import READY
@@ -54,7 +55,7 @@ class NodesFile:
 
     def open_gate(self) -> None:
         """Have `ros2 launch` start the nodes."""
-        print(f"{READY}{self._file}", flush=True)
+        say(f"{READY}{self._file}")
 
 
 def launch_file(environment: Mapping[str, str], nodes: Sequence[tuple[str, str, Sequence[str], str]]) -> str:

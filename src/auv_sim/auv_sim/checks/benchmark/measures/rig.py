@@ -26,8 +26,8 @@ NAMESPACE = "/auv"
 #: What is flown in three dimensions.
 DIVE = Options(quiet=True, mission="paper_ramps", vehicle="remus100_6dof")
 COMPOSED = "composed"
-#: A vehicle's driver would stand in the simulator's place.
-_GRAPH = tuple(name for name in NODES if name != topics.MAVLINK_DRIVER)
+#: Without what a mission is flown without: a vehicle's driver, and the display.
+_GRAPH = tuple(name for name in NODES if name not in (topics.MAVLINK_DRIVER, topics.DISPLAY))
 _TIMED = "auv_sim.checks.benchmark.measures.timed_plant"
 _FLOOR = "auv_sim.checks.benchmark.measures.floor"
 #: Wall time for the nodes to find each other, and for a measurement that is expected to take no time, s.
