@@ -1,13 +1,11 @@
 """The smallest driver: a kinematic vehicle in real time. Start it with --ros-args -r __ns:=/auv."""
 
-import contextlib
 import math
 import time
 
 import rclpy
 from geometry_msgs.msg import TwistWithCovarianceStamped
 from nav_msgs.msg import Odometry
-from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from std_msgs.msg import Float64
 
@@ -44,5 +42,8 @@ class MinimalDriver(Node):
 
 
 rclpy.init()
-with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):  # Ctrl-C, SIGTERM
+try:
     rclpy.spin(MinimalDriver())
+except (KeyboardInterrupt, Exception):
+    if rclpy.ok():  # neither Ctrl-C nor SIGTERM
+        raise

@@ -24,7 +24,9 @@ def test_a_launch_file_has_these_arguments(line: Line) -> None:
     table = launch_arguments.of_mission() if file == "mission.launch.py" else launch_arguments.of_vehicle()
     assert set(values) <= {argument.name for argument in table}
     given = {argument.name: values.get(argument.name, argument.default) for argument in table}
-    mission_cli.checked(vars(mission_cli.parser().parse_args(launch_arguments.command_line(table, given))))
+    mission_cli.checked(
+        vars(mission_cli.parser_of_one().parse_args(launch_arguments.command_line(table, given)))
+    )
     for option, kind in FILES.items():
         if option in values:
             assert config_files.find(kind, values[option]).is_file()

@@ -31,7 +31,7 @@ class Launcher:
         self.outcomes: list[str] = []
 
     def __call__(self, arguments: list[str]) -> int:
-        given = vars(mission_command.parser().parse_args(arguments))
+        given = vars(mission_command.parser_of_one().parse_args(arguments))
         given["current"] = tuple(given["current"]) if given["current"] else None
         options = Options(**given)
         assert options.out is not None and not options.out.exists()
