@@ -33,9 +33,8 @@ class MinimalDriver(Node):
         water, odom = TwistWithCovarianceStamped(), Odometry()
         water.header.stamp = odom.header.stamp = self.get_clock().now().to_msg()
         water.header.frame_id, odom.header.frame_id, odom.child_frame_id = "base_link", "odom", "base_link"
-        pose, twist, half = odom.pose.pose, odom.twist.twist, self.yaw / 2
-        pose.position.x, pose.position.y = self.x, self.y
-        pose.orientation.z, pose.orientation.w = math.sin(half), math.cos(half)
+        place, q, twist = odom.pose.pose.position, odom.pose.pose.orientation, odom.twist.twist
+        place.x, place.y, q.z, q.w = self.x, self.y, math.sin(self.yaw / 2), math.cos(self.yaw / 2)
         twist.linear.x, twist.angular.z, water.twist.twist.linear.x = u, r, u
         self.water.publish(water)  # first: the odometry triggers the suite
         self.odom.publish(odom)

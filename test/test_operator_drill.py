@@ -29,7 +29,7 @@ segments: [{{line: {{start: [0, 0], length: 3000, course_deg: {course}}}}}]
 
 
 class Operator:
-    """Another process as far as the graph can tell: services, parameters and topics."""
+    """An operator who has only services, parameters and topics."""
 
     def __init__(self, bench: Bench) -> None:
         self._bench = bench

@@ -7,6 +7,7 @@ import hashlib
 import math
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -88,9 +89,9 @@ class Mission:
     max_slope: float = 0.0
     text: str = ""
 
-    @property
+    @cached_property
     def digest(self) -> str:
-        """The first 16 hexadecimal digits of the SHA-256 of the mission's content and waypoint files."""
+        """The first 16 hexadecimal digits of the SHA-256 of the mission's content, read once."""
         parts = [self.text.encode()] if self.text else [p.read_bytes() for p in (self.source, *self.files)]
         found = hashlib.sha256()
         for part in parts:

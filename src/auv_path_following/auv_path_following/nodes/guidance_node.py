@@ -32,7 +32,6 @@ class GuidanceNode(SuiteNode):
         self._current: Any = NO_CURRENT
         course = self._choice.course
         self.keeper = MissionKeeper(self, course, self._begins)
-        self._to_go = course.path.length
         self._approach, self._descent = ApproachWatch(), DescentWatch()
         self._messages = course.messages(self)
         self._board = MissionBoard(self)
@@ -51,7 +50,6 @@ class GuidanceNode(SuiteNode):
     def configure(self) -> None:
         if self._choice.taken(self.parameters):
             self.keeper.take(self._choice.course)
-            self._to_go = self._choice.course.path.length
             self._post()
             return
         self.keeper.configure()
@@ -85,7 +83,7 @@ class GuidanceNode(SuiteNode):
         p, has_water = self.parameters, inputs.water is not None
         late = not has_water and inputs.water_age > p.water_velocity_timeout
         self.health.warn("water", f"no fresh {topics.WATER_VELOCITY.name}" if late else "")
-        measured = self._choice.course.measured(inputs, self._to_go, self.now())
+        measured = self._choice.course.measured(inputs, self.keeper.to_go, self.now())
         self._current = inputs.current
         self._goal.is_at(inputs.navigation)
         dt = 0.0 if self.keeper.state.begins else inputs.dt
@@ -100,8 +98,7 @@ class GuidanceNode(SuiteNode):
             if text := self._approach.update(output.approach, dt):
                 self.get_logger().info(text)
             self.health.warn("approach", self._approach.complaint(p.guidance.approach.overdue))
-        self._to_go = self.keeper.to_go
-        self._messages.fill(output, thrust, self._to_go, inputs.stamp)
+        self._messages.fill(output, thrust, self.keeper.to_go, inputs.stamp)
         self.answer(self._publish)
 
     def _publish(self) -> None:

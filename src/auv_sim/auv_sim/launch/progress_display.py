@@ -4,16 +4,40 @@ from __future__ import annotations
 
 import math
 from types import TracebackType
+from typing import Self
 
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import BarColumn, TaskProgressColumn, TextColumn, TimeElapsedColumn
+from rich.progress import BarColumn, ProgressColumn, TaskProgressColumn, TextColumn, TimeElapsedColumn
 from rich.progress import Progress as Bar
 
 from auv_path_following.curves.composite import CompositePath
 
 
-class ProgressDisplay:
+def place_on(path: CompositePath, s: float) -> tuple[int, float]:
+    """Return the subpath (from 0) at s of Eq. (1), and the length of path before s, m."""
+    i = min(int(s), path.n - 1)
+    return i, path.length - path.distance_to_go(i, min(s - i, 1.0))
+
+
+class Bars:
+    """Bars on the terminal, drawn from entering the context until leaving it."""
+
+    def __init__(self, *columns: ProgressColumn, console: Console, quiet: bool) -> None:
+        first = TextColumn("{task.description}"), BarColumn(), TaskProgressColumn()
+        self._bar = Bar(*first, *columns, console=console, disable=quiet)
+
+    def __enter__(self) -> Self:
+        self._bar.__enter__()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._bar.__exit__(kind, error, trace)
+
+
+class ProgressDisplay(Bars):
     """A bar along the path: subpath, s, distance to the path, speed relative to real time.
 
     Args:
@@ -23,26 +47,9 @@ class ProgressDisplay:
     """
 
     def __init__(self, path: CompositePath, console: Console, quiet: bool = False) -> None:
+        super().__init__(TimeElapsedColumn(), console=console, quiet=quiet)
         self._path = path
-        self._bar = Bar(
-            TextColumn("{task.description}"),
-            BarColumn(),
-            TaskProgressColumn(),
-            TimeElapsedColumn(),
-            console=console,
-            transient=False,
-            disable=quiet,
-        )
         self._task = self._bar.add_task("starting the nodes", total=path.length)
-
-    def __enter__(self) -> ProgressDisplay:
-        self._bar.__enter__()
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self._bar.__exit__(kind, error, trace)
 
     def waiting_for(self, what: str) -> None:
         """Show what the mission waits for."""
@@ -60,9 +67,8 @@ class ProgressDisplay:
 
     def update(self, s: float, ye: float, mission_time: float, wall_time: float) -> None:
         """Show the vehicle's progress: s of Eq. (1), cross-track error (m), times (s)."""
-        i = min(int(s), self._path.n - 1)
+        i, flown = place_on(self._path, s)
         segment = self._path.segments[i]
-        flown = self._path.length - self._path.distance_to_go(i, min(s - i, 1.0))
         speed = mission_time / wall_time if wall_time > 0.0 else 0.0
         text = (
             f"subpath {i + 1}/{self._path.n} {segment.kind:<16.16} s {s:5.2f}  off {abs(ye):5.2f} m  "

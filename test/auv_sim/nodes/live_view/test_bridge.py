@@ -19,10 +19,10 @@ from auv_msgs_py.contract.frames import FrameIds, FrameTable
 from auv_sim.bags.definitions import typestore
 from auv_sim.nodes.live_view.bridge import Bridge, listener_of
 
-foxglove = pytest.importorskip("foxglove", reason="foxglove-sdk is not installed: requirements/foxglove.txt")
-
 
 def test_messages_pass_as_they_are_and_latched_ones_again_on_request(domain: int, tmp_path: Path) -> None:
+    missing = "foxglove-sdk is not installed: requirements/foxglove.txt"
+    foxglove = pytest.importorskip("foxglove", reason=missing)
     from mcap.reader import make_reader
 
     context = rclpy.Context()

@@ -17,6 +17,7 @@ from auv_path_following.missions.mission_state import (
     TOO_SLOW,
     Reason,
 )
+from auv_path_following.navigation.levelled import levelled
 
 #: A depth error has become smaller when it has lost this much, m.
 _CLOSER = 0.25
@@ -82,8 +83,7 @@ class DiveLimitsConfig:
 @pure
 def sinking_of(phi: float, theta: float, ur: float, vr: float, wr: float) -> float:
     """Return dz/dt (m/s, down positive) of a velocity through the water (m/s, FRD), by the attitude (rad)."""
-    w1 = math.sin(phi) * vr + math.cos(phi) * wr
-    return math.cos(theta) * w1 - math.sin(theta) * ur
+    return levelled((ur, vr, wr), phi, theta).down
 
 
 @pure

@@ -51,6 +51,8 @@ class MissionKeeper:
         self._last_usable: float | None = None
         self._place, self._placed_at = (0.0, 0.0), -math.inf
         self._clock_went_back = False
+        #: Length of path that is left after the last step, the rest of an approach included, m.
+        self.to_go: float = course.path.length
         #: Whether a mission was taken that has not begun yet.
         self._is_new = False
         self.report = MissionReport(node)
@@ -58,7 +60,7 @@ class MissionKeeper:
 
     def take(self, course: PlanarCourse) -> None:
         """Take another mission; it begins with the next start, or when the operator's hold ends."""
-        self._course, self._is_new = course, True
+        self._course, self._is_new, self.to_go = course, True, course.path.length
         self.config = self._prepared()
         self.state = at_the_beginning(self.config, self.state.mission, empty_approach())
         self._describe()
@@ -74,11 +76,6 @@ class MissionKeeper:
     def next_service(self) -> str:
         """Name of the service that begins the mission."""
         return topics.RESUME_SERVICE if states.is_under_way(self.state.mission) else topics.START_SERVICE
-
-    @property
-    def to_go(self) -> float:
-        """Length of path that is left, the rest of an approach included, m."""
-        return distance_to_go(self._course.path, self.config.follower.progress, self.state.follower)
 
     def offer(self) -> None:
         """Offer the services, and start the watchdog of navigation."""
@@ -101,6 +98,7 @@ class MissionKeeper:
         self.state, output, thrust, has_resumed = guide(
             self.config, self._course.rows, self.state, measured, current, dt
         )
+        self.to_go = distance_to_go(self._course.path, self.config.follower.progress, self.state.follower)
         self._count(measured.now, jumps or has_resumed or thrust == 0.0 or output.approach > 0.0)
         if measured.has_water or surfaces(self.state.guard):
             self._last_usable = measured.now
