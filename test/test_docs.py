@@ -49,6 +49,7 @@ PARSERS = {
     "reproduce_paper": "auv_sim.cli.reproduce_paper",
     "sea_trials": "auv_sim.cli.sea_trials",
     "soak": "auv_sim.cli.soak",
+    "vehicle": "auv_sim.cli.vehicle_command",
 }
 #: What the shell and other programs' commands begin with: they are no commands of this suite.
 FOREIGN = (

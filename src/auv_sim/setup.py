@@ -52,6 +52,7 @@ setup(
         "cluster": ["distributed"],
         "foxglove": ["foxglove-sdk"],
         "test": ["hypothesis", "pytest"],
+        "vehicle": ["numba"],
     },
     zip_safe=False,
     entry_points={

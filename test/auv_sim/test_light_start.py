@@ -36,6 +36,7 @@ def imported(code: str) -> set[str]:
         "auv_sim.cli.reproduce_paper",
         "auv_sim.cli.sea_trials",
         "auv_sim.cli.soak",
+        "auv_sim.cli.vehicle_command",
     ],
 )
 def test_help_needs_no_library(module: str) -> None:

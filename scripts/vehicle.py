@@ -1,0 +1,15 @@
+#!/usr/bin/env python3
+"""Describe, identify, tune and prove a vehicle of your own. Sets itself up on first use."""
+
+import sys
+
+import _bootstrap
+
+#: Verbs that fly or fit thousands of times: compiled, and with an optimiser.
+_HEAVY = {"identify", "tune", "prove"}
+_bootstrap.ensure_environment(extra=("vehicle",) if _HEAVY.intersection(sys.argv[1:2]) else ())
+
+from auv_sim.cli.vehicle_command import main  # noqa: E402 - only there once the environment is
+
+if __name__ == "__main__":
+    raise SystemExit(main())

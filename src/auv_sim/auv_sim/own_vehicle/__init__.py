@@ -1,0 +1,1 @@
+"""A vehicle of your own: its file, manoeuvres, coefficients and gains."""
