@@ -5,7 +5,7 @@ import _bootstrap
 
 _bootstrap.ensure_environment()
 
-from auv_sim.cli.check_vehicle import main  # noqa: E402 - only there once the environment is
+from auv_sim.cli.vehicles.check_vehicle import main  # noqa: E402 - only there once the environment is
 
 if __name__ == "__main__":
     raise SystemExit(main())

@@ -9,7 +9,7 @@ import _bootstrap
 _HEAVY = {"identify", "tune", "prove"}
 _bootstrap.ensure_environment(extra=("vehicle",) if _HEAVY.intersection(sys.argv[1:2]) else ())
 
-from auv_sim.cli.vehicle_command import main  # noqa: E402 - only there once the environment is
+from auv_sim.cli.vehicles.vehicle_command import main  # noqa: E402 - only there once the environment is
 
 if __name__ == "__main__":
     raise SystemExit(main())

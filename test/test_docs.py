@@ -40,7 +40,7 @@ PARSERS = {
     "bag": "auv_sim.cli.bag",
     "benchmark": "auv_sim.cli.benchmark",
     "campaign": "auv_sim.cli.campaign",
-    "check_vehicle": "auv_sim.cli.check_vehicle",
+    "check_vehicle": "auv_sim.cli.vehicles.check_vehicle",
     "fault_matrix": "auv_sim.cli.fault_matrix",
     "gallery": "auv_sim.cli.gallery",
     "live_view": "auv_sim.cli.live_view",
@@ -49,7 +49,7 @@ PARSERS = {
     "reproduce_paper": "auv_sim.cli.reproduce_paper",
     "sea_trials": "auv_sim.cli.sea_trials",
     "soak": "auv_sim.cli.soak",
-    "vehicle": "auv_sim.cli.vehicle_command",
+    "vehicle": "auv_sim.cli.vehicles.vehicle_command",
 }
 #: What the shell and other programs' commands begin with: they are no commands of this suite.
 FOREIGN = (

@@ -100,7 +100,7 @@ def test_the_listing_is_a_driver(
     python = command_line("x")[0]
     driver = spawn([python, str(file), "--ros-args", "-r", "__ns:=/auv", "-p", f"port:={json_vehicle.port}"])
     asked = ["--wiggle", "--yes-the-vehicle-may-move", "--wait", "90", "--json"]
-    checker = spawn(command_line("auv_sim.cli.check_vehicle", *asked))
+    checker = spawn(command_line("auv_sim.cli.vehicles.check_vehicle", *asked))
     out, err = checker.communicate(timeout=240)
     assert out, err
     items = {item["item"]: item for item in json.loads(out)["items"]}

@@ -61,7 +61,7 @@ setup(
             "recorder = auv_sim.nodes.recorder_node:main",
             "fleet_clock = auv_sim.nodes.fleet.fleet_clock_node:main",
             "fault_relay = auv_sim.nodes.fault_relay:main",
-            "check_vehicle = auv_sim.cli.check_vehicle:main",
+            "check_vehicle = auv_sim.cli.vehicles.check_vehicle:main",
             "mavlink_driver = auv_sim.nodes.mavlink.driver:main",
             "mavlink_emulator = auv_sim.nodes.mavlink.emulator:main",
             "display = auv_sim.nodes.display.display_node:main",

@@ -27,7 +27,7 @@ def imported(code: str) -> set[str]:
         "auv_sim.cli.bag",
         "auv_sim.cli.benchmark",
         "auv_sim.cli.campaign",
-        "auv_sim.cli.check_vehicle",
+        "auv_sim.cli.vehicles.check_vehicle",
         "auv_sim.cli.fault_matrix",
         "auv_sim.cli.gallery",
         "auv_sim.cli.live_view",
@@ -36,7 +36,7 @@ def imported(code: str) -> set[str]:
         "auv_sim.cli.reproduce_paper",
         "auv_sim.cli.sea_trials",
         "auv_sim.cli.soak",
-        "auv_sim.cli.vehicle_command",
+        "auv_sim.cli.vehicles.vehicle_command",
     ],
 )
 def test_help_needs_no_library(module: str) -> None:

@@ -6,7 +6,7 @@ import importlib
 
 import pytest
 
-from auv_sim.cli import vehicle_command as vehicle_cli
+from auv_sim.cli.vehicles import vehicle_command as vehicle_cli
 
 
 @pytest.mark.parametrize("verb", vehicle_cli.VERBS)

@@ -20,7 +20,7 @@ from auv_sim.checks.vehicle_check.live.listener import VehicleListener
 from auv_sim.checks.vehicle_check.live.self_test import find_all
 from auv_sim.checks.vehicle_check.live.small_test import SmallTest
 from auv_sim.checks.vehicle_check.planted import PLANTED
-from auv_sim.cli.check_vehicle import main
+from auv_sim.cli.vehicles.check_vehicle import main
 from auv_sim.launch.vehicle_driver import free_port
 from auv_sim.nodes.plant_node import RemusPlantNode
 

@@ -1,0 +1,1 @@
+"""Commands about one vehicle: its driver checked, its description made."""
