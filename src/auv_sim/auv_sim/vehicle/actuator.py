@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.values.pure import bounded, dispatched, pure
 from auv_path_following.vehicle import Rudder, Vehicle
-from auv_sim.vehicle.fins.late_servo import LateServo, late_servo_at, late_servo_of, turn_late
+from auv_sim.vehicle.fins.late_servo import ROUNDING, LateServo, late_servo_at, late_servo_of, turn_late
 
 
 @settings
@@ -147,7 +147,7 @@ def turn_flawed(
 ) -> tuple[FlawedServoState, Deflection]:
     """Move towards the last command whose dead time is over; the rudder follows with the backlash.
 
-    A command whose dead time ends within the step counts from the step's end.
+    Each counts from the moment at which its dead time is over; at most one dead time may end within the step.
 
     Raises:
         IndexError: more commands within their dead time than the ring holds.
@@ -167,14 +167,14 @@ def turn_flawed(
             target = _aim(band, angle, target, command)
     error = target - angle
     middle, end = angle + bounded(error, max_rate * (0.5 * dt)), angle + bounded(error, max_rate * dt)
-    if play > 0.0:
-        fins = (
-            min(max(fin, angle - play), angle + play),
-            min(max(fin, middle - play), middle + play),
-            min(max(fin, end - play), end + play),
-        )
-    else:
-        fins = angle, middle, end
+    wait = ring[first % size] - clock if dead_time > 0.0 and first < after else dt
+    if ROUNDING < wait < dt - ROUNDING:
+        then = angle + bounded(error, max_rate * wait)
+        target, first = _due(config, then, target, clock + wait, first, after)
+        if wait < 0.5 * dt:
+            middle = then + bounded(target - then, max_rate * (0.5 * dt - wait))
+        end = then + bounded(target - then, max_rate * (dt - wait))
+    fins = _dragged(fin, play, angle, middle, end) if play > 0.0 else (angle, middle, end)
     if dead_time > 0.0:
         clock += dt
         target, first = _due(config, end, target, clock, first, after)
@@ -182,11 +182,21 @@ def turn_flawed(
 
 
 @pure
+def _dragged(fin: float, play: float, begin: float, middle: float, end: float) -> Deflection:
+    """Return the rudder's angles where the servo drags it along with a backlash of twice `play`, rad."""
+    return (
+        min(max(fin, begin - play), begin + play),
+        min(max(fin, middle - play), middle + play),
+        min(max(fin, end - play), end + play),
+    )
+
+
+@pure
 def _due(
     config: FlawedServo, angle: float, target: float, clock: float, first: int, after: int
 ) -> tuple[float, int]:
     """Take the commands whose dead time is over; return the target and the first that remains."""
-    while first < after and config.ring[first % config.size] <= clock + 1e-9:
+    while first < after and config.ring[first % config.size] <= clock + ROUNDING:
         target = _aim(config.band, angle, target, config.ring[config.size + first % config.size])
         first += 1
     return target, first

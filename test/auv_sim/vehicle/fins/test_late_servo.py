@@ -19,6 +19,7 @@ from auv_sim.flight.batch import engine
 from auv_sim.flight.closed_loop import Scenario
 from auv_sim.vehicle.actuator import (
     FlawedServo,
+    FlawedServoState,
     RudderFlaws,
     Servo,
     flawed_servo_of,
@@ -62,6 +63,24 @@ def test_its_angle_is_that_of_an_ideal_one_some_time_ago(delay, period, commands
         state, deflection = servo_step(servo, state, (command, True), 1e-3 * period)
         assert deflection[2] == pytest.approx(fine[(k + 1) * period - 1], abs=1e-9)
         assert deflection[1] == pytest.approx(fine[k * period + period // 2 - 1], abs=1e-9)
+
+
+@settings(deadline=None)
+@given(
+    st.floats(0.001, 0.4),
+    st.sampled_from([0.02, 0.05, 0.1]),
+    st.lists(st.floats(-0.7, 0.7), min_size=1, max_size=12),
+    st.sampled_from([0.2, 14.0]),
+)
+def test_at_sea_a_dead_time_has_any_length_too(delay, period, commands, rate) -> None:
+    """Not only whole steps of the plant."""
+    servo = servo_of(late(delay))._replace(max_rate=rate)
+    other = flawed_servo_of(late(delay), RudderFlaws(), period)._replace(max_rate=rate)
+    state, seen = servo_at(servo), FlawedServoState()
+    for command in commands:
+        state, wanted = servo_step(servo, state, (command, True), period)
+        seen, found = servo_step(other, seen, (command, True), period)
+        assert found == pytest.approx(wanted, abs=1e-9)
 
 
 def test_without_dead_time_it_is_the_ideal_one() -> None:

@@ -153,7 +153,8 @@ def fly_one(
         if finite:
             error = squared_error(estimate, seen.current)
             tally.count(whole, subpaths, i, s, k * c.dt, distance, guided.psi_e, error)
-            count_extras(path, whole, subpaths, i, k * c.dt, state, below)
+            is_near = count_extras(path, whole, subpaths, i, k * c.dt, state, below)
+            tally.count_steadiness(whole, k * c.dt, distance, navigation.r, is_near)
         if every > 0 and k % every == 0:
             write_row(navigation, track[k // every], k, seen, guided, estimate, command)
         if finished or not finite:

@@ -61,13 +61,16 @@ _CHUNK = 64
 Done = Callable[[int], None]
 
 
-def fly(scenarios: Sequence[Scenario], threads: int = 1, done: Done | None = None) -> Flights:
+def fly(
+    scenarios: Sequence[Scenario], threads: int = 1, done: Done | None = None, courses: Courses | None = None
+) -> Flights:
     """Fly all scenarios.
 
     Args:
         scenarios: what to fly.
         threads: flights at the same time; more than one is faster where `compiled.COMPILED`.
         done: called with the number of odometries of each flight, after it, from any thread.
+        courses: of earlier calls, for paths that are flown again.
 
     Returns:
         One row for each scenario, in their order.
@@ -76,7 +79,7 @@ def fly(scenarios: Sequence[Scenario], threads: int = 1, done: Done | None = Non
         ConfigurationError: a scenario that cannot be flown.
     """
     # Errors are found before the first flight.
-    chunks = _chunks(scenarios, -(-len(scenarios) // (4 * threads)))
+    chunks = _chunks(scenarios, -(-len(scenarios) // (4 * threads)), courses or Courses())
 
     def one(chunk: _Chunk) -> tuple[Sequence[int], dict[str, Any]]:
         figures = chunk.fly(scenarios)
@@ -140,9 +143,9 @@ def _figures(path: CompositePath | SpatialPath) -> Callable[..., dict[str, Any]]
     return spatial_figures_of if isinstance(path, SpatialPath) else figures_of
 
 
-def _chunks(scenarios: Sequence[Scenario], largest: int) -> list[_Chunk]:
+def _chunks(scenarios: Sequence[Scenario], largest: int, courses: Courses) -> list[_Chunk]:
     """Divide scenarios by course and layout; each shared part is turned into numbers once."""
-    preparation, courses = Preparation(), Courses()
+    preparation = Preparation()
     groups: dict[Any, list[tuple[int, int]]] = {}
     for place, scenario in enumerate(scenarios):
         row, layout = preparation.row_of(scenario)

@@ -31,6 +31,7 @@ UNITS = {
     "largest_distance": "m",
     "late_rms_distance": "m",
     "late_largest_distance": "m",
+    "off_corners_rms_distance": "m",
     "time_to_path": "s",
     "rms_heading_error": "deg",
     "distance_covered": "m",
@@ -38,6 +39,7 @@ UNITS = {
     "rudder_travel_per_metre": "deg/m",
     "rms_rudder_rate": "deg/s",
     "largest_rudder_rate": "deg/s",
+    "late_rms_yaw_rate": "deg/s",
     "current_estimate_error": "m/s",
     "last_x": "m",
     "last_y": "m",
@@ -67,11 +69,13 @@ class Flights:
         progress: s of Eq. (1) at the end, in [0, number of subpaths].
         rms_distance, largest_distance: over the whole flight.
         late_rms_distance, late_largest_distance: from `time_to_path` on.
+        off_corners_rms_distance: farther than `path_cells.CORNER_RADIUS` from every corner.
         time_to_path: time until the path was joined, as `tally.ARRIVED` defines it, s.
         rms_heading_error: deg.
         distance_covered: m.
         rudder_travel: deg; rudder_travel_per_metre: deg/m.
         rms_rudder_rate, largest_rudder_rate: of the command, deg/s.
+        late_rms_yaw_rate: as measured, from `tally.CALM_TIME` on, deg/s.
         saturated: share of the commands at the stop.
         current_estimate_error: the largest after the observer has settled, m/s.
         last_x, last_y: last position, NED, m.
@@ -88,6 +92,7 @@ class Flights:
     largest_distance: Column
     late_rms_distance: Column
     late_largest_distance: Column
+    off_corners_rms_distance: Column
     time_to_path: Column
     rms_heading_error: Column
     distance_covered: Column
@@ -95,6 +100,7 @@ class Flights:
     rudder_travel_per_metre: Column
     rms_rudder_rate: Column
     largest_rudder_rate: Column
+    late_rms_yaw_rate: Column
     saturated: Column
     current_estimate_error: Column
     last_x: Column
@@ -199,6 +205,7 @@ def figures_of(ends: Column, whole: Column, subpaths: Column, dt: Column) -> dic
             "largest_distance": _known(subpaths[:, :, tally.LARGEST].max(axis=1)),
             "late_rms_distance": _root(whole[:, tally.LATE_SQUARES], whole[:, tally.LATE_ROWS]),
             "late_largest_distance": _known(whole[:, tally.LATE_LARGEST]),
+            "off_corners_rms_distance": _root(whole[:, tally.FREE_SQUARES], whole[:, tally.FREE_ROWS]),
             "time_to_path": whole[:, tally.TIME_TO_PATH],
             "rms_heading_error": np.degrees(
                 _root(subpaths[:, :, tally.HEADING_SQUARES].sum(axis=1), counted)
@@ -208,6 +215,7 @@ def figures_of(ends: Column, whole: Column, subpaths: Column, dt: Column) -> dic
             "rudder_travel_per_metre": np.where(covered > 0.0, travel / covered, np.nan),
             "rms_rudder_rate": np.degrees(_root(whole[:, tally.RATE_SQUARES], commands)),
             "largest_rudder_rate": np.degrees(whole[:, tally.RATE_LARGEST]),
+            "late_rms_yaw_rate": np.degrees(_root(whole[:, tally.YAW_SQUARES], whole[:, tally.CALM_ROWS])),
             "saturated": np.where(commands > 0.0, whole[:, tally.SATURATED] / commands, np.nan),
             "current_estimate_error": _known(whole[:, tally.ESTIMATE_ERROR]),
             "last_x": ends[:, tally.LAST_X],

@@ -13,6 +13,9 @@ from auv_sim.flight.metrics import OBSERVER_SETTLING_TIME
 #: Distance at which the path counts as joined, the first time with s > 0, m: an approach to the path's start,
 #: with s = 0, may cross the path. The `late_*` figures count from there.
 ARRIVED = 1.0
+#: Time after the start from which the yaw rate counts, s. What is left on a straight line is a limit cycle.
+CALM_TIME = 60.0
+_ROUNDING = 1e-6
 
 # Rows of a subpath's tally.
 ROWS, DURATION, SQUARES, LARGEST, HEADING_SQUARES, TRAVEL, COVERED = range(7)
@@ -20,7 +23,8 @@ SUBPATH_TALLIES = 7
 # The flight's own.
 LATE_ROWS, LATE_SQUARES, LATE_LARGEST, TIME_TO_PATH, ESTIMATE_ERROR = range(5)
 COMMANDS, RATE_SQUARES, RATE_LARGEST, SATURATED = range(5, 9)
-FLIGHT_TALLIES = 9
+FREE_ROWS, FREE_SQUARES, CALM_ROWS, YAW_SQUARES = range(9, 13)
+FLIGHT_TALLIES = 13
 # How it ended: odometries, s of Eq. (1), whether the state stayed finite, flown share, last position (m).
 ODOMETRIES, S, FINITE, SHARE, LAST_X, LAST_Y = range(6)
 ENDS = 6
@@ -65,6 +69,17 @@ def count(
         whole[LATE_LARGEST] = max(whole[LATE_LARGEST], distance)
     if elapsed >= OBSERVER_SETTLING_TIME:
         whole[ESTIMATE_ERROR] = max(whole[ESTIMATE_ERROR], math.sqrt(squared_error))
+
+
+@compiled
+def count_steadiness(whole: Array, elapsed: float, distance: float, r: float, is_at_corner: bool) -> None:
+    """Count an odometry's distance away from corners (m), and from `CALM_TIME` on its yaw rate (rad/s)."""
+    if not is_at_corner:
+        whole[FREE_ROWS] += 1.0
+        whole[FREE_SQUARES] += distance * distance
+    if elapsed >= CALM_TIME - _ROUNDING:
+        whole[CALM_ROWS] += 1.0
+        whole[YAW_SQUARES] += r * r
 
 
 @compiled

@@ -11,7 +11,7 @@ from auv_path_following.vehicle import Rudder
 #: Shortest time between two commands, s.
 SHORTEST_PERIOD = 0.005
 #: Tolerance for the end of a dead time, s: clocks are sums of steps.
-_ROUNDING = 1e-9
+ROUNDING = 1e-9
 
 
 class LateServo(NamedTuple):
@@ -81,11 +81,11 @@ def turn_late(
             raise IndexError("more commands within their dead time than the servo's ring holds")
         ring[after % size], ring[size + after % size] = clock + dead_time, bounded(ordered, max_angle)
         after += 1
-    while first < after and ring[first % size] <= clock + _ROUNDING:
+    while first < after and ring[first % size] <= clock + ROUNDING:
         target = ring[size + first % size]
         first += 1
     half = 0.5 * dt
-    if first < after and ring[first % size] < clock + dt - _ROUNDING:
+    if first < after and ring[first % size] < clock + dt - ROUNDING:
         wait = ring[first % size] - clock
         then = angle + bounded(target - angle, max_rate * wait)
         middle = angle + bounded(target - angle, max_rate * half)

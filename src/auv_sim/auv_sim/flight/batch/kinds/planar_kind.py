@@ -8,7 +8,7 @@ from typing import Any
 from auv_msgs_py.contract.frames import heading_over_the_wire
 from auv_msgs_py.values.pure import pure
 from auv_msgs_py.values.types import Command, Current, Navigation
-from auv_path_following.curves.rows import PathRows
+from auv_path_following.curves.rows import CORNER, JOINT, JOINT_X, JOINT_Y, PathRows
 from auv_path_following.guidance.follow import GuidanceOutput
 from auv_path_following.guidance.measured import Measured
 from auv_path_following.pilot import Pilot, pilot
@@ -16,7 +16,7 @@ from auv_sim.flight.batch import tally
 from auv_sim.flight.batch.distance import Outlines, distance_to
 from auv_sim.flight.batch.flown_cells import pass_cells
 from auv_sim.flight.batch.kinds.nearest import Nearest
-from auv_sim.flight.path_cells import Cells
+from auv_sim.flight.path_cells import CORNER_RADIUS, Cells
 from auv_sim.vehicle.actuator import servo_begin
 from auv_sim.vehicle.at_sea import Seen
 from auv_sim.vehicle.remus import Afloat, Plant, PlantState
@@ -98,8 +98,17 @@ def planar_squared_error(estimate: Current, current: Current) -> float:
 @pure
 def planar_extras(
     path: PathRows, whole: Any, subpaths: Any, i: int, elapsed: float, motion: PlantState, below: float
-) -> None:
-    """Count nothing more."""
+) -> bool:
+    """Return whether the vehicle is at a corner; count nothing more."""
+    x, y = motion.x, motion.y
+    return is_near_joint(path.subpath[i], x, y) or (i > 0 and is_near_joint(path.subpath[i - 1], x, y))
+
+
+@pure
+def is_near_joint(row: Any, x: float, y: float) -> bool:
+    """Return whether a place is near the joint at a subpath's end, and that is a corner."""
+    dx, dy = x - row[JOINT_X], y - row[JOINT_Y]
+    return bool(row[JOINT] == CORNER and math.sqrt(dx * dx + dy * dy) <= CORNER_RADIUS)
 
 
 @pure

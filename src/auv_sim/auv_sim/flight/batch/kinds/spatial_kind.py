@@ -113,12 +113,13 @@ def spatial_squared_error(estimate: SpatialCurrent, current: SpatialCurrent) -> 
 @pure
 def spatial_extras(
     path: SpatialRows, whole: Any, subpaths: Any, i: int, elapsed: float, motion: BodyState, below: float
-) -> None:
-    """Count what an odometry says about depth and pitch."""
+) -> bool:
+    """Count what an odometry says about depth and pitch; return whether the vehicle is at a corner."""
     rows = path.plan.subpath
     is_near = _is_near_joint(rows[i], motion) or (i > 0 and _is_near_joint(rows[i - 1], motion))
     sine = 2.0 * (motion.qw * motion.qj - motion.qk * motion.qi)
     count_depth(whole, subpaths, i, elapsed, below, sine, is_near)
+    return is_near
 
 
 @pure
