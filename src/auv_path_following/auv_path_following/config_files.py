@@ -9,7 +9,7 @@ from typing import Literal
 from auv_msgs_py.settings import user_files
 from auv_msgs_py.values.errors import ConfigurationError
 
-Kind = Literal["missions", "vehicles", "params", "seas", "studies", "fleets"]
+Kind = Literal["missions", "vehicles", "params", "seas", "studies", "fleets", "manoeuvres"]
 
 _WORD: dict[Kind, str] = {
     "missions": "mission",
@@ -18,6 +18,7 @@ _WORD: dict[Kind, str] = {
     "seas": "sea",
     "studies": "study",
     "fleets": "fleet",
+    "manoeuvres": "manoeuvre",
 }
 
 
