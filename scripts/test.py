@@ -50,7 +50,7 @@ def main(arguments: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    ensure_environment(extra=("batch", "cluster", "vehicle", "dev", "docs"))
+    ensure_environment(extra=("batch", "cluster", "console", "vehicle", "dev", "docs"))
     try:
         sys.exit(main(sys.argv[1:]))
     except KeyboardInterrupt:

@@ -115,6 +115,7 @@ def defined(nodes: list[ast.AST]) -> Iterator[str]:
                 ast.Attribute(attr=name, ctx=ast.Store())
                 | ast.Name(id=name, ctx=ast.Store())
                 | ast.FunctionDef(name=name)
+                | ast.AsyncFunctionDef(name=name)
             ):
                 yield name
 

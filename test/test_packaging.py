@@ -69,7 +69,7 @@ ROSDEP_KEYS = {
 #: For these rosdep has no key. mcap brings zstandard; Pillow comes with matplotlib.
 WITHOUT_KEY = {"mcap", "zstandard"}
 #: The suite works without them, or says in one line how to install them.
-OPTIONAL = {"cma", "distributed", "foxglove", "numba", "pyarrow"}
+OPTIONAL = {"aiohttp", "cma", "distributed", "foxglove", "numba", "pyarrow"}
 #: The message packages that auv_msgs_py finds by the names in its table of topics, and those of the services.
 BY_NAME = {topic.type.split("/")[0] for topic in (*topics.CONTRACT, *topics.RECORDING)} | {"std_srvs"}
 
@@ -188,7 +188,7 @@ def test_the_requirement_files_bring_what_the_packages_need() -> None:
     needed = set().union(*(sources(name) for name in PACKAGES)) & {*ROSDEP_KEYS, *WITHOUT_KEY, *OPTIONAL}
     listed = {
         line
-        for name in ("ros", "tools", "batch", "cluster", "foxglove", "vehicle")
+        for name in ("ros", "tools", "batch", "cluster", "console", "foxglove", "vehicle")
         for line in (ROOT / "requirements" / f"{name}.txt").read_text(encoding="utf-8").splitlines()
     }
     assert {DISTRIBUTIONS.get(top, top) for top in needed} <= {line.split("==")[0] for line in listed}

@@ -50,6 +50,7 @@ setup(
         "batch": ["numba"],
         "campaign": ["pyarrow"],
         "cluster": ["distributed"],
+        "console": ["aiohttp"],
         "foxglove": ["foxglove-sdk"],
         "test": ["hypothesis", "pytest"],
         "vehicle": ["numba"],

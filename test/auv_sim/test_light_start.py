@@ -9,8 +9,8 @@ import pytest
 
 #: Each of these takes 0.1 s or more.
 HEAVY = {
-    "matplotlib", "mcap", "numba", "numpy", "pyarrow", "pydantic", "pymavlink", "rclpy", "rich", "rosbags",
-    "scipy", "yaml",
+    "aiohttp", "matplotlib", "mcap", "numba", "numpy", "pyarrow", "pydantic", "pymavlink", "rclpy", "rich",
+    "rosbags", "scipy", "yaml",
 }  # fmt: skip
 
 
@@ -28,6 +28,7 @@ def imported(code: str) -> set[str]:
         "auv_sim.cli.benchmark",
         "auv_sim.cli.campaign",
         "auv_sim.cli.vehicles.check_vehicle",
+        "auv_sim.cli.console",
         "auv_sim.cli.fault_matrix",
         "auv_sim.cli.gallery",
         "auv_sim.cli.live_view",

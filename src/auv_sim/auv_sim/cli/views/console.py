@@ -1,0 +1,66 @@
+"""`scripts/console.py`: watch missions and steer them in a browser."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.command_line import Parser, command, ros_domain, ros_namespace, whole
+
+_INSTALL = "pip install -r requirements/console.txt"
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the command line's parser."""
+    p = Parser(
+        prog="console.py", description="Watch missions and steer them, in any browser.", allow_abbrev=False
+    )
+    p.add_argument(
+        "--namespace",
+        type=ros_namespace,
+        action="append",
+        default=[],
+        help="of a vehicle; several times for several ones (default: all that are discovered)",
+    )
+    p.add_argument("--domain", type=ros_domain, help="ROS domain (default: ROS_DOMAIN_ID, or 0)")
+    p.add_argument(
+        "--port", type=whole, default=8642, help="for the browser; 0: a free one (default %(default)s)"
+    )
+    p.add_argument(
+        "--address",
+        default="127.0.0.1",
+        help="listen there (default %(default)s: this machine only); any other one is open to its network",
+    )
+    p.add_argument("--view-only", action="store_true", help="no browser may command")
+    p.add_argument(
+        "--missions", type=Path, metavar="DIR", help="folder of further mission files to choose from"
+    )
+    p.add_argument(
+        "--forget", action="store_true", help="keep neither track nor cookies for a restart of the console"
+    )
+    return p
+
+
+@command("console")
+def main(argv: Sequence[str] | None = None) -> int:
+    """Return 0 after a signal, 2 for bad input."""
+    options = parser().parse_args(argv)
+    try:
+        import aiohttp  # noqa: F401
+    except ImportError:
+        raise ConfigurationError("aiohttp", "not installed", _INSTALL) from None
+    from auv_sim.nodes.console.console_session import ConsoleOptions, serve
+
+    return serve(
+        ConsoleOptions(
+            namespaces=tuple(options.namespace), domain=options.domain, address=options.address,
+            port=options.port, view_only=options.view_only, missions=options.missions,
+            keep=not options.forget,
+        )
+    )  # fmt: skip
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

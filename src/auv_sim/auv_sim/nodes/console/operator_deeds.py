@@ -1,0 +1,152 @@
+"""What an operator can do, and the line in /rosout that says which browser did it."""
+
+from __future__ import annotations
+
+import asyncio
+import math
+import time
+from collections.abc import Mapping
+from typing import Any
+
+from geometry_msgs.msg import PoseStamped
+from rclpy.node import Node
+
+from auv_msgs_py.contract import qos, topics
+from auv_msgs_py.contract.conversions import MAP
+from auv_msgs_py.contract.frames import quaternion_of_yaw
+from auv_msgs_py.values.errors import printable
+from auv_sim.nodes.console.parameter_desk import ParameterDesk
+from auv_sim.nodes.console.vehicle_calls import CallFailed, ServiceCaller
+from auv_sim.views.console import mission_desk
+from auv_sim.views.console.mission_desk import MissionShelf
+from auv_sim.views.console.record.vehicle_record import VehicleRecord
+from auv_sim.views.console.web.operator_desk import Answer, Deed, number_in, text_in
+
+Request = Mapping[str, Any]
+
+
+class OperatorDeeds:
+    """The requests of the page, by name.
+
+    Args:
+        node: of the console; its log is the record of what was done.
+        caller: of the services.
+        shelf: of the missions.
+    """
+
+    def __init__(self, node: Node, caller: ServiceCaller, shelf: MissionShelf) -> None:
+        self._node, self._caller, self._shelf = node, caller, shelf
+        self._desks: dict[str, ParameterDesk] = {}
+        self._goals: dict[str, Any] = {}
+
+    @property
+    def looks(self) -> dict[str, Deed]:
+        """Requests that change nothing."""
+        return {
+            "missions": self._missions, "mission_text": self._mission_text, "check": self._check,
+            "parameters": self._parameters, "parameter_file": self._parameter_file,
+        }  # fmt: skip
+
+    @property
+    def commands(self) -> dict[str, Deed]:
+        """Requests that reach the vehicle, or what other browsers see."""
+        return {
+            "start": self._service(topics.START_SERVICE), "abort": self._service(topics.ABORT_SERVICE),
+            "hold": self._service(topics.HOLD_SERVICE), "resume": self._service(topics.RESUME_SERVICE),
+            "load": self._load, "set": self._set, "goal": self._goal, "acknowledge": self._acknowledge,
+        }  # fmt: skip
+
+    def desk(self, namespace: str) -> ParameterDesk:
+        """Return the parameters of a vehicle."""
+        if namespace not in self._desks:
+            self._desks[namespace] = ParameterDesk(self._caller, namespace)
+        return self._desks[namespace]
+
+    def _log(self, record: VehicleRecord, viewer: int, what: str, failure: str = "") -> None:
+        """Write what a browser did to /rosout and to the vehicle's events."""
+        text = printable(f"browser {viewer}: {what}" + (f": refused: {failure}" if failure else ""))
+        # Of the vehicle's namespace: a recording shows it beside the nodes' own lines.
+        self._node.get_logger().info(f"{record.namespace}: {text}")
+        level = "warning" if failure else "info"
+        record.events.add(text, self._node.get_name(), level, record.progress.mission_time, time.time())
+
+    def _service(self, service: str) -> Deed:
+        async def call(record: VehicleRecord, viewer: int, _: Request) -> Answer:
+            try:
+                done, message = await self._caller.trigger(record.namespace, service)
+            except CallFailed as error:
+                self._log(record, viewer, service, str(error))
+                raise
+            self._log(record, viewer, service, "" if done else message)
+            return Answer(done, message)
+
+        return call
+
+    async def _missions(self, _: VehicleRecord, __: int, ___: Request) -> Answer:
+        return Answer(True, more={"missions": await asyncio.to_thread(self._shelf.listed)})
+
+    async def _mission_text(self, _: VehicleRecord, __: int, request: Request) -> Answer:
+        return Answer(True, more={"text": self._shelf.text_of(text_in(request, "name"))})
+
+    async def _check(self, record: VehicleRecord, _: int, request: Request) -> Answer:
+        (hull,) = await self.desk(record.namespace).value(topics.GUIDANCE, "vehicle")
+        # A long mission takes seconds: the topics and the other browsers do not wait for it.
+        found = await asyncio.to_thread(mission_desk.check_text, text_in(request, "text"), hull)
+        return Answer(found.ok, found.lines[0] if found.lines else "", {"lines": list(found.lines)})
+
+    async def _load(self, record: VehicleRecord, viewer: int, request: Request) -> Answer:
+        values = {"mission_text": text_in(request, "text")}
+        if "start_at" in request:
+            values["start_at"] = text_in(request, "start_at")
+        reason = await self.desk(record.namespace).set(topics.GUIDANCE, values)
+        self._log(record, viewer, "load a mission", reason)
+        return Answer(not reason, reason or "the mission is set")
+
+    async def _parameters(self, record: VehicleRecord, _: int, __: Request) -> Answer:
+        return Answer(True, more={"nodes": await self.desk(record.namespace).form()})
+
+    async def _parameter_file(self, record: VehicleRecord, _: int, __: Request) -> Answer:
+        return Answer(True, more={"text": await self.desk(record.namespace).file()})
+
+    async def _set(self, record: VehicleRecord, viewer: int, request: Request) -> Answer:
+        node, name, value = text_in(request, "node"), text_in(request, "name"), request.get("value")
+        reason = await self.desk(record.namespace).set(node, {name: value})
+        self._log(record, viewer, f"set {node} {name} {value!r}"[:300], reason)
+        return Answer(not reason, reason)
+
+    async def _goal(self, record: VehicleRecord, viewer: int, request: Request) -> Answer:
+        x, y, z, yaw = (number_in(request, name) for name in ("x", "y", "z", "yaw"))
+        (accepts,) = await self.desk(record.namespace).value(topics.GUIDANCE, "accept_goal")
+        what = f"goal east {x:.1f} m, north {y:.1f} m, up {z:.1f} m, yaw {math.degrees(yaw):.0f} deg"
+        if not accepts:
+            reason = "guidance takes no goals: its parameter accept_goal is false"
+            self._log(record, viewer, what, reason)
+            return Answer(False, reason)
+        message = PoseStamped()
+        message.header.frame_id = MAP
+        position, q = message.pose.position, message.pose.orientation
+        position.x, position.y, position.z = x, y, z
+        q.z, q.w = quaternion_of_yaw(yaw)
+        self._goal_publisher(record.namespace).publish(message)
+        self._log(record, viewer, what)
+        return Answer(True, "the goal is sent; guidance checks it, and its events have the result")
+
+    def _goal_publisher(self, namespace: str) -> Any:
+        if namespace not in self._goals:
+            name = topics.full_name(namespace, topics.GOAL_POSE.name)
+            self._goals[namespace] = self._node.create_publisher(
+                PoseStamped, name, qos.offered(topics.GOAL_POSE)
+            )
+        return self._goals[namespace]
+
+    def prepare(self, namespace: str) -> None:
+        """Make what a vehicle's requests need: an endpoint that is made for one is not discovered yet."""
+        self._caller.prepare(namespace)
+        self._goal_publisher(namespace)
+
+    async def _acknowledge(self, record: VehicleRecord, viewer: int, request: Request) -> Answer:
+        number = int(number_in(request, "alarm"))
+        if not record.acknowledge(number):
+            return Answer(False, f"no alarm {number}")
+        self._log(record, viewer, f"acknowledge alarm {number}")
+        return Answer(True)

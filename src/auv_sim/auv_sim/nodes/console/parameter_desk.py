@@ -1,0 +1,181 @@
+"""The parameters of a vehicle's nodes: the form of the page, and changes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterType, ParameterValue
+from rcl_interfaces.srv import (
+    DescribeParameters,
+    GetParameters,
+    ListParameters,
+    SetParametersAtomically,
+)
+from rclpy.parameter import parameter_value_to_python
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.settings import yaml_file
+from auv_msgs_py.settings.params_file import BUILT_IN
+from auv_msgs_py.settings.schema import leaves
+from auv_sim.nodes.console.vehicle_calls import CallFailed, ServiceCaller
+from auv_sim.sim_parameters import SUITE
+from auv_sim.views.console.web.operator_desk import RequestRefused
+
+#: The nodes whose parameters the page shows.
+NODES = (topics.GUIDANCE, topics.AUTOPILOT, topics.OBSERVER)
+#: Groups of gains. All others are limits, watchdogs and modes: they are shown apart.
+_GAINS = ("guidance.", "autopilot.", "pitch.", "observer.")
+#: Of the mission and the process rather than of the vehicle's behaviour.
+_NOT_SHOWN = ("mission", "mission_text", "start_at", *BUILT_IN)
+#: Not written into a parameter file: the launcher sets them.
+_NOT_KEPT = ("vehicle", "lockstep", "recorded")
+#: A bound beyond this stands for none.
+_UNBOUNDED = 1e300
+_TYPES = {
+    ParameterType.PARAMETER_BOOL: ("bool", "bool_value"),
+    ParameterType.PARAMETER_INTEGER: ("int", "integer_value"),
+    ParameterType.PARAMETER_DOUBLE: ("double", "double_value"),
+    ParameterType.PARAMETER_STRING: ("string", "string_value"),
+    ParameterType.PARAMETER_STRING_ARRAY: ("strings", "string_array_value"),
+}
+
+
+class ParameterDesk:
+    """Reads and sets parameters.
+
+    Args:
+        caller: of the services.
+        namespace: of the vehicle.
+    """
+
+    def __init__(self, caller: ServiceCaller, namespace: str) -> None:
+        self._caller, self._namespace = caller, namespace
+        self._types: dict[tuple[str, str], int] = {}
+
+    async def form(self) -> list[dict[str, Any]]:
+        """Return the parameters of every node that answers, live ones first.
+
+        Raises:
+            CallFailed: none answers.
+        """
+        found, failure = [], None
+        for node in NODES:
+            try:
+                found.append({"node": node, "parameters": await self._rows(node)})
+            except CallFailed as error:
+                failure = error
+        if failure is not None and not found:
+            raise failure
+        return found
+
+    async def value(self, node: str, *names: str) -> list[Any]:
+        """Return the values of some parameters.
+
+        Raises:
+            CallFailed: the node does not answer.
+        """
+        response = await self._call(node, GetParameters, "get_parameters", names=list(names))
+        return [parameter_value_to_python(value) for value in response.values]
+
+    async def set(self, node: str, values: Mapping[str, Any]) -> str:
+        """Set parameters of a node at once; return why they were refused, empty if they were not.
+
+        Raises:
+            CallFailed: the node does not answer.
+            RequestRefused: there is no such node or parameter, or a value does not fit its type.
+        """
+        if node not in SUITE:
+            raise RequestRefused(f"node: found {node!r}, expected one of {', '.join(NODES)}"[:300])
+        if any((node, name) not in self._types for name in values):
+            await self._described(node, list(values))
+        parameters = [
+            Parameter(name=name, value=_converted(name, value, self._types.get((node, name), 0)))
+            for name, value in values.items()
+        ]
+        call = SetParametersAtomically, "set_parameters_atomically"
+        response = await self._call(node, *call, parameters=parameters)
+        return "" if response.result.successful else str(response.result.reason)
+
+    async def file(self) -> str:
+        """Return a parameter file of what differs from the defaults."""
+        blocks = {}
+        for block in await self.form():
+            changed = {
+                row["name"]: row["value"]
+                for row in block["parameters"]
+                if row["value"] != row["default"] and row["name"] not in _NOT_KEPT
+                and not row["name"].startswith("frames.")
+            }  # fmt: skip
+            if changed:
+                blocks[f"/**/{block['node']}"] = {"ros__parameters": changed}
+        return yaml_file.text_of(blocks) if blocks else "# every parameter has its default\n"
+
+    async def _rows(self, node: str) -> list[dict[str, Any]]:
+        response = await self._call(node, ListParameters, "list_parameters")
+        names = [name for name in response.result.names if not name.startswith(_NOT_SHOWN)]
+        described = await self._described(node, names)
+        values = await self.value(node, *names)
+        defaults = {leaf.name: leaf.default for leaf in leaves(SUITE[node])}
+        rows = [
+            _row(name, one, value, defaults.get(name))
+            for name, one, value in zip(names, described, values, strict=True)
+        ]
+        return sorted(rows, key=lambda row: (row["read_only"], row["safety"], row["name"]))
+
+    async def _described(self, node: str, names: list[str]) -> list[ParameterDescriptor]:
+        response = await self._call(node, DescribeParameters, "describe_parameters", names=names)
+        for name, one in zip(names, response.descriptors, strict=False):
+            self._types[node, name] = one.type
+        return list(response.descriptors)
+
+    async def _call(self, node: str, kind: Any, service: str, **fields: Any) -> Any:
+        full = topics.full_name(self._namespace, f"{node}/{service}")
+        return await self._caller.call(kind, full, kind.Request(**fields))
+
+
+def _row(name: str, one: ParameterDescriptor, value: Any, default: Any) -> dict[str, Any]:
+    """Return a parameter as the page takes it."""
+    bounds = one.floating_point_range[0] if one.floating_point_range else None
+    doc, _, unit = one.description.rpartition(" [")
+    if not doc or not unit.endswith("]"):
+        doc, unit = one.description, ""
+    return {
+        "name": name,
+        "type": _TYPES.get(one.type, ("other", ""))[0],
+        "value": list(value) if isinstance(value, (list, tuple)) else value,
+        "default": list(default) if isinstance(default, (list, tuple)) else default,
+        "minimum": _bound(bounds.from_value) if bounds else None,
+        "maximum": _bound(bounds.to_value) if bounds else None,
+        "unit": unit.removesuffix("]"),
+        "doc": doc,
+        "read_only": bool(one.read_only),
+        "safety": not name.startswith(_GAINS),
+    }
+
+
+def _bound(value: float) -> float | None:
+    return float(value) if abs(value) < _UNBOUNDED else None
+
+
+def _converted(name: str, value: Any, kind: int) -> ParameterValue:
+    """Return a value of JSON as its parameter's type: 2 is a number of JSON, and 2.0 of a float parameter.
+
+    Raises:
+        RequestRefused: it does not fit.
+    """
+    typed, field = _TYPES.get(kind, ("", ""))
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    if typed == "double" and is_number and math.isfinite(value):
+        value = float(value)
+    elif typed == "int" and is_number and float(value).is_integer():
+        value = int(value)
+    elif not (
+        (typed == "bool" and isinstance(value, bool))
+        or (typed == "string" and isinstance(value, str))
+        or (typed == "strings" and isinstance(value, list) and all(isinstance(v, str) for v in value))
+    ):
+        expected = f"a value of type {typed}" if typed else "the name of a parameter"
+        raise RequestRefused(f"{name}: found {value!r}, expected {expected}"[:300])
+    return ParameterValue(type=kind, **{field: value})

@@ -1,0 +1,84 @@
+"""The console's calls to a vehicle's services, awaited without a thread."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import Any
+
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.values.errors import SuiteError
+
+#: How often an answer is looked for, s: a command must not wait for the next look at the topics.
+_EAGER = 0.004
+#: Longest time for an answer, and for a service that has just been discovered, s.
+PATIENCE = 5.0
+_DISCOVERY = 1.0
+
+
+class CallFailed(SuiteError):
+    """A service is not offered, or does not answer."""
+
+
+class ServiceCaller:
+    """Calls services; the executor runs only while an answer is awaited.
+
+    Args:
+        node: of the console; all of its subscriptions are polled, so the executor has only clients.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._executor = SingleThreadedExecutor()
+        self._executor.add_node(node)
+        self._clients: dict[str, Any] = {}
+
+    def client(self, kind: Any, name: str) -> Any:
+        """Return the client of a service by its full name."""
+        if name not in self._clients:
+            self._clients[name] = self._node.create_client(kind, name)
+        return self._clients[name]
+
+    async def call(self, kind: Any, name: str, request: Any, patience: float = PATIENCE) -> Any:
+        """Return the response of a service.
+
+        Raises:
+            CallFailed: no node offers it, or it does not answer within `patience`, s.
+        """
+        client, loop = self.client(kind, name), asyncio.get_running_loop()
+        deadline = loop.time() + _DISCOVERY
+        while not client.service_is_ready():
+            if loop.time() > deadline:
+                raise CallFailed(f"no node offers {name}")
+            await asyncio.sleep(_EAGER)
+        future, deadline = client.call_async(request), loop.time() + patience
+        while not future.done():
+            self._executor.spin_once(timeout_sec=0.0)
+            if loop.time() > deadline:
+                client.remove_pending_request(future)
+                raise CallFailed(f"{name} did not answer within {patience:g} s")
+            await asyncio.sleep(_EAGER * (not future.done()))
+        return future.result()
+
+    async def trigger(self, namespace: str, service: str) -> tuple[bool, str]:
+        """Call a service of guidance; return whether it was done, and its message.
+
+        Raises:
+            CallFailed: as `call`.
+        """
+        response = await self.call(Trigger, topics.full_name(namespace, service), Trigger.Request())
+        return bool(response.success), str(response.message)
+
+    def prepare(self, namespace: str) -> None:
+        """Make the clients of a vehicle early: a new client has to be discovered first."""
+        for service in (
+            topics.START_SERVICE, topics.ABORT_SERVICE, topics.HOLD_SERVICE, topics.RESUME_SERVICE,
+        ):  # fmt: skip
+            self.client(Trigger, topics.full_name(namespace, service))
+
+    def close(self) -> None:
+        """End the executor."""
+        self._executor.shutdown()

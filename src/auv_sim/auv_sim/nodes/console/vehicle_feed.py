@@ -1,0 +1,107 @@
+"""The topics of one vehicle, polled: their queues hold one message, so a fast mission costs no more."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+from collections.abc import Callable
+from typing import Any
+
+from rclpy.node import Node
+
+from auv_msgs_py.contract import qos, topics
+from auv_msgs_py.contract.frames import FrameIds, FrameTable
+from auv_msgs_py.contract.topics import Topic
+from auv_msgs_py.node.private_rclpy import take_polled
+from auv_msgs_py.node.transport import decoder
+from auv_msgs_py.values.errors import MessageRefused
+from auv_sim.nodes.console.course_reader import CourseReader
+from auv_sim.nodes.console.readings_of_topics import Reader, TopicReader
+from auv_sim.views.console.record.vehicle_record import VehicleRecord
+
+#: After a silence of this long another publisher may be there, s.
+_SILENCE = 2.0
+
+
+class PolledReader:
+    """A subscription without a callback.
+
+    Args:
+        node: of the console.
+        topic: to hear.
+        name: its full name.
+        depth: of the queue.
+    """
+
+    def __init__(self, node: Node, topic: Topic, name: str, depth: int = 1) -> None:
+        self._kind = qos.message_class(topic.type)
+        profile = qos.requested(topic, reliable=False, depth=depth)
+        subscription = node.create_subscription(self._kind, name, _ignore, profile, raw=True)
+        self._take = take_polled(node, subscription)
+        self._decode = decoder(topic)
+        self._subscription = subscription  # it lives as long as its reader
+
+    def take(self) -> Any | None:
+        """Return the next message; None if there is none.
+
+        Raises:
+            MessageRefused: its bytes do not decode.
+        """
+        taken = self._take(self._kind, True)
+        return None if taken is None else self._decode(taken[0])
+
+
+def _ignore(_: bytes) -> None:
+    """Stand in for the callback that `create_subscription` asks for."""
+
+
+class VehicleFeed:
+    """Hears one vehicle.
+
+    Args:
+        node: of the console.
+        record: of the vehicle.
+        domain: ROS domain, part of the track's owner.
+        clock: returns steady time, s.
+    """
+
+    def __init__(self, node: Node, record: VehicleRecord, domain: int, clock: Callable[[], float]) -> None:
+        self.record = record
+        self._node, self._domain, self._clock = node, domain, clock
+        self._reader = TopicReader(record, FrameTable(FrameIds()), clock)
+        self.course = CourseReader(record)
+        readers = {**self.course.readers(), **self._reader.readers()}
+        self._polled: list[tuple[Topic, PolledReader, Reader]] = [
+            (topic, PolledReader(node, topic, topics.full_name(record.namespace, topic.name)), read)
+            for topic, read in readers.items()
+        ]
+        self._publisher = ""
+        self._heard_at = 0.0
+
+    def poll(self) -> None:
+        """Take what has arrived."""
+        for topic, polled, read in self._polled:
+            with contextlib.suppress(MessageRefused):  # the control chain reports it
+                message = polled.take()
+                if message is None:
+                    continue
+                if topic is topics.ODOM:
+                    self._identify()
+                read(message)
+        self._reader.look()
+
+    def _identify(self) -> None:
+        """At the first odometry, and after a silence, look up its publisher: the track belongs to it."""
+        now = self._clock()
+        is_known, self._heard_at = self._publisher and now - self._heard_at < _SILENCE, now
+        if is_known:
+            return
+        name = topics.full_name(self.record.namespace, topics.ODOM.name)
+        found = self._node.get_publishers_info_by_topic(name)
+        if not found:
+            return
+        identity = "|".join(sorted(bytes(info.endpoint_gid).hex() for info in found))
+        publisher = hashlib.sha256(identity.encode()).hexdigest()
+        if publisher != self._publisher:
+            self._publisher = publisher
+            self.record.belongs_to(f"{self._domain} {self.record.namespace} {publisher}")

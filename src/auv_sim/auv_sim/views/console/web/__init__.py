@@ -1,0 +1,1 @@
+"""The console's web server: its guard, its page, its socket."""
