@@ -30,9 +30,9 @@ from auv_sim.nodes.console.vehicle_calls import CallFailed, ServiceCaller
 from auv_sim.nodes.console.vehicle_feed import VehicleFeed
 from auv_sim.views.console.mission_desk import MissionFacts, MissionShelf, facts_of
 from auv_sim.views.console.record.track_file import remove_stale
-from auv_sim.views.console.web.page_guard import PageGuard, Tokens, new_tokens
 from auv_sim.views.console.web.operator_desk import OperatorDesk
 from auv_sim.views.console.web.page_files import page_files
+from auv_sim.views.console.web.page_guard import PageGuard, Tokens, new_tokens
 from auv_sim.views.console.web.page_server import PageServer
 from auv_sim.views.console.web.page_sessions import PageSessions
 

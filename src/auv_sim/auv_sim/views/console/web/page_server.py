@@ -14,9 +14,9 @@ from aiohttp import WSMsgType, web
 from auv_sim.views.console.record.track_columns import COLUMNS
 from auv_sim.views.console.record.vehicle_record import VehicleRecord
 from auv_sim.views.console.record.wire_messages import PROTOCOL, text_of
-from auv_sim.views.console.web.page_guard import HEADERS, PageGuard
 from auv_sim.views.console.web.operator_desk import LONGEST, OperatorDesk
 from auv_sim.views.console.web.page_files import FRONT, PageFile
+from auv_sim.views.console.web.page_guard import HEADERS, PageGuard
 from auv_sim.views.console.web.page_sessions import LIFETIME
 from auv_sim.views.console.web.viewer import Message, Viewer
 
