@@ -5,7 +5,7 @@ import _bootstrap
 
 _bootstrap.ensure_environment(extra=("console",))
 
-from auv_sim.cli.views.console import main  # noqa: E402 - only there once the environment is
+from auv_sim.cli.console import main  # noqa: E402 - only there once the environment is
 
 if __name__ == "__main__":
     raise SystemExit(main())

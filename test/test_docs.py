@@ -44,7 +44,7 @@ PARSERS = {
     "fault_matrix": "auv_sim.cli.fault_matrix",
     "gallery": "auv_sim.cli.gallery",
     "live_view": "auv_sim.cli.live_view",
-    "console": "auv_sim.cli.views.console",
+    "console": "auv_sim.cli.console",
     "mission": "auv_sim.cli.mission",
     "plan": "auv_sim.cli.plan",
     "reproduce_paper": "auv_sim.cli.reproduce_paper",

@@ -1,1 +1,0 @@
-"""Commands that show missions in a browser."""
