@@ -79,8 +79,7 @@ def simulate(
     """Fly a program on the simulated vehicle, from rest towards north; a sea adds to the fins' dead time.
 
     Args:
-        vehicle: the hull, with its delay as `rudder.dead_time`.
-        sea: imperfections; None: none.
+        vehicle, sea: the hull, with its delay as `rudder.dead_time`; imperfections, or None.
         program: of manoeuvres.
         seed: of the sea's random numbers.
         step: time between odometries, s.
