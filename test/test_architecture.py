@@ -20,9 +20,9 @@ ROOMS = (
     (
         "auv_path_following",
         (
-            "config_files", "registry", "abilities", "vertical_hull", "vehicle", "curves", "navigation",
-            "missions", "control", "guidance", "mission_check", "parameters", "pilot", "spatial_pilot",
-            "pilots", "course", "comparators", "nodes",
+            "config_files", "registry", "thrust_units", "abilities", "vertical_hull", "hull_coefficients",
+            "vehicle", "curves", "navigation", "missions", "control", "guidance", "mission_check",
+            "parameters", "pilot", "spatial_pilot", "pilots", "course", "comparators", "nodes",
         ),
     ),
 )  # fmt: skip

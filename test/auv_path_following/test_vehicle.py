@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import re
 
 import pytest
 
@@ -156,13 +157,73 @@ def test_thrust_may_be_known_in_per_cent(tmp_path):
     ("text", "found"),
     [
         (PERCENT.replace("thrust_max: 100", "thrust_max: 90"), "percent with thrust_max: 90"),
-        (GOOD.replace("thrust_max: 6.48", "thrust_max: 100\nthrust_unit: percent"), "percent with a hull"),
+        (
+            GOOD.replace("thrust_max: 6.48", "thrust_max: 100\nthrust_unit: percent"),
+            "percent with a hull, whose coefficients need N",
+        ),
+        (GOOD.replace("thrust_max: 6.48", "thrust_max: 900\nthrust_unit: rpm"), "rpm with a hull"),
+        (GOOD + "\nthrust_table: [[6.48, 6.48]]\n", "thrust_table with thrust_unit: N"),
+        (PERCENT + "thrust_table: [[50, 3], [90, 9]]\n", "thrust_table from 50 to 90 %"),
+        (PERCENT + "thrust_table: [[50, 3], [100, 2]]\n", "2 after 3"),
+        (PERCENT + "thrust_table: [[0, 0], [100, 2]]\n", "thrust_table from 0 to 100 %"),
     ],
 )
-def test_per_cent_are_of_the_largest_and_need_no_hull(tmp_path, text, found):
+def test_a_thrust_that_is_not_in_newtons_has_a_table_where_they_are_needed(tmp_path, text, found):
     path = tmp_path / "percent.yaml"
     path.write_text(text)
-    with pytest.raises(ConfigurationError, match=f"found {found}, expected thrust_max: 100 and no hull"):
+    with pytest.raises(ConfigurationError, match=f"found {found}"):
+        vehicle.load(str(path))
+
+
+TABLE = GOOD.replace(
+    "thrust_max: 6.48", "thrust_max: 1500\nthrust_unit: rpm\nthrust_table: [[750, 1.62], [1500, 6.48]]"
+)
+
+
+def test_a_hull_with_a_propeller_in_revolutions_flies_as_the_one_in_newtons(tmp_path):
+    path = tmp_path / "rpm.yaml"
+    path.write_text(TABLE)
+    by_revolutions, remus = vehicle.load(str(path)), vehicle.load("remus100")
+    assert by_revolutions.thrust_symbol == "rpm"
+    assert by_revolutions.newtons(1125.0) == pytest.approx(4.05)
+    assert by_revolutions.top_speed == pytest.approx(remus.top_speed)
+    assert by_revolutions.speed_at(750.0) == pytest.approx(1.0)
+    assert by_revolutions.thrust_at(1.0) == pytest.approx(750.0)
+    assert by_revolutions.in_newtons.thrust_max == 6.48
+    with pytest.raises(ConfigurationError, match="unidentified: thrust_table: found nothing"):
+        path.write_text(PERCENT)
+        vehicle.load(str(path)).newtons(50.0)
+
+
+@pytest.mark.parametrize(
+    ("unit", "thrust", "speed"),
+    [("N", 4.0, 1.5**0.5), ("N", 6.5, 2.9375**0.5), ("rpm", 4.0, 1.1), ("rpm", 16.0, 4.0)],
+)
+def test_speeds_are_interpolated_as_thrust_makes_them(tmp_path, unit, thrust, speed):
+    rows = "speeds: [[5, 1.3693063937629153], [8, 2]]" if unit == "N" else "speeds: [[5, 1.375], [8, 2]]"
+    path = tmp_path / "speeds.yaml"
+    path.write_text(MEASURED.replace("speed: 2}", f"speed: 2, {rows}}}\nthrust_unit: {unit}"))
+    measured = vehicle.load(str(path))
+    assert measured.speed_at(8.0) == pytest.approx(2.0)
+    assert measured.speed_at(thrust) == pytest.approx(speed)
+    assert measured.thrust_at(speed) == pytest.approx(thrust)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "found"),
+    [
+        ("speed: 2}", "speed: 2, speeds: [[5, 2], [8, 1.9]]}", "1.9 after 2"),
+        ("speed: 2}", "speed: 2, speeds: [[8, 1.2]]}", "2 m/s at 8, with 1.2 m/s by speeds"),
+        ("speed: 2}", "speed: 2, speeds: [[0, 0], [8, 2]]}", "speeds that begin with"),
+        ("radius: 9.5", "radius: 9.5, radii: [[10, 9]]", "radii: 9 m at 10 deg"),
+        ("radius: 9.5", "radius: 9.5, radii: [[10, 12], [15, 13]]", "radii: 13 m at 15 deg"),
+        ("radius: 9.5", "radius: 9.5, radii: [[15, 12], [10, 13]]", "10 after 15"),
+    ],
+)
+def test_measurements_that_contradict_each_other_are_refused(tmp_path, old, new, found):
+    path = tmp_path / "measured.yaml"
+    path.write_text(MEASURED.replace(old, new))
+    with pytest.raises(ConfigurationError, match=re.escape(found)):
         vehicle.load(str(path))
 
 

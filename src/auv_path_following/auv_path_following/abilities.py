@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import math
 
-from auv_msgs_py.settings.schema import setting, settings
+import pydantic
+
+from auv_msgs_py.settings.schema import Pair, setting, settings
+from auv_msgs_py.settings.validators import increasing, unfit
+from auv_path_following.thrust_units import Rows, interpolated
 
 
 @settings
@@ -29,19 +33,45 @@ class DepthRange:
 class Cruise:
     """Measured speed straight ahead, used instead of the hull's drag."""
 
-    thrust: float = setting(doc="steady thrust", unit="N", gt=0.0)
+    thrust: float = setting(doc="steady thrust, in the vehicle's unit", unit="N", gt=0.0)
     speed: float = setting(doc="steady speed through the water at this thrust", unit="m/s", gt=0.0)
+    speeds: tuple[Pair, ...] = setting(
+        (),
+        "steady speeds at several thrusts: rows of thrust and speed, both increasing",
+    )
+
+    @pydantic.model_validator(mode="after")
+    def _speeds_increase(self) -> Cruise:
+        increasing(self.speeds)
+        increasing(tuple((speed, thrust) for thrust, speed in self.speeds))
+        if self.speeds and not min(self.speeds[0]) > 0.0:
+            raise unfit(f"speeds that begin with {self.speeds[0]}", "thrusts and speeds greater than 0")
+        if self.speeds and abs(interpolated(self.rows, self.thrust) - self.speed) > 0.1 * self.speed:
+            by_rows = interpolated(self.rows, self.thrust)
+            raise unfit(
+                f"{self.speed:g} m/s at {self.thrust:g}, with {by_rows:.3g} m/s by speeds",
+                "the same within 10 %",
+            )
+        return self
+
+    @property
+    def rows(self) -> Rows:
+        """Rows of thrust and speed that are interpolated: `speeds`, else the one speed."""
+        return self.speeds or ((self.thrust, self.speed),)
 
 
 @settings
 class Turning:
     """Measured turning ability, used instead of the hull's coefficients.
 
-    The last three are optional. They are measured at the speed of `Cruise`; the rule of docs/tuning.md makes
-    gains of them.
+    All but the radius are optional. The last three are measured at the speed of `Cruise`; the rule of
+    docs/tuning.md makes gains of them.
     """
 
     radius: float = setting(doc="radius of a steady turn with full rudder", unit="m", gt=0.0)
+    radii: tuple[Pair, ...] = setting(
+        (), "radii of steady turns with less rudder: rows of angle (deg) and radius (m)"
+    )
     effect: float | None = setting(
         None,
         "yaw acceleration for each radian of rudder, at once; deg/s^2 for each deg",
@@ -54,6 +84,19 @@ class Turning:
     drift_time: float | None = setting(
         None, "time constant with which sideslip settles in a turn with half the rudder", unit="s", gt=0.0
     )
+
+    @pydantic.model_validator(mode="after")
+    def _less_rudder_turns_wider(self) -> Turning:
+        increasing(self.radii)
+        last = math.inf
+        for angle, radius in (*self.radii, (90.0, self.radius)):
+            if not (angle > 0.0 and self.radius <= radius <= last):
+                raise unfit(
+                    f"radii: {radius:g} m at {angle:g} deg",
+                    f"radii that fall while angles increase, down to {self.radius:g} m with full rudder",
+                )
+            last = radius
+        return self
 
 
 @settings

@@ -2,102 +2,33 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from typing import Literal
 
 import pydantic
 
 from auv_msgs_py.settings import yaml_file
-from auv_msgs_py.settings.schema import setting, settings
-from auv_msgs_py.settings.validators import unfit
+from auv_msgs_py.settings.schema import Pair, setting, settings
+from auv_msgs_py.settings.validators import increasing, unfit
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_msgs_py.values.pure import numbers
 from auv_path_following import config_files
 from auv_path_following.abilities import Cruise, DepthRange, Pitching, Turning
-from auv_path_following.vertical_hull import VerticalHull, check_planes, floating_depth
+from auv_path_following.hull_coefficients import GRAVITY as GRAVITY
+from auv_path_following.hull_coefficients import Hull as Hull
+from auv_path_following.thrust_units import (
+    SYMBOLS,
+    Rows,
+    ThrustUnit,
+    interpolated,
+    inverse,
+    speed_between,
+    thrust_between,
+)
+from auv_path_following.vertical_hull import check_planes, floating_depth
 
-#: m/s^2.
-GRAVITY = 9.81
 #: Hulls that the simulator has as programs, without coefficients, as a vehicle file names them.
 BuiltInHull = Literal["mss_remus100"]
-
-
-@numbers
-@settings
-class Hull:
-    """Coefficients of Eq. (18) and Eq. (19), by the names of Table 2."""
-
-    m: float = setting(doc="mass", unit="kg", gt=0.0)
-    Izz: float = setting(doc="moment of inertia about the vertical axis", unit="kg m^2", gt=0.0)
-
-    Xuu: float = setting(doc="drag ahead", unit="kg/m", lt=0.0)
-    Xud: float = setting(doc="added mass ahead", unit="kg")
-    Xvr: float = setting(doc="added mass, surge force from vr r", unit="kg/rad")
-    Xrr: float = setting(doc="added mass, surge force from r^2", unit="kg m/rad")
-
-    Yvv: float = setting(doc="drag sideways", unit="kg/m", lt=0.0)
-    Yvd: float = setting(doc="added mass sideways", unit="kg")
-    Yrr: float = setting(doc="drag of turning, sway force", unit="kg m/rad^2")
-    Yrd: float = setting(doc="added mass, sway force from dr/dt", unit="kg m/rad")
-    Yur: float = setting(doc="added mass and fin lift, sway force from ur r", unit="kg/rad")
-    Yuv: float = setting(doc="lift of body and fins, sway force from ur vr", unit="kg/m")
-    Yuud: float = setting(doc="rudder lift, sway force", unit="kg/(m rad)")
-
-    Nvv: float = setting(doc="drag sideways, yaw moment", unit="kg")
-    Nvd: float = setting(doc="added mass, yaw moment from dvr/dt", unit="kg m")
-    Nrr: float = setting(doc="drag of turning", unit="kg m^2/rad^2", lt=0.0)
-    Nrd: float = setting(doc="added moment of inertia", unit="kg m^2/rad")
-    Nur: float = setting(doc="added mass and fin lift, yaw moment from ur r", unit="kg m/rad")
-    Nuv: float = setting(doc="body moment and fin lift, yaw moment from ur vr", unit="kg")
-    Nuud: float = setting(
-        doc="rudder lift, yaw moment; a positive angle turns to port", unit="kg/rad", lt=0.0
-    )
-
-    surge_coupling: bool = setting(doc="whether SX of Eq. (19) has the rigid-body term m vr r")
-    vertical: VerticalHull | None = setting(None, "heave, roll and pitch; a planar vehicle can do without")
-
-    @pydantic.model_validator(mode="after")
-    def _mass_matrix_is_definite(self) -> Hull:
-        surge, sway, yaw = self.m - self.Xud, self.m - self.Yvd, self.Izz - self.Nrd
-        minors = {
-            "m - Xud": surge,
-            "m - Yvd": sway,
-            "Izz - Nrd": yaw,
-            "(m - Yvd) (Izz - Nrd) - Yrd Nvd": sway * yaw - self.Yrd * self.Nvd,
-        }
-        for formula, value in minors.items():
-            if not value > 0.0:
-                raise unfit(f"{formula} = {value:g}", "greater than 0, or Eq. (18) cannot hold")
-        return self
-
-    @pydantic.model_validator(mode="after")
-    def _spatial_mass_matrix_is_definite(self) -> Hull:
-        c = self.vertical
-        if c is None:
-            return self
-        arm, m, roll = self.m * c.zg, self.m, c.Ixx - c.Kpd
-        heave_pitch, sway_yaw = -m * c.xg - 0.5 * (c.Zqd + c.Mwd), m * c.xg - 0.5 * (self.Yrd + self.Nvd)
-        minors = {"m - Zwd": m - c.Zwd, "Iyy - Mqd": c.Iyy - c.Mqd, "Ixx - Kpd": roll}
-        if min(minors.values()) > 0.0:
-            surge, heave, sway, yaw = m - self.Xud, m - c.Zwd, m - self.Yvd, self.Izz - self.Nrd
-            # Schur complements: what the couplings leave of the last diagonal element of each half.
-            minors["pitch row of the mass matrix less its couplings"] = (
-                c.Iyy - c.Mqd - arm * arm / surge - heave_pitch * heave_pitch / heave
-            )
-            minors["sway row of the mass matrix less its couplings"] = (
-                sway - arm * arm / roll - sway_yaw * sway_yaw / yaw
-            )
-        for formula, value in minors.items():
-            if not value > 0.0:
-                raise unfit(f"{formula} = {value:g}", "greater than 0, or Eq. (3D-3) has no solution")
-        return self
-
-    @pydantic.model_validator(mode="after")
-    def _weight_is_that_of_the_mass(self) -> Hull:
-        vertical, weight = self.vertical, self.m * GRAVITY
-        if vertical is not None and abs(vertical.W - weight) > 1e-3 * weight:
-            raise unfit(f"W = {vertical.W:g} N under vertical", f"m g = {weight:.5g} N within 0.1 %")
-        return self
 
 
 @settings
@@ -131,10 +62,13 @@ class Vehicle:
 
     name: str = setting(doc="name of the vehicle")
     length: float = setting(doc="length of the hull", unit="m", gt=0.0)
-    thrust_max: float = setting(doc="largest thrust", unit="N", gt=0.0)
-    thrust_unit: Literal["N", "percent"] = setting(
+    thrust_max: float = setting(doc="largest thrust, in `thrust_unit`", unit="N", gt=0.0)
+    thrust_unit: ThrustUnit = setting(
         "N",
         "of every thrust of this vehicle, in files and on the wire; percent: of its largest, which is 100",
+    )
+    thrust_table: tuple[Pair, ...] = setting(
+        (), "thrust in N of a vehicle whose unit is another: rows of `thrust_unit` and N, both increasing"
     )
     rudder: Rudder = setting(doc="limits of the rudder")
     sternplanes: Rudder | None = setting(None, "limits of the stern planes; a planar vehicle has none")
@@ -187,18 +121,62 @@ class Vehicle:
         return self
 
     @pydantic.model_validator(mode="after")
-    def _percent_are_of_the_largest(self) -> Vehicle:
-        if self.thrust_unit == "percent" and (self.hull is not None or self.thrust_max != 100.0):
-            found = (
-                f"percent with {'a hull' if self.hull is not None else f'thrust_max: {self.thrust_max:g}'}"
+    def _thrust_has_newtons_where_they_are_needed(self) -> Vehicle:
+        unit, table = self.thrust_unit, self.thrust_table
+        if unit == "percent" and self.thrust_max != 100.0:
+            raise unfit(f"percent with thrust_max: {self.thrust_max:g}", "thrust_max: 100")
+        if unit == "N" and table:
+            raise unfit("thrust_table with thrust_unit: N", "another unit, or no table")
+        if unit != "N" and self.hull is not None and not table:
+            raise unfit(
+                f"{unit} with a hull, whose coefficients need N", f"thrust_table: rows of {unit} and N"
             )
-            raise unfit(found, "thrust_max: 100 and no hull, whose coefficients need N")
+        increasing(table)
+        increasing(inverse(table))
+        if table and not (table[0][0] > 0.0 and table[0][1] > 0.0 and table[-1][0] == self.thrust_max):
+            found = f"thrust_table from {table[0][0]:g} to {table[-1][0]:g} {SYMBOLS[unit]}"
+            raise unfit(found, f"rows above 0 up to thrust_max, {self.thrust_max:g}")
         return self
 
     @property
     def thrust_symbol(self) -> str:
         """Unit symbol of thrust."""
-        return "%" if self.thrust_unit == "percent" else "N"
+        return SYMBOLS[self.thrust_unit]
+
+    def newtons(self, thrust: float) -> float:
+        """Return a thrust in N.
+
+        Args:
+            thrust: in the vehicle's unit.
+
+        Raises:
+            ConfigurationError: the unit is not N, and the file has no `thrust_table`.
+        """
+        if self.thrust_unit == "N":
+            return thrust
+        if not self.thrust_table:
+            raise ConfigurationError(
+                f"{self.name}: thrust_table", "nothing", f"rows of {self.thrust_unit} and N"
+            )
+        return interpolated(self.thrust_table, thrust)
+
+    @property
+    def in_newtons(self) -> Vehicle:
+        """The same vehicle with every thrust in N.
+
+        Raises:
+            ConfigurationError: as `newtons`.
+        """
+        if self.thrust_unit == "N":
+            return self
+        cruise = self.cruise and Cruise(
+            thrust=self.newtons(self.cruise.thrust),
+            speed=self.cruise.speed,
+            speeds=tuple((self.newtons(thrust), speed) for thrust, speed in self.cruise.speeds),
+        )
+        return dataclasses.replace(
+            self, thrust_unit="N", thrust_table=(), thrust_max=self.newtons(self.thrust_max), cruise=cruise
+        )
 
     @property
     def dives(self) -> bool:
@@ -221,16 +199,29 @@ class Vehicle:
             )
         return self.hull
 
+    def speed_at(self, thrust: float) -> float:
+        """Return the steady speed through the water straight ahead (m/s), Eq. (19).
+
+        Args:
+            thrust: in the vehicle's unit.
+        """
+        if self._speeds:
+            return speed_between(self._speeds, thrust, self.thrust_unit == "rpm")
+        return math.sqrt(max(self.newtons(thrust) if self.cruise is None else thrust, 0.0) / self._drag)
+
     @property
     def _drag(self) -> float:
-        """Drag straight ahead over the speed squared, kg/m."""
+        """Drag straight ahead over the speed squared, kg/m; of a measured speed in the thrust's unit."""
         if self.cruise is not None:
             return self.cruise.thrust / self.cruise.speed**2
         return -self.coefficients.Xuu
 
-    def speed_at(self, thrust: float) -> float:
-        """Return the steady speed through the water straight ahead (m/s) at a thrust (N), Eq. (19)."""
-        return math.sqrt(max(thrust, 0.0) / self._drag)
+    @property
+    def _speeds(self) -> Rows:
+        """Rows of thrust and speed, where one measured speed with a quadratic drag does not do."""
+        if self.cruise is None or (self.thrust_unit != "rpm" and not self.cruise.speeds):
+            return ()
+        return self.cruise.rows
 
     @property
     def top_speed(self) -> float:
@@ -252,8 +243,12 @@ class Vehicle:
         return floating_depth(self.hull.vertical)
 
     def thrust_at(self, speed: float) -> float:
-        """Return the thrust (N) for a steady speed through the water (m/s): inverse of `speed_at`."""
-        return self._drag * speed * speed
+        """Return the thrust, in the vehicle's unit, for a steady speed (m/s): inverse of `speed_at`."""
+        if self._speeds:
+            return thrust_between(self._speeds, speed, self.thrust_unit == "rpm")
+        drag = self._drag * speed * speed
+        in_newtons = self.cruise is None and self.thrust_unit != "N"
+        return interpolated(inverse(self.thrust_table), drag) if in_newtons else drag
 
 
 def load(name_or_path: str) -> Vehicle:

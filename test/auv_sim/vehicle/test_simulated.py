@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
+import numpy as np
 import pytest
 
 from auv_msgs_py.values.errors import ConfigurationError
@@ -150,3 +152,16 @@ def test_a_file_with_a_mistake_is_refused_with_the_key(
 def test_an_unknown_sea_is_refused_with_the_known_ones() -> None:
     with pytest.raises(ConfigurationError, match=r"no such sea file, expected .*rough"):
         sea.load("wild")
+
+
+def test_a_command_in_revolutions_pushes_with_the_newtons_of_its_table() -> None:
+    by_force = vehicle.load("remus100")
+    by_revolutions = dataclasses.replace(
+        by_force, thrust_unit="rpm", thrust_max=1500.0, thrust_table=((750.0, 1.62), (1500.0, 6.48))
+    )
+    tracks = []
+    for hull, thrust in ((by_force, 4.05), (by_revolutions, 1125.0)):
+        simulated = SimulatedVehicle(hull, PlantState(0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+        tracks.append([simulated.advance(Command(0.1, thrust), 0.05).motion for _ in range(200)])
+    assert tracks[0][-1].ur > 1.0
+    np.testing.assert_allclose(tracks[0], tracks[1], rtol=1e-12)

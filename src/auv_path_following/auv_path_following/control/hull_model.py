@@ -38,14 +38,14 @@ def tightest_turn(vehicle: Vehicle, thrust: float | None = None) -> SteadyTurn:
 
     Args:
         vehicle: the vehicle; a file without a hull has a measured radius and speed.
-        thrust: N; the largest if None.
+        thrust: in the vehicle's unit; the largest if None.
 
     Raises:
         ConfigurationError: no turn of the hull is steady, and none was measured.
     """
     thrust = vehicle.thrust_max if thrust is None else thrust
     if vehicle.turning is None:
-        return HullModel(vehicle).steady_turn(thrust)
+        return HullModel(vehicle).steady_turn(vehicle.newtons(thrust))
     return SteadyTurn(vehicle.turning.radius, vehicle.speed_at(thrust), "measured")
 
 

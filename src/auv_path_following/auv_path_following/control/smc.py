@@ -6,6 +6,7 @@ import math
 from typing import NamedTuple
 
 from auv_msgs_py.settings.schema import setting, settings
+from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.pure import bounded, numbers, numbers_of, pure
 from auv_path_following.control.controller import (
     ControllerOutput,
@@ -98,8 +99,11 @@ def prepare(gains: SmcConfig, vehicle: Vehicle) -> Smc:
     """Return the law's configuration.
 
     Raises:
-        ConfigurationError: the vehicle file has no hull.
+        ConfigurationError: the vehicle file has no hull, or its thrust is not in N.
     """
+    if vehicle.thrust_unit != "N":
+        expected = "N, with which the model of this law computes the speed"
+        raise ConfigurationError(f"{vehicle.name}: thrust_unit", vehicle.thrust_unit, expected)
     return Smc(
         numbers_of(gains), rudder_limits_of(vehicle), HullModel(vehicle).sway_yaw, vehicle.thrust_at(1.0)
     )

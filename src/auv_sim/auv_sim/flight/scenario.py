@@ -80,6 +80,19 @@ class Scenario:
         )
 
     @property
+    def in_newtons(self) -> Scenario:
+        """The same flight with every thrust in N.
+
+        Raises:
+            ConfigurationError: a vehicle's thrust has another unit, and its file no table of newtons.
+        """
+        if self.vehicle.thrust_unit == "N":
+            return self
+        model = self.controller_vehicle and self.controller_vehicle.in_newtons
+        thrust = self.vehicle.newtons(self.thrust)
+        return replace(self, vehicle=self.vehicle.in_newtons, controller_vehicle=model, thrust=thrust)
+
+    @property
     def dt(self) -> float:
         """Step as the difference of two stamps, s."""
         return self.step_ns * 1e-9

@@ -172,7 +172,7 @@ def plant_of(vehicle: Vehicle) -> Plant:
     Raises:
         ConfigurationError: the vehicle file has no hull.
     """
-    return Plant(planar_hull_of(vehicle), servo_of(vehicle.rudder), vehicle.thrust_max)
+    return Plant(planar_hull_of(vehicle), servo_of(vehicle.rudder), vehicle.newtons(vehicle.thrust_max))
 
 
 def plant_at(hull: PlantState, plant: Plant | None = None) -> Afloat:

@@ -125,7 +125,7 @@ class Simulated(Generic[Motion, Order, Flow, View]):
         self.state, self.seen = vehicle_measure(self._config, self.state, inputs, 0.0)
 
     def advance(self, command: Order, dt: float) -> View:
-        """Advance by `dt` seconds under a held command, then measure.
+        """Advance by `dt` seconds under a held command, its thrust in the vehicle's unit, then measure.
 
         Returns:
             The measurements, which `seen` keeps.
@@ -142,6 +142,9 @@ class Simulated(Generic[Motion, Order, Flow, View]):
                 self._draws.refill(self._config.memory)
                 self._left = _BLOCK
             self._left -= 1
+        if self._vehicle.thrust_unit != "N":
+            order: Any = command
+            command = order._replace(thrust=self._vehicle.newtons(order.thrust))
         inputs = command, self.constant_current, 1.0
         self.state, self.seen = vehicle_step(self._config, self.state, inputs, dt)
         return self.seen

@@ -88,7 +88,7 @@ def _of_hull(vehicle: Vehicle, speed: float) -> FinResponse:
     middle, spread = 0.5 * (vv + rr), cmath.sqrt(0.25 * (vv - rr) ** 2 + vr * rv)
     # A pair of complex poles counts with its real part: such a hull is damped.
     divergence, pole = (middle + spread).real, (middle - spread).real
-    thrust = vehicle.thrust_at(speed)
+    thrust = vehicle.newtons(vehicle.thrust_at(speed))
     try:
         ur, drift, _ = model.steady_motion(thrust, 0.5 * vehicle.rudder.max_angle)
     except ConfigurationError:

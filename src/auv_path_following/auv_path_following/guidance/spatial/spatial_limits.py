@@ -55,7 +55,7 @@ def steepest_of(vehicle: Vehicle, thrust: float) -> Steepness:
     if vertical is not None and planes is not None:
         reach = abs(vertical.Muud) * planes.max_angle / (vertical.zg * vertical.W)
         spare = abs(vertical.B - vertical.W)
-        by_thrust = THRUST_SHARE * thrust / spare if spare > 0.0 else math.inf
+        by_thrust = THRUST_SHARE * vehicle.newtons(thrust) / spare if spare > 0.0 else math.inf
         reversal = reversal_speed(vertical)
     if vehicle.pitching is not None:
         speed = vehicle.top_speed if vehicle.cruise is None else vehicle.cruise.speed

@@ -31,7 +31,7 @@ def flight_of(scenario: Scenario) -> FlightConfig:
     """
     if not scenario.thrust > 0.0:
         raise ConfigurationError("thrust", f"{scenario.thrust:g}", "a number greater than 0")
-    dives = scenario.vehicle.dives
+    scenario, dives = scenario.in_newtons, scenario.vehicle.dives
     return FlightConfig(
         pilot=pilot_of(scenario),
         plant=(spatial_plant_of if dives else plant_of)(scenario.plant_vehicle),

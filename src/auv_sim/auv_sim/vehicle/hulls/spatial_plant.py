@@ -66,7 +66,9 @@ def spatial_plant_of(vehicle: Vehicle) -> SpatialPlant:
         if vehicle.simulated_as is not None
         else remus_6dof_of(vehicle.coefficients)
     )
-    return SpatialPlant(body, servo_of(vehicle.rudder), servo_of(vehicle.sternplanes), vehicle.thrust_max)
+    return SpatialPlant(
+        body, servo_of(vehicle.rudder), servo_of(vehicle.sternplanes), vehicle.newtons(vehicle.thrust_max)
+    )
 
 
 def spatial_plant_at(hull: BodyState, plant: SpatialPlant | None = None) -> SpatialAfloat:
