@@ -1,0 +1,67 @@
+/* The console's page: connect, keep what arrives, paint it. */
+import { $, kept } from "./dom.js";
+import { forgetColours } from "./drawing.js";
+import { flights, take, takeRows } from "./flights.js";
+import { Link } from "./link.js";
+import { repaint } from "./painting.js";
+import { chartKeys, fitAll } from "./chart.js";
+import { choose, showLink } from "./status.js";
+import { abort, commands } from "./commands.js";
+import { gains, listGains, parameterChanged } from "./gains.js";
+import { listMissions, missions } from "./missions.js";
+import { panels } from "./panels.js";
+
+function hear(message) {
+  if (message instanceof ArrayBuffer) { if (takeRows(message)) repaint(); return; }
+  const v = take(message);
+  if (message.kind === "course" && v) fitAll();
+  if (message.kind === "parameters_changed") parameterChanged(message);
+  repaint();
+}
+
+const link = new Link(hear, state => { flights.link = state; showLink(); repaint(); });
+const ask = link.ask.bind(link);
+for (const use of [commands, missions, gains, panels]) use(ask);
+
+/* Tabs. */
+const tabs = [...document.querySelectorAll("[role=tab]")];
+function open(tab) {
+  for (const one of tabs) {
+    const chosen = one === tab;
+    one.setAttribute("aria-selected", String(chosen)); one.tabIndex = chosen ? 0 : -1;
+    $(one.getAttribute("aria-controls")).hidden = !chosen;
+  }
+  if (tab.id === "open-mission") listMissions();
+  if (tab.id === "open-gains") listGains();
+}
+tabs.forEach((tab, k) => {
+  tab.addEventListener("click", () => open(tab));
+  tab.addEventListener("keydown", e => {
+    const step = { ArrowRight: 1, ArrowLeft: -1 }[e.key];
+    if (step) { const next = tabs[(k + step + tabs.length) % tabs.length]; next.focus(); open(next); }
+  });
+});
+
+/* Day and night: the system's setting, or one of them. */
+const LIGHTS = ["", "day", "night"], WORDS = { "": "Auto", day: "Day", night: "Night" };
+let light = LIGHTS.includes(kept.get("console-light")) ? kept.get("console-light") : "";
+function lit() {
+  if (light) document.documentElement.dataset.light = light; else delete document.documentElement.dataset.light;
+  $("light").textContent = WORDS[light];
+  forgetColours(); repaint();
+}
+function otherLight() { light = LIGHTS[(LIGHTS.indexOf(light) + 1) % LIGHTS.length]; kept.set("console-light", light); lit(); }
+$("light").addEventListener("click", otherLight);
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", lit);
+
+const KEYS = { ...chartKeys, n: otherLight, s: () => $("mute").click() };
+addEventListener("keydown", e => {
+  if (e.key === "Escape" && e.shiftKey) { e.preventDefault(); abort(); return; }
+  if (e.ctrlKey || e.metaKey || e.altKey || e.target.closest("input, textarea, select, [role=tab]")) return;
+  const act = KEYS[e.key] || (/^[1-9]$/.test(e.key) ? () => choose(Number(e.key) - 1) : null);
+  if (act) act();
+});
+addEventListener("resize", repaint);
+new ResizeObserver(repaint).observe($("chart"));
+lit();
+showLink();

@@ -1,0 +1,93 @@
+/* The head of the page: state and reason, progress, figures, pre-flight line, vehicles; the banner. */
+import { $, clock, el, renew, write } from "./dom.js";
+import { fmt } from "./drawing.js";
+import { flights, guided, shown } from "./flights.js";
+import { heading } from "./rows.js";
+import { paints, repaint } from "./painting.js";
+
+const STATES = ["idle", "running", "holding", "complete", "aborted"];
+const LOST = {
+  lost: "No link to the console's server. What is shown is old. Abort does not reach the vehicle from here.",
+  refused: "The console was started anew. Open the address that it printed.",
+};
+
+function badge(v) {
+  const sure = guided(v), state = v.tick ? v.tick.state : "", known = STATES.includes(state) ? state : "unknown";
+  $("state").dataset.state = sure ? known : "silent";
+  write($("state-name"), state || "no state");
+  write($("state-reason"), sure ? v.tick.reason || "" : v.tick && flights.link === "open" ? "guidance is silent: the last state that was heard" : "not heard yet");
+}
+
+function progress(v) {
+  const t = v.tick, share = t && Number.isFinite(t.share) ? Math.max(0, Math.min(1, t.share)) : 0, bar = $("progress");
+  $("flown").style.width = `${100 * share}%`;
+  bar.setAttribute("aria-valuenow", Math.round(100 * share));
+  write($("share"), t && Number.isFinite(t.share) ? `${fmt(100 * share, 1)} %` : "–");
+  const mission = v.course && v.course.mission;
+  write($("mission-name"), mission ? `${mission.name}  ${mission.digest ? mission.digest.slice(0, 8) : ""}` : "no mission");
+  write($("lengths"), t ? `${fmt(t.flown, 0)} of ${fmt(t.length, 0)} m` : "–");
+}
+
+function figures(v) {
+  const t = v.tick, table = v.table, next = t && t.next_joint, p = t && t.pose;
+  write($("mission-time"), t ? clock(t.mission_time) : "–");
+  write($("to-go"), t ? clock(t.time_to_go) : "–");
+  write($("next-joint"), next ? `${next.kind} in ${fmt(next.distance, 0)} m, ${clock(next.time)}` : "–");
+  write($("now-heading"), p && Number.isFinite(p[3]) ? `${fmt(heading(p[3]), 0).padStart(3, "0")}°` : "–");
+  write($("now-speed"), `${fmt(table.last("u"), 2)} m/s`);
+  $("depth-box").hidden = !table.seen.has("depth");
+  write($("now-depth"), table.seen.has("depth") ? `${fmt(table.last("depth"), 1)} m` : "–");
+  write($("now-ye"), `${fmt(table.last("ye"), 2)} m`);
+}
+
+function preflight(v) {
+  const t = v.tick, line = $("preflight"), before = !t || !["running", "holding"].includes(t.state);
+  line.hidden = !before || !t || !t.preflight;
+  if (line.hidden) return;
+  line.dataset.ready = t.preflight.ready;
+  write($("preflight-word"), t.preflight.ready ? "Ready to start" : "Not ready");
+  renew($("preflight-items"), t.preflight.items, item => el("li", { class: item.ok ? "ok" : "bad", title: item.text },
+    el("b", { text: item.ok ? "✓" : "✗", "aria-hidden": "true" }), ` ${item.name}`, el("span", { text: item.text ? ` ${item.text}` : "" })));
+}
+
+function vehicles() {
+  const list = $("vehicles");
+  list.hidden = flights.vehicles.length < 2;
+  if (list.hidden) return;
+  const about = flights.vehicles.map((v, k) => ({ name: v.name || v.namespace, state: v.tick ? v.tick.state : "not heard", colour: v.colour, chosen: k === flights.chosen, k,
+    alarm: v.alarms.some(a => a.active) }));
+  renew(list, about, one => {
+    const dot = el("i");
+    dot.style.background = `var(--${one.colour})`;
+    return el("button", { type: "button", "aria-pressed": String(one.chosen), onclick: () => choose(one.k) },
+      dot, `${one.name} `, el("small", { text: one.alarm ? `${one.state}, alarm` : one.state }));
+  });
+}
+
+/* Show another vehicle. */
+export function choose(k) {
+  if (!flights.vehicles[k]) return;
+  flights.chosen = k;
+  document.dispatchEvent(new Event("vehicle"));
+  repaint();
+}
+
+/* Show at once whether the link stands; the page does not wait for its next paint. */
+export function showLink() {
+  const banner = $("banner");
+  banner.hidden = flights.link === "open";
+  write(banner, LOST[flights.link] || "");
+  document.body.classList.toggle("old", flights.link !== "open");
+  if (flights.link !== "open") $("state").dataset.state = "silent";
+}
+
+function draw() {
+  const v = shown(), hello = flights.hello;
+  write($("viewer"), hello ? `browser ${hello.viewer}` : "");
+  $("view-only").hidden = !hello || hello.may_command;
+  vehicles();
+  if (!v) return;
+  badge(v); progress(v); figures(v); preflight(v);
+  document.title = `${v.tick ? v.tick.state : "console"} · ${v.name || v.namespace}`;
+}
+paints(draw);

@@ -1,0 +1,176 @@
+"""A real Chromium, driven by its DevTools protocol over aiohttp: mouse, keys, screenshots, what it requests."""
+
+from __future__ import annotations
+
+import asyncio
+import base64
+import json
+import os
+import shutil
+import signal
+import subprocess
+from collections.abc import Awaitable, Callable
+from pathlib import Path
+from typing import Any
+
+import aiohttp
+
+EXECUTABLE = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+_FLAGS = (
+    "--headless=new", "--no-sandbox", "--remote-debugging-port=0", "--no-first-run", "--disable-gpu",
+    "--disable-extensions", "--disable-background-networking", "--disable-component-update",
+    "--disable-dev-shm-usage", "--mute-audio", "--hide-scrollbars",
+)  # fmt: skip
+
+
+class Tab:
+    """One page: commands, evaluation, input, and the events that came."""
+
+    def __init__(self, socket: aiohttp.ClientWebSocketResponse) -> None:
+        self._socket, self._next, self._pending = socket, 0, dict[int, asyncio.Future[Any]]()
+        self.requests: list[str] = []
+        self.complaints: list[str] = []
+        self._reader = asyncio.create_task(self._read())
+
+    async def _read(self) -> None:
+        async for message in self._socket:
+            data = json.loads(message.data)
+            if "id" in data:
+                self._pending.pop(data["id"]).set_result(data)
+            else:
+                self._hear(data["method"], data["params"])
+
+    def _hear(self, method: str, params: dict[str, Any]) -> None:
+        match method:
+            case "Network.requestWillBeSent":
+                self.requests.append(params["request"]["url"])
+            case "Network.webSocketCreated":
+                self.requests.append(params["url"])
+            case "Runtime.exceptionThrown":
+                self.complaints.append(json.dumps(params["exceptionDetails"])[:600])
+            case "Runtime.consoleAPICalled" if params["type"] in ("error", "warning", "assert"):
+                self.complaints.append(json.dumps(params["args"])[:600])
+            case "Log.entryAdded" if params["entry"]["level"] in ("error", "warning"):
+                self.complaints.append(f"{params['entry']['text']} {params['entry'].get('url', '')}")
+
+    async def call(self, method: str, **params: Any) -> Any:
+        """Send a command of the protocol; return its result."""
+        self._next += 1
+        future = self._pending[self._next] = asyncio.get_running_loop().create_future()
+        await self._socket.send_str(json.dumps({"id": self._next, "method": method, "params": params}))
+        data = await asyncio.wait_for(future, 30.0)
+        assert "error" not in data, f"{method}: {data.get('error')}"
+        return data["result"]
+
+    async def value(self, expression: str) -> Any:
+        """Evaluate an expression, which may be a promise, in the page."""
+        found = await self.call(
+            "Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True
+        )
+        assert "exceptionDetails" not in found, json.dumps(found["exceptionDetails"])[:800]
+        return found["result"].get("value")
+
+    async def until(self, expression: str, seconds: float = 10.0) -> None:
+        """Wait until an expression is true."""
+        for _ in range(int(seconds / 0.05)):
+            if await self.value(expression):
+                return
+            await asyncio.sleep(0.05)
+        raise AssertionError(f"not true within {seconds} s: {expression}")
+
+    async def open(self, url: str) -> None:
+        """Load a page from the beginning."""
+        await self.call("Page.navigate", url=url)
+        await self.until("document.readyState === 'complete'")
+
+    async def size(self, width: int, height: int, mobile: bool = False) -> None:
+        """Set the size of the window, CSS px."""
+        await self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
+                        deviceScaleFactor=2 if mobile else 1, mobile=mobile)  # fmt: skip
+
+    async def middle(self, selector: str) -> tuple[float, float]:
+        """Return the middle of an element, which is scrolled into sight."""
+        found = await self.value(
+            f"(() => {{ const e = document.querySelector({selector!r}); e.scrollIntoView({{block: 'nearest'}});"
+            " const r = e.getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]; })()"
+        )
+        return found[0], found[1]
+
+    async def mouse(self, kind: str, x: float, y: float) -> None:
+        """Send a mouse event: Pressed, Released or Moved."""
+        held = {"button": "left", "clickCount": 1} if kind != "Moved" else {}
+        await self.call("Input.dispatchMouseEvent", type=f"mouse{kind}", x=x, y=y, **held)
+
+    async def click(self, selector: str, seconds: float = 0.0) -> None:
+        """Press the left button on an element for a time."""
+        at = await self.middle(selector)
+        await self.mouse("Moved", *at)
+        await self.mouse("Pressed", *at)
+        await asyncio.sleep(seconds)
+        await self.mouse("Released", *at)
+
+    async def type(self, selector: str, text: str) -> None:
+        """Replace the text of a field by typing, and leave it."""
+        await self.value(f"document.querySelector({selector!r}).select()")
+        await self.call("Input.insertText", text=text)
+        await self.value(f"document.querySelector({selector!r}).blur()")
+
+    async def screenshot(self, file: Path) -> None:
+        """Write what is in sight as a PNG."""
+        found = await self.call("Page.captureScreenshot", format="png")
+        file.write_bytes(base64.b64decode(found["data"]))
+
+
+class Chromium:
+    """A browser process of its own, with its own profile."""
+
+    def __init__(self, profile: Path) -> None:
+        assert EXECUTABLE is not None
+        self.profile = profile
+        self._process = subprocess.Popen(
+            [EXECUTABLE, *_FLAGS, f"--user-data-dir={profile}", "about:blank"],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
+        )  # fmt: skip
+
+    async def begin(self) -> None:
+        """Wait until the browser listens."""
+        port_file = self.profile / "DevToolsActivePort"
+        for _ in range(400):
+            if port_file.is_file() and (lines := port_file.read_text().splitlines()):
+                self._address = f"http://127.0.0.1:{lines[0]}"
+                self._session = aiohttp.ClientSession()
+                return
+            await asyncio.sleep(0.05)
+        raise AssertionError("Chromium does not listen")
+
+    async def tab(self) -> Tab:
+        """Open a page."""
+        async with self._session.put(f"{self._address}/json/new?about:blank") as answer:
+            about = await answer.json()
+        tab = Tab(await self._session.ws_connect(about["webSocketDebuggerUrl"], max_msg_size=0))
+        for domain in ("Page", "Runtime", "Network", "Log"):
+            await tab.call(f"{domain}.enable")
+        return tab
+
+    async def end(self) -> None:
+        """Close the session and end the browser's processes."""
+        await self._session.close()
+        os.killpg(self._process.pid, signal.SIGTERM)
+        try:
+            await asyncio.to_thread(self._process.wait, 5)
+        except subprocess.TimeoutExpired:
+            os.killpg(self._process.pid, signal.SIGKILL)
+
+
+def with_chromium(profile: Path, work: Callable[[Chromium], Awaitable[None]]) -> None:
+    """Run some work with a browser."""
+
+    async def run() -> None:
+        browser = Chromium(profile)
+        try:
+            await browser.begin()
+            await work(browser)
+        finally:
+            await browser.end()
+
+    asyncio.run(run())

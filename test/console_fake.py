@@ -1,0 +1,272 @@
+"""A console server without ROS that plays a recorded flight; tests advance it and see what was requested.
+
+    cd test && python3 -m console_fake [--mission helix] [--rows 900]    # look at the page by hand
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import json
+import math
+import struct
+from pathlib import Path
+from typing import Any
+
+import aiohttp
+import numpy as np
+import yaml
+from aiohttp import web
+
+import console_flight
+
+PAGE = Path(__file__).resolve().parents[1] / "src/auv_sim/auv_sim/views/console/page"
+CSP = (
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'"
+)
+NODES = ("plant", "current_observer", "guidance", "heading_autopilot", "recorder")
+GAINS = [
+    {
+        "name": "autopilot.nism.k1", "type": "double", "value": 0.45, "default": 0.45, "minimum": 0.0,
+        "maximum": 10.0, "unit": "-", "doc": "Gain of the first sliding surface", "read_only": False,
+        "safety": False,
+    },
+    {
+        "name": "autopilot.nism.k3", "type": "double", "value": 1.4, "default": 1.2, "minimum": 0.0,
+        "maximum": 10.0, "unit": "-", "doc": "Gain of the second sliding surface", "read_only": False,
+        "safety": False,
+    },
+    {
+        "name": "odometry_timeout", "type": "double", "value": 1.0, "default": 1.0, "minimum": 0.1,
+        "maximum": 10.0, "unit": "s", "doc": "Age of the odometry at which the fins are stopped",
+        "read_only": False, "safety": True,
+    },
+]  # fmt: skip
+
+
+class FakeConsole:
+    """The server's side of the protocol for one recorded flight and any number of browsers."""
+
+    def __init__(self, mission: str = "survey_wgs84", vehicles: int = 1) -> None:
+        self.rows, self.course = console_flight.recorded(mission)
+        self.vehicles, self.flown, self.started = vehicles, 0, "first"
+        self.state, self.reason, self.ready, self.silent = "idle", "waiting for the start service", True, ""
+        self.asked: list[dict[str, Any]] = []
+        self.alarms: list[dict[str, Any]] = []
+        self.events: list[dict[str, Any]] = []
+        self.gains = [dict(one) for one in GAINS]
+        self.browsers: list[web.WebSocketResponse] = []
+        self.may_command = True
+        self._server: web.AppRunner | None = None
+        self.port = 0
+
+    async def start(self, port: int = 0) -> str:
+        """Listen; return the address."""
+        app = web.Application()
+        app.router.add_get("/", self._page)
+        app.router.add_get("/socket", self._socket)
+        app.router.add_get("/page/{name}", self._file)
+        self._server = web.AppRunner(app, shutdown_timeout=0.2)
+        await self._server.setup()
+        await web.TCPSite(self._server, "127.0.0.1", port).start()
+        self.port = self._server.addresses[0][1]
+        return f"http://127.0.0.1:{self.port}/"
+
+    async def stop(self) -> None:
+        """Close every socket and stop listening."""
+        for browser in self.browsers:
+            await browser.close()
+        self.browsers = []
+        assert self._server is not None
+        await self._server.cleanup()
+
+    async def _page(self, _: web.Request) -> web.StreamResponse:
+        return web.FileResponse(PAGE / "console.html", headers={"Content-Security-Policy": CSP})
+
+    async def _file(self, request: web.Request) -> web.StreamResponse:
+        file = PAGE / request.match_info["name"]
+        if file.parent != PAGE or not file.is_file():
+            raise web.HTTPNotFound
+        kind = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}[file.suffix]
+        return web.FileResponse(file, headers={"Content-Type": kind})
+
+    async def _socket(self, request: web.Request) -> web.StreamResponse:
+        socket = web.WebSocketResponse()
+        await socket.prepare(request)
+        self.browsers.append(socket)
+        for message in self._first():
+            await _send(socket, message)
+        async for message in socket:
+            if message.type == aiohttp.WSMsgType.TEXT:
+                wish = json.loads(message.data)
+                self.asked.append(wish)
+                answer = {"ok": True, "message": "", **self._answer(wish)}
+                await _send(socket, {"kind": "answer", "id": wish.get("id"), **answer})
+                await self.tell()
+        if socket in self.browsers:
+            self.browsers.remove(socket)
+        return socket
+
+    def _first(self) -> list[Any]:
+        columns = [
+            {"name": n, "unit": unit, "label": label} for n, (unit, label) in console_flight.COLUMNS.items()
+        ]
+        names = [
+            {"index": k, "namespace": f"/auv{k + 1}", "name": f"auv{k + 1}"} for k in range(self.vehicles)
+        ]
+        hello = {
+            "kind": "hello", "protocol": 1, "viewer": len(self.browsers), "may_command": self.may_command,
+            "started": self.started, "vehicles": names, "columns": columns, "nodes": NODES,
+        }  # fmt: skip
+        messages: list[Any] = [hello]
+        for k in range(self.vehicles):
+            messages += [
+                self._shifted(k), {"kind": "begin", "vehicle": k, "epoch": 1, "start": 1.0},
+                self._packed(k, 0, self.flown), {"kind": "events", "vehicle": k, "events": self.events},
+                {"kind": "alarms", "vehicle": k, "alarms": self.alarms if k == 0 else []}, self._tick(k),
+            ]  # fmt: skip
+        return messages
+
+    def _shifted(self, k: int) -> dict[str, Any]:
+        path = [[x + 90.0 * k, y, z, s] for x, y, z, s in self.course["path"]]
+        return {**self.course, "vehicle": k, "path": path}
+
+    def _packed(self, k: int, first: int, last: int) -> bytes:
+        rows = self.rows[first:last].copy()
+        rows[:, 1] += 90.0 * k
+        return struct.pack("<4I", k, 1, first, last - first) + rows.astype("<f4").tobytes()
+
+    def _tick(self, k: int) -> dict[str, Any]:
+        row = dict(zip(console_flight.COLUMNS, self.rows[max(0, self.flown - 1)].tolist(), strict=True))
+        length, count = self.course["mission"]["length"], len(self.course["joints"]) + 1
+        share = max(0.0, min(1.0, row["s"] / count)) if self.flown else 0.0
+        yaw = row["yaw_d"]
+        ahead = [row["x"] + 90.0 * k + 4.0 * math.cos(yaw), row["y"] + 4.0 * math.sin(yaw), row["z"]]
+        speed = math.hypot(row["ve"], row["vn"]) or 1.0
+        current = [row["current_east"], row["current_north"], 0.0]
+        health = [
+            {"node": n, "age": 31.4 if n == self.silent else 0.2 + 0.1 * i,
+             "level": 3 if n == self.silent else 0, "message": "silent" if n == self.silent else "OK"}
+            for i, n in enumerate(NODES)
+        ]  # fmt: skip
+        running = self.state in ("running", "holding")
+        return _finite({
+            "kind": "tick", "vehicle": k, "now": 1.0 + row["t"], "state": self.state, "reason": self.reason,
+            "mission_time": row["t"], "length": length, "flown": share * length, "share": share,
+            "time_to_go": (1 - share) * length / speed,
+            "next_joint": {"kind": "line to arc", "distance": 41.0, "time": 41.0 / speed}
+            if running else None,
+            "pose": [row["x"] + 90.0 * k, row["y"], row["z"], row["yaw"], row["pitch"]],
+            "virtual_point": ahead if running else None, "current": current if self.flown else None,
+            "covariance": [1.6, 0.4, 0.7], "health": health,
+            "preflight": {"ready": self.ready, "items": [
+                {"name": "nodes heard", "ok": True, "text": "5 of 5"},
+                {"name": "navigation fresh", "ok": self.ready, "text": "0.1 s" if self.ready else "2.4 s old"},
+                {"name": "plan check", "ok": True, "text": "flyable"}]},
+            "can": {"start": not running, "hold": self.state == "running",
+                    "resume": self.state == "holding", "abort": True},
+        })  # fmt: skip
+
+    def _answer(self, wish: dict[str, Any]) -> dict[str, Any]:
+        words = {"start": "running", "hold": "holding", "resume": "running", "abort": "aborted"}
+        match wish["do"]:
+            case "start" | "hold" | "resume" | "abort" as what:
+                self.state, self.reason = words[what], f"{what} was called"
+                self.log("operator", f"browser 1: {what}", "warning" if what == "abort" else "info")
+                return {"message": self.state}
+            case "missions":
+                return {"missions": [{"name": n, "description": "shipped"} for n in console_flight.MISSIONS]}
+            case "mission_text":
+                return {"text": f"version: 1\nname: {wish['name']}\nthrust: 6.48\n"}
+            case "check":
+                return self._checked(wish["text"])
+            case "load":
+                running = self.state == "running"
+                return {"ok": not running, "message": "mission_text: not while running" if running else "loaded"}
+            case "parameters":
+                return {"nodes": [{"node": "heading_autopilot", "parameters": self.gains}]}
+            case "set":
+                return self._set(wish["name"], wish["value"])
+            case "parameter_file":
+                return {"text": "heading_autopilot:\n  ros__parameters:\n    autopilot.nism.k3: 1.4\n"}
+            case "acknowledge":
+                self.alarms = [{**one, "acknowledged": True} for one in self.alarms if one["active"]]
+                return {}
+            case "silence":
+                raise NotImplementedError
+        return {"ok": False, "message": f"not understood: {wish['do']}"}
+
+    def _checked(self, text: str) -> dict[str, Any]:
+        thrust = (yaml.safe_load(text) or {}).get("thrust")
+        if not isinstance(thrust, int | float) or thrust < 0:
+            return {"ok": False, "lines": [f"thrust: found {thrust}, expected a number from 0 to 100 N"]}
+        course = {key: value for key, value in self.course.items() if key not in ("kind", "vehicle")}
+        return {"ok": True, "lines": ["flyable: the tightest turn has a radius of 12.0 m"], "course": course}
+
+    def _set(self, name: str, value: float) -> dict[str, Any]:
+        one = next(gain for gain in self.gains if gain["name"] == name)
+        if not one["minimum"] <= value <= one["maximum"]:
+            return {"ok": False, "message": f"Parameter {name} out of range Min: {one['minimum']}, "
+                    f"Max: {one['maximum']}, value: {value}"}  # fmt: skip
+        one["value"] = value
+        return {}
+
+    def log(self, source: str, text: str, level: str = "info") -> None:
+        """Add an event."""
+        time = float(self.rows[max(0, self.flown - 1), 0])
+        event = {"id": len(self.events), "mission_time": time, "wall": "13:05:07", "source": source,
+                 "level": level, "text": text}  # fmt: skip
+        self.events.append(event)
+
+    async def advance(self, rows: int) -> None:
+        """Fly on by some rows and send them."""
+        first, self.flown = self.flown, min(len(self.rows), self.flown + rows)
+        for k in range(self.vehicles):
+            await self.send(self._packed(k, first, self.flown))
+        await self.tell()
+
+    async def tell(self) -> None:
+        """Send the state, the events and the alarms to every browser."""
+        for k in range(self.vehicles):
+            await self.send({"kind": "events", "vehicle": k, "events": self.events[-5:]})
+            await self.send({"kind": "alarms", "vehicle": k, "alarms": self.alarms if k == 0 else []})
+            await self.send(self._tick(k))
+
+    async def send(self, message: Any) -> None:
+        """Send a message to every browser."""
+        for browser in list(self.browsers):
+            if not browser.closed:
+                await _send(browser, message)
+
+
+async def _send(socket: web.WebSocketResponse, message: Any) -> None:
+    if isinstance(message, bytes):
+        await socket.send_bytes(message)
+    else:
+        await socket.send_str(json.dumps(_finite(message), allow_nan=False))
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _finite(one) for key, one in value.items()}
+    if isinstance(value, list):
+        return [_finite(one) for one in value]
+    return None if isinstance(value, float) and not np.isfinite(value) else value
+
+
+async def _by_hand(mission: str, rows: int, vehicles: int) -> None:
+    fake = FakeConsole(mission, vehicles)
+    print(await fake.start(8649))
+    while True:
+        await fake.advance(rows)
+        rows = 1
+        await asyncio.sleep(0.5)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--mission", default="survey_wgs84", choices=console_flight.MISSIONS)
+    parser.add_argument("--rows", type=int, default=900)
+    parser.add_argument("--vehicles", type=int, default=1)
+    options = parser.parse_args()
+    asyncio.run(_by_hand(options.mission, options.rows, options.vehicles))
