@@ -1,4 +1,4 @@
-"""A real Chromium, driven by its DevTools protocol over aiohttp: mouse, keys, screenshots, what it requests."""
+"""A real Chromium, driven by its DevTools protocol over aiohttp: mouse, keys, pictures, requests."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ import os
 import shutil
 import signal
 import subprocess
-from collections.abc import Awaitable, Callable
+import threading
+from collections.abc import Coroutine
 from pathlib import Path
 from typing import Any
 
@@ -73,7 +74,7 @@ class Tab:
     async def until(self, expression: str, seconds: float = 10.0) -> None:
         """Wait until an expression is true."""
         for _ in range(int(seconds / 0.05)):
-            if await self.value(expression):
+            if await self.value(f"!!({expression})"):
                 return
             await asyncio.sleep(0.05)
         raise AssertionError(f"not true within {seconds} s: {expression}")
@@ -96,6 +97,10 @@ class Tab:
         )
         return found[0], found[1]
 
+    async def key(self, kind: str, name: str, **more: Any) -> None:
+        """Send a key event: Down or Up."""
+        await self.call("Input.dispatchKeyEvent", type=f"key{kind}", key=name, code=name, **more)
+
     async def mouse(self, kind: str, x: float, y: float) -> None:
         """Send a mouse event: Pressed, Released or Moved."""
         held = {"button": "left", "clickCount": 1} if kind != "Moved" else {}
@@ -103,7 +108,10 @@ class Tab:
 
     async def click(self, selector: str, seconds: float = 0.0) -> None:
         """Press the left button on an element for a time."""
-        at = await self.middle(selector)
+        at, before = await self.middle(selector), None
+        while at != before:  # what is above it may still grow
+            await asyncio.sleep(0.03)
+            at, before = await self.middle(selector), at
         await self.mouse("Moved", *at)
         await self.mouse("Pressed", *at)
         await asyncio.sleep(seconds)
@@ -114,6 +122,16 @@ class Tab:
         await self.value(f"document.querySelector({selector!r}).select()")
         await self.call("Input.insertText", text=text)
         await self.value(f"document.querySelector({selector!r}).blur()")
+
+    async def close(self) -> None:
+        """Close the page."""
+        self._reader.cancel()
+        await self.call_no_answer("Page.close")
+        await self._socket.close()
+
+    async def call_no_answer(self, method: str) -> None:
+        """Send a command after which the page does not answer."""
+        await self._socket.send_str(json.dumps({"id": 0, "method": method}))
 
     async def screenshot(self, file: Path) -> None:
         """Write what is in sight as a PNG."""
@@ -162,15 +180,19 @@ class Chromium:
             os.killpg(self._process.pid, signal.SIGKILL)
 
 
-def with_chromium(profile: Path, work: Callable[[Chromium], Awaitable[None]]) -> None:
-    """Run some work with a browser."""
+class Background:
+    """An event loop in a thread of its own, in which plain tests run a browser and a server."""
 
-    async def run() -> None:
-        browser = Chromium(profile)
-        try:
-            await browser.begin()
-            await work(browser)
-        finally:
-            await browser.end()
+    def __init__(self) -> None:
+        self._loop = asyncio.new_event_loop()
+        self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
+        self._thread.start()
 
-    asyncio.run(run())
+    def __call__(self, work: Coroutine[Any, Any, Any], seconds: float = 90.0) -> Any:
+        """Run some work; return its result."""
+        return asyncio.run_coroutine_threadsafe(work, self._loop).result(seconds)
+
+    def close(self) -> None:
+        """Stop the loop."""
+        self._loop.call_soon_threadsafe(self._loop.stop)
+        self._thread.join(5)

@@ -1,6 +1,6 @@
 """A console server without ROS that plays a recorded flight; tests advance it and see what was requested.
 
-    cd test && python3 -m console_fake [--mission helix] [--rows 900]    # look at the page by hand
+cd test && python3 -m console_fake [--mission helix] [--rows 900]    # look at the page by hand
 """
 
 from __future__ import annotations
@@ -121,7 +121,7 @@ class FakeConsole:
         messages: list[Any] = [hello]
         for k in range(self.vehicles):
             messages += [
-                self._shifted(k), {"kind": "begin", "vehicle": k, "epoch": 1, "start": 1.0},
+                self._shifted(k), {"kind": "begin", "vehicle": k, "epoch": 1, "t0": 1.0},
                 self._packed(k, 0, self.flown), {"kind": "events", "vehicle": k, "events": self.events},
                 {"kind": "alarms", "vehicle": k, "alarms": self.alarms if k == 0 else []}, self._tick(k),
             ]  # fmt: skip
@@ -138,9 +138,8 @@ class FakeConsole:
 
     def _tick(self, k: int) -> dict[str, Any]:
         row = dict(zip(console_flight.COLUMNS, self.rows[max(0, self.flown - 1)].tolist(), strict=True))
-        length, count = self.course["mission"]["length"], len(self.course["joints"]) + 1
-        share = max(0.0, min(1.0, row["s"] / count)) if self.flown else 0.0
-        yaw = row["yaw_d"]
+        length, yaw = self.course["mission"]["length"], row["yaw_ref"]
+        share = max(0.0, min(1.0, row["s"] / length)) if self.flown else 0.0
         ahead = [row["x"] + 90.0 * k + 4.0 * math.cos(yaw), row["y"] + 4.0 * math.sin(yaw), row["z"]]
         speed = math.hypot(row["ve"], row["vn"]) or 1.0
         current = [row["current_east"], row["current_north"], 0.0]
@@ -182,7 +181,10 @@ class FakeConsole:
                 return self._checked(wish["text"])
             case "load":
                 running = self.state == "running"
-                return {"ok": not running, "message": "mission_text: not while running" if running else "loaded"}
+                return {
+                    "ok": not running,
+                    "message": "mission_text: not while running" if running else "loaded",
+                }
             case "parameters":
                 return {"nodes": [{"node": "heading_autopilot", "parameters": self.gains}]}
             case "set":

@@ -1,6 +1,6 @@
 """A recorded flight for the console's page: rows and course as the server would send them.
 
-    cd test && python3 -m console_flight    # fly both missions again and renew data/console_flight.npz
+cd test && python3 -m console_flight    # fly both missions again and renew data/console_flight.npz
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ FILE = Path(__file__).with_name("data") / "console_flight.npz"
 COLUMNS = {
     "t": ("s", "time"), "x": ("m", "east"), "y": ("m", "north"), "z": ("m", "up"), "yaw": ("rad", "yaw"),
     "u": ("m/s", "speed through water"), "ve": ("m/s", "east over ground"), "vn": ("m/s", "north over ground"),
-    "xe": ("m", "xe"), "ye": ("m", "ye"), "ze": ("m", "ze"), "s": ("-", "path parameter"),
-    "rudder": ("rad", "rudder"), "sternplane": ("rad", "planes"), "thrust": ("N", "thrust"),
-    "yaw_d": ("rad", "reference"), "pitch": ("rad", "pitch"), "depth_d": ("m", "requested depth"),
+    "xe": ("m", "xe"), "ye": ("m", "ye"), "ze": ("m", "ze"), "s": ("m", "way"),
+    "rudder": ("rad", "rudder"), "planes": ("rad", "planes"), "thrust": ("N", "thrust"),
+    "yaw_ref": ("rad", "reference"), "pitch": ("rad", "pitch"), "depth_ref": ("m", "requested depth"),
     "current_east": ("m/s", "current east"), "current_north": ("m/s", "current north"),
     "altitude": ("m", "altitude"), "true_x": ("m", "true east"), "true_y": ("m", "true north"),
     "true_z": ("m", "true up"),
@@ -32,7 +32,7 @@ def recorded(mission: str) -> tuple[NDArray[np.float32], dict[str, Any]]:
     with np.load(FILE) as stored:
         rows, path, joints = (stored[f"{mission}_{part}"] for part in ("rows", "path", "joints"))
         fence, origin = stored[f"{mission}_fence"], stored[f"{mission}_origin"]
-    length = float(np.hypot(*np.diff(path[:, :3], axis=0).T[:2]).sum())
+    length = float(path[-1, 3])
     return rows, {
         "kind": "course", "vehicle": 0, "path": path.tolist(),
         "joints": [dict(zip("xyzs", joint, strict=True), kind="line") for joint in joints.tolist()],
@@ -58,19 +58,20 @@ def _flown(mission: str, vehicle: str) -> dict[str, NDArray[Any]]:
         return getattr(run, name, unknown)
 
     u, v, psi = run.ur, run.vr, run.psi
+    line = flight.path.polyline(5.0)
+    north, east, s = line[0], line[1], line[-1]
+    way = np.r_[0.0, np.cumsum(np.hypot(np.diff(north), np.diff(east)))]
     true_north, true_east = run.Vx_true, run.Vy_true
     columns = [
         run.t - run.t[0], run.y, run.x, -of("z"), math.pi / 2 - psi, u,
         u * np.sin(psi) + v * np.cos(psi) + true_east, u * np.cos(psi) - v * np.sin(psi) + true_north,
-        run.xe, run.ye, of("ze"), run.s, run.rudder_cmd, of("sternplanes_cmd"), run.thrust_cmd,
-        math.pi / 2 - run.psi_d, -of("theta"), of("depth_d"), run.Vy_est, run.Vx_est, of("altitude"),
+        run.xe, run.ye, of("ze"), np.interp(run.s, s, way), run.rudder_cmd, of("sternplanes_cmd"), run.thrust_cmd,
+        math.pi / 2 - run.psi_d, of("theta"), of("depth_d"), run.Vy_est, run.Vx_est, of("altitude"),
         unknown, unknown, unknown,
     ]  # fmt: skip
     rows = np.stack(columns, axis=1)[every].astype(np.float32)
-    line = flight.path.polyline(5.0)
-    north, east, s = line[0], line[1], line[-1]
     depth = line[2] if len(line) == 4 else np.full(len(s), np.nan)
-    path = np.stack([east, north, -depth, s], axis=1)
+    path = np.stack([east, north, -depth, way], axis=1)
     whole = [int(np.argmin(np.abs(s - k))) for k in range(1, flight.path.n)]
     side = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
     middle, half = (path[:, :2].max(0) + path[:, :2].min(0)) / 2, np.ptp(path[:, :2], axis=0) / 2 + 40.0

@@ -15,9 +15,8 @@ function vehicle(about, names, k) {
 
 /* Rows that arrived; return whether they are drawn. */
 export function takeRows(buffer) {
-  const { vehicle: k, epoch, first, count, values } = unpacked(buffer), v = flights.vehicles[k];
+  const { vehicle: k, epoch, count, values } = unpacked(buffer), v = flights.vehicles[k];
   if (!v || epoch !== v.epoch) return false;
-  if (first === 0) { v.table.clear(); v.track.clear(); v.truth.clear(); }
   const before = v.table.n, added = v.table.append(values, count), { t, x, y, true_x, true_y } = v.table.columns;
   if (v.table.n !== before + added) { v.track.clear(); v.truth.clear(); }
   for (let row = v.table.n === before + added ? before : 0; row < v.table.n; row++) {
@@ -39,7 +38,7 @@ const TAKES = {
     const of = k => Float64Array.from(m.path, p => p[k] ?? NaN);
     v.course = { ...m, east: of(0), north: of(1), up: of(2) };
   },
-  begin(m, v) { v.epoch = m.epoch; v.start = m.start || 0; v.table.clear(); v.track.clear(); v.truth.clear(); },
+  begin(m, v) { v.epoch = m.epoch; v.start = m.t0 || 0; v.table.clear(); v.track.clear(); v.truth.clear(); },
   tick(m, v) { v.tick = m; v.heard = performance.now(); },
   events(m, v) {
     const last = v.events.length ? v.events[v.events.length - 1].id : -Infinity;
@@ -60,5 +59,5 @@ export function take(m) {
 /* Whether guidance is heard: without it the state is not known. */
 export function guided(v) {
   const guidance = v.tick && v.tick.health.find(one => one.node === "guidance");
-  return Boolean(v.tick && flights.link === "open" && !(guidance && (guidance.level === 3 || guidance.age === null)));
+  return Boolean(v.tick && v.tick.fresh !== false && flights.link === "open" && !(guidance && (guidance.level === 3 || guidance.age === null)));
 }

@@ -7,13 +7,12 @@ export const heading = yaw => ((90 - yaw * DEG) % 360 + 360) % 360;
 /* What the page draws beside the columns that arrive: name -> (columns it needs, their function). */
 const DERIVED = {
   heading: [["yaw"], heading],
-  heading_d: [["yaw_d"], heading],
+  heading_ref: [["yaw_ref"], heading],
   depth: [["z"], z => -z],
   bottom: [["z", "altitude"], (z, altitude) => altitude - z],
   over_ground: [["ve", "vn"], Math.hypot],
   rudder_deg: [["rudder"], v => v * DEG],
-  sternplane_deg: [["sternplane"], v => v * DEG],
-  pitch_deg: [["pitch"], v => -v * DEG],
+  planes_deg: [["planes"], v => v * DEG],
 };
 
 /* Columns of float32 that grow by doubling; above `most` rows the older half keeps every second one. */

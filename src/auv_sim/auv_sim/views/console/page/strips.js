@@ -10,16 +10,16 @@ export const range = { span: Infinity, chosen: null };
 const one = (name, label, colour, width = 1.5, wraps = false) => ({ name, label, colour, width, wraps });
 const STRIPS = [
   { title: "Depth", unit: "m", least: 1, digits: 2, down: true, if: ["depth"], series: [
-    one("depth_d", "requested", "path", 4), one("bottom", "bottom", "brown"), one("depth", "depth", "blue")] },
+    one("depth_ref", "requested", "path", 4), one("bottom", "bottom", "brown"), one("depth", "depth", "blue")] },
   { title: "Cross-track ye", unit: "m", least: 0.5, digits: 2, marks: [0], if: ["ye"], series: [one("ye", "starboard +", "blue")] },
   { title: "Vertical ze", unit: "m", least: 0.5, digits: 2, marks: [0], down: true, if: ["ze"], series: [one("ze", "below +", "blue")] },
   { title: "Along-track xe", unit: "m", least: 0.5, digits: 2, marks: [0], if: ["xe"], series: [one("xe", "ahead +", "blue")] },
   { title: "Heading", unit: "°", least: 5, digits: 1, if: ["heading"], series: [
-    one("heading_d", "reference", "path", 4, true), one("heading", "heading", "blue", 1.5, true)] },
+    one("heading_ref", "reference", "path", 4, true), one("heading", "heading", "blue", 1.5, true)] },
   { title: "Speed", unit: "m/s", least: 0.2, digits: 2, if: ["u", "over_ground"], series: [
     one("over_ground", "over ground", "orange"), one("u", "through water", "blue")] },
   { title: "Rudder", unit: "°", least: 2, digits: 1, marks: [0], if: ["rudder_deg"], series: [one("rudder_deg", "port +", "blue")] },
-  { title: "Planes", unit: "°", least: 2, digits: 1, marks: [0], if: ["sternplane_deg"], series: [one("sternplane_deg", "bow down +", "blue")] },
+  { title: "Planes", unit: "°", least: 2, digits: 1, marks: [0], if: ["planes_deg"], series: [one("planes_deg", "bow down +", "blue")] },
   { title: "Thrust", unit: "N", least: 1, digits: 1, marks: [0], if: ["thrust"], series: [one("thrust", "thrust", "blue")] },
   { title: "Current", unit: "m/s", least: 0.1, digits: 2, marks: [0], if: ["current_north"], series: [
     one("current_north", "north", "blue"), one("current_east", "east", "orange")] },
@@ -87,7 +87,7 @@ function drawStrip(strip, v, last) {
   const X = across(view, w), a = Math.max(0, rowOf(C.t, n, view[0]) - 1), b = Math.min(n - 1, rowOf(C.t, n, view[1]) + 1);
   const there = strip.series.filter(s => table.seen.has(s.name)), c = colours();
   const bounds = roomy(extent(there.map(s => C[s.name]), a, b, strip.marks), strip.least);
-  const Y = valueAxis(g, w, h, bounds, bottom, strip.down, h - bottom < 66 ? 2 : 4);
+  const Y = valueAxis(g, w, h, bounds, bottom, strip.down, Math.max(2, Math.round((h - bottom) / 24)));
   timeAxis(g, w, h, view, bottom, " s", [], w < 420 ? 5 : 8);
   g.save(); g.beginPath(); g.rect(LEFT, 2, w - LEFT - RIGHT, h - bottom - 4); g.clip();
   levels(g, w, Y, strip.marks || [], c.line);
