@@ -92,7 +92,8 @@ class Tab:
     async def middle(self, selector: str) -> tuple[float, float]:
         """Return the middle of an element, which is scrolled into sight."""
         found = await self.value(
-            f"(() => {{ const e = document.querySelector({selector!r}); e.scrollIntoView({{block: 'nearest'}});"
+            f"(() => {{ const e = document.querySelector({selector!r});"
+            " e.scrollIntoView({ block: 'nearest' });"
             " const r = e.getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]; })()"
         )
         return found[0], found[1]

@@ -50,7 +50,8 @@ class FakeConsole:
     def __init__(self, mission: str = "survey_wgs84", vehicles: int = 1) -> None:
         self.rows, self.course = console_flight.recorded(mission)
         self.vehicles, self.flown, self.started = vehicles, 0, "first"
-        self.state, self.reason, self.ready, self.silent = "idle", "waiting for the start service", True, ""
+        self.state, self.reason = "idle", "waiting for the start service"
+        self.ready, self.silent = True, ""
         self.asked: list[dict[str, Any]] = []
         self.alarms: list[dict[str, Any]] = []
         self.events: list[dict[str, Any]] = []
@@ -98,11 +99,11 @@ class FakeConsole:
             await _send(socket, message)
         async for message in socket:
             if message.type == aiohttp.WSMsgType.TEXT:
-                wish = json.loads(message.data)
-                self.asked.append(wish)
-                answer = {"ok": True, "message": "", **self._answer(wish)}
-                await _send(socket, {"kind": "answer", "id": wish.get("id"), **answer})
-                await self.tell()
+                request = json.loads(message.data)
+                self.asked.append(request)
+                answer = {"ok": True, "message": "", **self._answer(request)}
+                await _send(socket, {"kind": "answer", "id": request.get("id"), **answer})
+                await self.publish()
         if socket in self.browsers:
             self.browsers.remove(socket)
         return socket
@@ -160,15 +161,16 @@ class FakeConsole:
             "covariance": [1.6, 0.4, 0.7], "health": health,
             "preflight": {"ready": self.ready, "items": [
                 {"name": "nodes heard", "ok": True, "text": "5 of 5"},
-                {"name": "navigation fresh", "ok": self.ready, "text": "0.1 s" if self.ready else "2.4 s old"},
+                {"name": "navigation fresh", "ok": self.ready,
+ "text": "0.1 s" if self.ready else "2.4 s old"},
                 {"name": "plan check", "ok": True, "text": "flyable"}]},
             "can": {"start": not running, "hold": self.state == "running",
                     "resume": self.state == "holding", "abort": True},
         })  # fmt: skip
 
-    def _answer(self, wish: dict[str, Any]) -> dict[str, Any]:
+    def _answer(self, request: dict[str, Any]) -> dict[str, Any]:
         words = {"start": "running", "hold": "holding", "resume": "running", "abort": "aborted"}
-        match wish["do"]:
+        match request["do"]:
             case "start" | "hold" | "resume" | "abort" as what:
                 self.state, self.reason = words[what], f"{what} was called"
                 self.log("operator", f"browser 1: {what}", "warning" if what == "abort" else "info")
@@ -176,9 +178,9 @@ class FakeConsole:
             case "missions":
                 return {"missions": [{"name": n, "description": "shipped"} for n in console_flight.MISSIONS]}
             case "mission_text":
-                return {"text": f"version: 1\nname: {wish['name']}\nthrust: 6.48\n"}
+                return {"text": f"version: 1\nname: {request['name']}\nthrust: 6.48\n"}
             case "check":
-                return self._checked(wish["text"])
+                return self._checked(request["text"])
             case "load":
                 running = self.state == "running"
                 return {
@@ -188,15 +190,13 @@ class FakeConsole:
             case "parameters":
                 return {"nodes": [{"node": "heading_autopilot", "parameters": self.gains}]}
             case "set":
-                return self._set(wish["name"], wish["value"])
+                return self._set(request["name"], request["value"])
             case "parameter_file":
                 return {"text": "heading_autopilot:\n  ros__parameters:\n    autopilot.nism.k3: 1.4\n"}
             case "acknowledge":
                 self.alarms = [{**one, "acknowledged": True} for one in self.alarms if one["active"]]
                 return {}
-            case "silence":
-                raise NotImplementedError
-        return {"ok": False, "message": f"not understood: {wish['do']}"}
+        return {"ok": False, "message": f"not understood: {request['do']}"}
 
     def _checked(self, text: str) -> dict[str, Any]:
         thrust = (yaml.safe_load(text) or {}).get("thrust")
@@ -225,9 +225,9 @@ class FakeConsole:
         first, self.flown = self.flown, min(len(self.rows), self.flown + rows)
         for k in range(self.vehicles):
             await self.send(self._packed(k, first, self.flown))
-        await self.tell()
+        await self.publish()
 
-    async def tell(self) -> None:
+    async def publish(self) -> None:
         """Send the state, the events and the alarms to every browser."""
         for k in range(self.vehicles):
             await self.send({"kind": "events", "vehicle": k, "events": self.events[-5:]})

@@ -16,7 +16,8 @@ FILE = Path(__file__).with_name("data") / "console_flight.npz"
 #: Column -> (unit, label), in the order of a row.
 COLUMNS = {
     "t": ("s", "time"), "x": ("m", "east"), "y": ("m", "north"), "z": ("m", "up"), "yaw": ("rad", "yaw"),
-    "u": ("m/s", "speed through water"), "ve": ("m/s", "east over ground"), "vn": ("m/s", "north over ground"),
+    "u": ("m/s", "speed through water"),
+    "ve": ("m/s", "east over ground"), "vn": ("m/s", "north over ground"),
     "xe": ("m", "xe"), "ye": ("m", "ye"), "ze": ("m", "ze"), "s": ("m", "way"),
     "rudder": ("rad", "rudder"), "planes": ("rad", "planes"), "thrust": ("N", "thrust"),
     "yaw_ref": ("rad", "reference"), "pitch": ("rad", "pitch"), "depth_ref": ("m", "requested depth"),
@@ -65,7 +66,8 @@ def _flown(mission: str, vehicle: str) -> dict[str, NDArray[Any]]:
     columns = [
         run.t - run.t[0], run.y, run.x, -of("z"), math.pi / 2 - psi, u,
         u * np.sin(psi) + v * np.cos(psi) + true_east, u * np.cos(psi) - v * np.sin(psi) + true_north,
-        run.xe, run.ye, of("ze"), np.interp(run.s, s, way), run.rudder_cmd, of("sternplanes_cmd"), run.thrust_cmd,
+        run.xe, run.ye, of("ze"), np.interp(run.s, s, way), run.rudder_cmd,
+        of("sternplanes_cmd"), run.thrust_cmd,
         math.pi / 2 - run.psi_d, of("theta"), of("depth_d"), run.Vy_est, run.Vx_est, of("altitude"),
         unknown, unknown, unknown,
     ]  # fmt: skip

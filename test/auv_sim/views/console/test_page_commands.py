@@ -20,7 +20,7 @@ def stage() -> Iterator[Stage]:
 
 def done(fake: FakeConsole) -> list[str]:
     """The commands that the server was sent."""
-    return [wish["do"] for wish in fake.asked if wish["do"] in ("start", "hold", "resume", "abort")]
+    return [request["do"] for request in fake.asked if request["do"] in ("start", "hold", "resume", "abort")]
 
 
 async def text(tab: Tab, name: str) -> str:
@@ -68,13 +68,13 @@ async def test_start_is_pressed_for_a_second_on_the_keyboard(tab: Tab, fake: Fak
 @on_page()
 async def test_the_preflight_line_locks_start(tab: Tab, fake: FakeConsole) -> None:
     fake.ready = False
-    await fake.tell()
+    await fake.publish()
     await tab.until("document.getElementById('preflight').dataset.ready === 'false'")
     assert "2.4 s old" in await text(tab, "preflight-items")
     await tab.click("#start", 1.2)
     assert done(fake) == []
     fake.ready = True
-    await fake.tell()
+    await fake.publish()
     await tab.until("document.getElementById('start').getAttribute('aria-disabled') === 'false'")
     await tab.click("#start", 1.2)
     await state(tab, "running")
@@ -83,7 +83,7 @@ async def test_the_preflight_line_locks_start(tab: Tab, fake: FakeConsole) -> No
 @on_page()
 async def test_hold_resume_and_abort_take_one_click(tab: Tab, fake: FakeConsole) -> None:
     fake.state = "running"
-    await fake.tell()
+    await fake.publish()
     await state(tab, "running")
     assert "drifts with the current" in await text(tab, "meanwhile")
     await tab.click("#hold")
@@ -128,7 +128,7 @@ async def test_a_mission_is_checked_before_it_is_sent(tab: Tab, fake: FakeConsol
     await tab.type("#start-at", "50 m")
     await tab.click("#load")
     await tab.until("document.getElementById('check-lines').className === 'ok'")
-    sent = [wish for wish in fake.asked if wish["do"] == "load"]
+    sent = [request for request in fake.asked if request["do"] == "load"]
     assert [(one["text"], one.get("start_at")) for one in sent] == [
         ("version: 1\nthrust: 5\n", None), ("version: 1\nthrust: 5\n", "50 m"),
     ]  # fmt: skip
@@ -156,7 +156,7 @@ async def test_gains_change_and_limits_ask_first(tab: Tab, fake: FakeConsole) ->
     await tab.click("[data-name='autopilot.nism.k1'] .back")
     await tab.value("document.getElementById('limits-box').open = true")
     await enter("#p-heading_autopilot-odometry_timeout", "2")
-    values = [(wish["name"], wish["value"]) for wish in fake.asked if wish["do"] == "set"]
+    values = [(request["name"], request["value"]) for request in fake.asked if request["do"] == "set"]
     assert values == [("autopilot.nism.k1", -3), ("autopilot.nism.k1", 0.5), ("autopilot.nism.k1", 0.45)]
     await tab.click("[data-name='odometry_timeout'] .yes")
     await asyncio.sleep(0.2)
@@ -171,10 +171,10 @@ async def test_gains_change_and_limits_ask_first(tab: Tab, fake: FakeConsole) ->
 @on_page()
 async def test_an_alarm_stays_until_it_is_acknowledged(tab: Tab, fake: FakeConsole) -> None:
     fake.alarms = [{"id": 7, "text": "no odometry", "since": 81.0, "active": True, "acknowledged": False}]
-    await fake.tell()
+    await fake.publish()
     await tab.until("document.querySelector('.alarm')?.textContent.includes('no odometry')")
     fake.alarms[0]["active"] = False
-    await fake.tell()
+    await fake.publish()
     await tab.until("document.querySelector('.alarm')?.textContent.includes('(over)')")
     assert await text(tab, "mute") == "Sound waits"
     await tab.click(".alarm button")
@@ -187,7 +187,7 @@ async def test_an_alarm_stays_until_it_is_acknowledged(tab: Tab, fake: FakeConso
 @on_page()
 async def test_a_silent_guidance_makes_the_state_grey(tab: Tab, fake: FakeConsole) -> None:
     fake.state, fake.silent = "running", "guidance"
-    await fake.tell()
+    await fake.publish()
     await tab.until("document.getElementById('state-reason').textContent.includes('silent')")
     await state(tab, "silent")
     assert await tab.value("document.querySelectorAll('#health tr.silent').length") == 1

@@ -9,7 +9,7 @@ import { cursor } from "./strips.js";
 
 export const view = { x: 0, y: 0, scale: 1, up: 0, fitted: false, moved: false, follow: false, courseUp: false, draft: null };
 const canvas = document.getElementById("chart"), said = document.getElementById("pointer");
-const measure = { on: false, from: null, to: null };
+export const measure = { on: false, from: null, to: null };
 let overlay = null, pointer = null, grip = null, fittedTo = "";
 
 const button = name => document.getElementById(name);
@@ -101,20 +101,22 @@ function draw() {
 
 /* What is under the pointer: metres, degrees, range and bearing from the vehicle. */
 function say(w, h) {
-  const v = shown(), words = [];
+  const v = shown(), metres = [], degrees = [];
   if (pointer) {
     const [north, east] = placeAt(view, w, h, ...pointer), p = v && pose(v), origin = v && v.course && v.course.origin;
-    words.push(`N ${fmt(north, 1)}  E ${fmt(east, 1)} m`);
-    if (origin) {
-      const [latitude, longitude] = toDegrees(origin, north, east);
-      words.push(`${chartAngle(latitude, "N", "S")}  ${chartAngle(longitude, "E", "W")}`, `${latitude.toFixed(6)}, ${longitude.toFixed(6)}`);
-    }
+    metres.push(`N ${fmt(north, 1)}  E ${fmt(east, 1)} m`);
     if (p) {
       const [range, bearing] = rangeAndBearing([p.north, p.east], [north, east]);
-      words.push(`from vehicle ${fmt(range, 1)} m  ${bearing.toFixed(0).padStart(3, "0")}°`);
+      metres.push(`from vehicle ${fmt(range, 1)} m  ${String(Math.round(bearing) % 360).padStart(3, "0")}°`);
+    }
+    if (origin) {
+      const [latitude, longitude] = toDegrees(origin, north, east);
+      degrees.push(`${chartAngle(latitude, "N", "S")}  ${chartAngle(longitude, "E", "W")}`,
+        `${latitude.toFixed(6)}, ${longitude.toFixed(6)}`);
     }
   }
-  const text = words.join("   ·   ") || "Wheel: zoom, drag: move, double click: all.";
+  const text = pointer ? `${metres.join("  ·  ")}\n${degrees.join("  ·  ")}`
+    : "Wheel: zoom, drag: move, double click: all.\nPoint at a place for its position, range and bearing.";
   if (said.textContent !== text) said.textContent = text;
 }
 

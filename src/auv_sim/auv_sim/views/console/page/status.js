@@ -33,7 +33,7 @@ function figures(v) {
   write($("mission-time"), t ? clock(t.mission_time) : "–");
   write($("to-go"), t ? clock(t.time_to_go) : "–");
   write($("next-joint"), next ? `${next.kind} in ${fmt(next.distance, 0)} m, ${clock(next.time)}` : "–");
-  write($("now-heading"), p && Number.isFinite(p[3]) ? `${fmt(heading(p[3]), 0).padStart(3, "0")}°` : "–");
+  write($("now-heading"), p && Number.isFinite(p[3]) ? `${String(Math.round(heading(p[3])) % 360).padStart(3, "0")}°` : "–");
   write($("now-speed"), `${fmt(table.last("u"), 2)} m/s`);
   $("depth-box").hidden = !table.seen.has("depth");
   write($("now-depth"), table.seen.has("depth") ? `${fmt(table.last("depth"), 1)} m` : "–");
