@@ -22,7 +22,13 @@ setup(
     maintainer_email=maintainer.get("email"),
     packages=find_packages(include=[name, f"{name}.*"]),
     package_data={
-        name: ["py.typed", "bags/showing/page/*.html", "bags/showing/page/*.js", "launch/processes/*.xml"]
+        name: [
+            "py.typed",
+            "bags/showing/page/*.html",
+            "bags/showing/page/*.js",
+            "launch/processes/*.xml",
+            "views/console/page/*",
+        ]
     },
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{name}"]),

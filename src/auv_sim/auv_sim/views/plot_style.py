@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -12,15 +14,16 @@ from matplotlib.patheffects import withStroke
 
 from auv_msgs_py.settings.result_files import replacing
 
-INK = "#1b2733"
-MUTED = "#7a8794"
-GRID = "#e6eaee"
-PATH = "#b9c3cd"
-AREA = "#f3f6f8"
-BLUE = "#0b5fa5"
-ORANGE = "#e07b1a"
-GREEN = "#2a9d6f"
-RED = "#c8374a"
+
+def _by_day() -> dict[str, str]:
+    """Return the colours that pictures share with the report and the console: name -> #rrggbb."""
+    sheet = resources.files("auv_sim.views.console").joinpath("page", "colours.css")
+    return dict(re.findall(r"--(\w+): light-dark\((#\w{6})", sheet.read_text(encoding="utf-8")))
+
+
+_COLOURS = _by_day()
+INK, MUTED, GRID, PATH, AREA = (_COLOURS[name] for name in ("ink", "muted", "grid", "path", "area"))
+BLUE, ORANGE, GREEN, RED = (_COLOURS[name] for name in ("blue", "orange", "green", "red"))
 #: Keeps text legible on top of lines.
 HALO = [withStroke(linewidth=3.0, foreground="white")]
 

@@ -7,9 +7,10 @@ import json
 import math
 from collections.abc import Iterator
 
-import pymap3d
 import pytest
 
+from auv_path_following.missions import geodesy
+from auv_path_following.missions.geodesy import Origin
 from chromium import Tab
 from console_fake import FakeConsole
 from console_flight import COLUMNS
@@ -31,6 +32,14 @@ async def settled(tab: Tab) -> None:
         count = now
         await asyncio.sleep(0.16)
         await tab.value("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+
+def degrees(fake: FakeConsole, north: float, east: float) -> tuple[float, float]:
+    """Return the latitude and longitude of a place."""
+    at = fake.course["origin"]
+    origin = Origin(latitude_deg=at["latitude"], longitude_deg=at["longitude"])
+    latitude, longitude = geodesy.to_geodetic(origin, north, east)
+    return float(latitude), float(longitude)
 
 
 @on_page()
@@ -64,8 +73,7 @@ async def test_the_pointer_reads_degrees_range_and_bearing(tab: Tab, fake: FakeC
     await tab.mouse("Moved", place[0], place[1])
     await settled(tab)
     said = await tab.value("document.getElementById('pointer').textContent")
-    at = fake.course["origin"]
-    latitude, longitude, _ = pymap3d.enu2geodetic(place[3], place[2], 0, at["latitude"], at["longitude"], 0)
+    latitude, longitude = degrees(fake, place[2], place[3])
     found = [float(word) for word in said.rpartition("·")[2].split(",")]
     assert found == pytest.approx([latitude, longitude], abs=6e-6)
     row = dict(zip(COLUMNS, fake.rows[fake.flown - 1].tolist(), strict=True))
@@ -100,9 +108,8 @@ async def test_follow_course_up_and_the_ruler(tab: Tab, fake: FakeConsole) -> No
 
 @on_page()
 async def test_an_overlay_of_degrees_is_placed_by_the_origin(tab: Tab, fake: FakeConsole) -> None:
-    at = fake.course["origin"]
-    places = [pymap3d.enu2geodetic(e, 300.0, 0, at["latitude"], at["longitude"], 0) for e in (60.0, 480.0)]
-    line = {"type": "LineString", "coordinates": [[lon, lat] for lat, lon, _ in places]}
+    places = [degrees(fake, 300.0, east) for east in (60.0, 480.0)]
+    line = {"type": "LineString", "coordinates": [[lon, lat] for lat, lon in places]}
     await choose(tab, json.dumps({"type": "Feature", "geometry": line}))
     await tab.until("document.getElementById('overlay-words').textContent.includes('1 lines')")
     await settled(tab)

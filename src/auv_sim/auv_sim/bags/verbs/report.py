@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import html
 import json
+import re
 from importlib import resources
 from pathlib import Path
 
@@ -25,6 +26,8 @@ from auv_sim.terminal import go_on, wrote
 PAGE = "report.html"
 #: The page's parts: the template, and the scripts of the view in three dimensions.
 _PAGE, _IN_SPACE = "report.html", ("geometry.js", "space.js")
+#: What the report shares with the console: colours, and the drawing of axes, lines and maps.
+_COLOURS, _DRAWING = "colours.css", ("drawing.js", "map_drawing.js")
 #: What each file is for.
 _WHAT = {
     PAGE: "everything, for a browser",
@@ -77,13 +80,24 @@ def page_of(flight: RecordedMission) -> str:
     # The data must not end the element that contains it.
     data = data.replace("<", "\\u003c")
     more = "".join(f"<script>\n{_part(name)}</script>\n" for name in _IN_SPACE if content["space"])
-    page = _part(_PAGE).replace("{{MORE}}", more)
+    page = _part(_PAGE).replace("{{MORE}}", more).replace("{{COLOURS}}", _shared(_COLOURS))
+    page = page.replace("{{DRAWING}}", "".join(_as_script(_shared(name)) for name in _DRAWING))
     return page.replace("{{TITLE}}", html.escape(title)).replace("{{DATA}}", data)
 
 
 def _part(name: str) -> str:
     """Return a part of the page."""
     return resources.files("auv_sim.bags.showing").joinpath("page", name).read_text(encoding="utf-8")
+
+
+def _shared(name: str) -> str:
+    """Return a part that the console's page has too."""
+    return resources.files("auv_sim.views.console").joinpath("page", name).read_text(encoding="utf-8")
+
+
+def _as_script(module: str) -> str:
+    """Return a module's text for a page in one file: without imports, its exports as plain definitions."""
+    return re.sub(r"^import .*\n|^export (?=\w)", "", module, flags=re.MULTILINE)
 
 
 def _title(flight: RecordedMission) -> str:
