@@ -15,6 +15,8 @@ LAUNCHER = "mission_launcher"
 FLEET_CLOCK = "fleet_clock"
 #: Shows the mission to people; no node waits for it.
 DISPLAY = "display"
+#: Shows the missions of a domain in the browser, and passes on what an operator asks for.
+CONSOLE = "console"
 #: Replaces the simulator on a real vehicle.
 MAVLINK_DRIVER = "mavlink_driver"
 

@@ -26,7 +26,9 @@ def parser() -> argparse.ArgumentParser:
     )
     p.add_argument("--domain", type=ros_domain, help="ROS domain (default: ROS_DOMAIN_ID, or 0)")
     p.add_argument(
-        "--port", type=whole, default=8642, help="for the browser; 0: a free one (default %(default)s)"
+        "--port",
+        type=whole,
+        help="for the browser; 0: a free one (default: 8642, or a free one if it is taken)",
     )
     p.add_argument(
         "--address",

@@ -141,6 +141,11 @@ def _add_run(p: argparse.ArgumentParser) -> None:
         action="store_true",
         help="begin when the service start is called, and stay for further missions until Ctrl-C",
     )
+    p.add_argument(
+        "--console",
+        action="store_true",
+        help="watch and steer in the browser: prints the address, begins at its Start, stays until Ctrl-C",
+    )
     p.add_argument("--out", type=Path, metavar="DIR", help="run directory (default: runs/MISSION-DATE)")
     p.add_argument("--display", action="store_true", help="markers, transforms and model for RViz, Foxglove")
     p.add_argument("--composed", action="store_true", help="all nodes but the display in one process")
@@ -202,6 +207,10 @@ def checked(given: dict[str, Any]) -> Options:
     for name in ("current", "initial"):
         given[name] = tuple(given[name]) if given[name] is not None else None
     options = Options(**given)
+    if options.console:
+        from auv_sim.launch.operation.console_child import require_library
+
+        require_library()
     if options.vehicle_address is not None:
         if options.vehicle_driver is None:
             raise ConfigurationError("--vehicle-address", "no --vehicle-driver", "both")

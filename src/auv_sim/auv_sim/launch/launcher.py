@@ -16,6 +16,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.command_line import ros_domain
 from auv_sim.launch.composed import NODES
 from auv_sim.launch.mission_plan import Plan
+from auv_sim.launch.operation import console_child
 from auv_sim.launch.operation.stand_by import StandBy
 from auv_sim.launch.outcome import MissionFailed, Outcome
 from auv_sim.launch.processes import discovery
@@ -80,10 +81,12 @@ def fly(plan: Plan, directory: Path, domain: int, progress: ProgressDisplay, loa
     processor = Processor(None if separate and not plan.options.any_processor else ())
     try:
         start_nodes(plan, children, loader, plan.write(directory / "config"))
-        # Imported after the fork: the nodes load meanwhile, and a process with DDS threads must not fork.
+        look = discovery.look_for(domain)
+        if plan.options.console:
+            console_child.start(children, domain)
+        # Imported after the forks: the nodes load meanwhile, and a process with DDS threads must not fork.
         from auv_sim.launch.monitor import Monitor
 
-        look = discovery.look_for(domain)
         monitor = Monitor(plan.options.namespace)
         try:
             return _Flight(plan, children, loader, monitor, progress, interrupt, processor).run(look)
@@ -165,7 +168,9 @@ class _Flight:
             return Outcome("interrupted", "stopped before the mission began", time.monotonic() - begin, 0.0)
         self._processor.place(self._children.ids)
         self._look.check()
-        if self._plan.options.wait:
+        if self._plan.options.waits:
+            if self._plan.options.console:
+                self._progress.say(console_child.addresses(self._children, self._monitor.look))
             m = self._monitor
             return StandBy(self._plan, m, self._progress, self._interrupt, self._check_progress).run()
         refused = self._monitor.start()

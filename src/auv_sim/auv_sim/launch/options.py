@@ -49,6 +49,7 @@ class Options:
     quiet: bool = False
     force: bool = False
     wait: bool = False
+    console: bool = False
     flown: float | None = None
 
     @property
@@ -67,6 +68,11 @@ class Options:
         if self.flown is not None:
             return self.flown
         return LEAST_SHARE_AT_SEA if self.sea else LEAST_SHARE
+
+    @property
+    def waits(self) -> bool:
+        """Whether an operator starts the mission, and the nodes stay after its end."""
+        return self.wait or self.console
 
     @property
     def simulator(self) -> bool:

@@ -17,6 +17,8 @@ from auv_sim.launch.processes.kin import end_with_parent
 
 #: In place of an exit code that only the parent of a process can read.
 UNKNOWN_CODE = 256
+#: Children that show the mission to people; it goes on without them.
+_FOR_PEOPLE = (topics.DISPLAY, topics.CONSOLE)
 
 
 class Process(Protocol):
@@ -127,9 +129,9 @@ class Children:
         return {name: child.process.pid for name, child in self._children.items()}
 
     def dead(self) -> Child | None:
-        """Return the first child that has ended, None if all run; a mission does without its display."""
-        needed = (child for child in self._children.values() if child.name != topics.DISPLAY)
-        return next((child for child in needed if child.exit_code is not None), None)
+        """Return the first needed child that has ended, None if all run."""
+        needed = (each for each in self._children.values() if each.name not in _FOR_PEOPLE)
+        return next((each for each in needed if each.exit_code is not None), None)
 
     def stop(self, names: Sequence[str] | None = None, patience: float = 10.0) -> None:
         """Send SIGINT to the named children (default: all); kill those that outlive `patience`, s."""

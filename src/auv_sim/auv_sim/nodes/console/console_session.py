@@ -24,7 +24,7 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.node.run import StopRequest
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.command_line import EXIT_DONE, say
-from auv_sim.nodes.console.graph_feed import NODE, GraphFeed
+from auv_sim.nodes.console.graph_feed import GraphFeed
 from auv_sim.nodes.console.operator_deeds import OperatorDeeds
 from auv_sim.nodes.console.vehicle_calls import CallFailed, ServiceCaller
 from auv_sim.nodes.console.vehicle_feed import VehicleFeed
@@ -41,6 +41,7 @@ _POLL = 0.05
 #: Between two attempts to read what a mission's file holds, s.
 _RETRY = 1.0
 LOOPBACK = "127.0.0.1"
+PORT = 8642
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,7 +51,7 @@ class ConsoleOptions:
     Attributes:
         namespaces: of the vehicles; empty for all that are discovered.
         domain: ROS domain; None for the environment's.
-        address, port: to listen on; port 0 for a free one.
+        address, port: to listen on; port 0 for a free one, None for `PORT` or else a free one.
         view_only: whether no browser may command.
         missions: folder of further missions.
         keep: whether tracks and cookies are kept for a restart.
@@ -59,7 +60,7 @@ class ConsoleOptions:
     namespaces: tuple[str, ...] = ()
     domain: int | None = None
     address: str = LOOPBACK
-    port: int = 8642
+    port: int | None = None
     view_only: bool = False
     missions: Path | None = None
     keep: bool = True
@@ -149,7 +150,7 @@ def serve(options: ConsoleOptions) -> int:
     tokens = new_tokens(options.view_only)
     stop = StopRequest()
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
-    node = rclpy.create_node(NODE, start_parameter_services=False)
+    node = rclpy.create_node(topics.CONSOLE, start_parameter_services=False)
     try:
         session = ConsoleSession(options, node, tokens, port, cache)
         for line in announcement(options, tokens, port):
@@ -179,13 +180,23 @@ def _listen(options: ConsoleOptions) -> socket.socket:
     made = socket.socket(family, socket.SOCK_STREAM)
     made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
-        made.bind((options.address, options.port))
+        _bind(made, options)
         made.listen(64)
     except (OSError, OverflowError) as error:
         made.close()
         found = f"{options.address} port {options.port} ({error})"
         raise ConfigurationError("--port", found, "a free port; --port 0 takes any") from None
     return made
+
+
+def _bind(made: socket.socket, options: ConsoleOptions) -> None:
+    if options.port is not None:
+        made.bind((options.address, options.port))
+        return
+    try:
+        made.bind((options.address, PORT))
+    except OSError:
+        made.bind((options.address, 0))
 
 
 def _names(address: str) -> tuple[str, ...]:

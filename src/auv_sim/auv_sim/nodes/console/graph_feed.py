@@ -19,7 +19,6 @@ from auv_sim.nodes.console.vehicle_feed import PolledReader, VehicleFeed
 from auv_sim.views.console.record.vehicle_record import VehicleRecord
 from auv_sim.views.console.record.wire_messages import text_of
 
-NODE = "console"
 #: Between two looks for vehicles, s.
 _LOOK = 1.0
 #: Depths of the queues of topics that all nodes publish.
