@@ -6,6 +6,7 @@ and its track is another one. The file is a cache: without it, or when the disk 
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 import os
@@ -18,17 +19,30 @@ from auv_sim.views.console.record.track_columns import NAMES
 
 #: Files that were not written for this long are removed, s.
 STALE = 86_400.0
+#: Most files that are kept; the oldest ones go.
+MOST_FILES = 20
 _SUFFIX = ".track"
 
 
 def remove_stale(directory: Path, now: float) -> None:
-    """Remove tracks that were not written for `STALE` s before `now` (the machine's time, s)."""
-    for file in directory.glob(f"*{_SUFFIX}"):
-        try:
-            if now - file.stat().st_mtime > STALE:
+    """Remove tracks that are too many, or were not written for `STALE` s.
+
+    Args:
+        directory: of the tracks.
+        now: the machine's time, s.
+    """
+    files = sorted((-_written(file), file) for file in directory.glob(f"*{_SUFFIX}"))
+    for number, (written, file) in enumerate(files, start=1):
+        if now + written > STALE or number > MOST_FILES:
+            with contextlib.suppress(OSError):
                 file.unlink()
-        except OSError:
-            continue
+
+
+def _written(file: Path) -> float:
+    try:
+        return file.stat().st_mtime
+    except OSError:
+        return 0.0
 
 
 class TrackFile:
