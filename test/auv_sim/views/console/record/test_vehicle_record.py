@@ -159,6 +159,8 @@ def test_start_is_unlocked_by_the_preflight_alone() -> None:
     heard(record, 0.0, NAVIGATION)
     assert not tick(record, 0.1)["can"]["start"], "the plan was not checked"
     record.set_course({"path": []}, PLAN)
+    assert not tick(record, 0.1)["can"]["start"], "a vehicle starts only with its odometry"
+    record.health.hear(topics.PLANT, 0, "waits", 0.1)
     assert tick(record, 0.1)["can"]["start"], "a simulator sends no odometry before the start"
     record.set_course({"path": []}, PlanLines(False, ("turn too tight",)))
     assert not tick(record, 0.1)["can"]["start"]
@@ -169,6 +171,19 @@ def test_start_is_unlocked_by_the_preflight_alone() -> None:
     assert tick(record, 3.0)["can"] == {"start": False, "hold": True, "resume": False, "abort": True}
     record.progress.state = "holding"
     assert tick(record, 3.0)["can"]["resume"]
+
+
+@pytest.mark.parametrize("state", ["idle", "complete", "aborted"])
+def test_a_vehicle_whose_odometry_has_stopped_may_not_start(state: str) -> None:
+    record = VehicleRecord(0, "/auv")
+    record.progress.state = state
+    record.set_course({"path": []}, PLAN)
+    heard(record, 0.0)
+    assert tick(record, 0.1)["can"]["start"]
+    heard(record, 3.0, NAVIGATION)
+    assert not tick(record, 3.0)["can"]["start"]
+    record.health.hear(topics.PLANT, 0, "waits", 3.0)
+    assert tick(record, 3.0)["can"]["start"], "a simulator that waits stops its odometry"
 
 
 def test_figures_of_a_mission_under_way() -> None:

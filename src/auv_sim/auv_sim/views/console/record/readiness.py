@@ -38,7 +38,8 @@ def preflight(health: HealthBoard, plan: PlanLines | None, state: str, now: floa
         now: steady time, s.
     """
     nodes = [health.of(name, now) for name in CHAIN]
-    items = [_nodes(nodes), _navigation(health.of(NAVIGATION, now), state), _plan(plan)]
+    waits = state in _OVER and health.of(topics.PLANT, now).level != SILENT
+    items = [_nodes(nodes), _navigation(health.of(NAVIGATION, now), waits), _plan(plan)]
     return {"ready": all(item["ok"] for item in items), "items": items}
 
 
@@ -47,13 +48,20 @@ def _nodes(nodes: Sequence[NodeHealth]) -> dict[str, Any]:
     return _item("nodes", not missing, ", ".join(missing) or "all nodes report")
 
 
-def _navigation(row: NodeHealth, state: str) -> dict[str, Any]:
-    """A simulator that waits for the start sends no odometry yet: that is no fault."""
+def _navigation(row: NodeHealth, waits: bool) -> dict[str, Any]:
+    """Return the item of the odometry.
+
+    Args:
+        row: of the odometry.
+        waits: whether a simulator is there that waits for a mission: it sends no odometry meanwhile. A
+            vehicle sends it always, and may not start without it.
+    """
     if row.age is None:
-        waits = state in _OVER
-        return _item("navigation", waits, "no odometry yet" + "; a simulator begins with the mission" * waits)
-    if row.level == SILENT and state != MissionState.RUNNING:
-        return _item("navigation", True, f"the last odometry is {row.age:.0f} s old: no mission runs")
+        reason = "; the simulator begins with the mission" * waits
+        return _item("navigation", waits, f"no odometry yet{reason}")
+    if row.level == SILENT:
+        last = f"the last odometry is {row.age:.0f} s old"
+        return _item("navigation", waits, last + ": the simulator waits for a mission" * waits)
     return _item("navigation", row.level < ERROR, row.message)
 
 
