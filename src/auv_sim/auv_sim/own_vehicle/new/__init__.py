@@ -1,0 +1,1 @@
+"""A vehicle file from what an owner has at hand."""

@@ -1,0 +1,96 @@
+"""Write a vehicle file and a survey for it, and fly the survey."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from rich.console import Console
+
+from auv_msgs_py.settings.result_files import write_text
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following import vehicle as vehicle_file
+from auv_path_following.control.rule.gain_rule import gains_for
+from auv_path_following.missions import mission_file
+from auv_path_following.vehicle import Vehicle
+from auv_sim.command_line import to_type
+from auv_sim.own_vehicle.new.assumed_diver import assumed_diver
+from auv_sim.own_vehicle.new.assumed_hull import Assumed, assumed_hull
+from auv_sim.own_vehicle.new.next_measurement import headline, worth_measuring
+from auv_sim.own_vehicle.new.owner_facts import OwnerFacts, check_facts
+from auv_sim.own_vehicle.new.trial_flight import TrialFlight, fly_trials, trial_text
+from auv_sim.own_vehicle.new.vehicle_text import text_of
+from auv_sim.terminal import go_on, headed_table, wrote
+
+
+def new_vehicle(facts: OwnerFacts, file: Path, overwrite: bool, console: Console) -> Vehicle:
+    """Write the files, fly the survey, and print what to measure next.
+
+    Args:
+        facts: given by the owner.
+        file: the vehicle file to write; the survey stands beside it.
+        overwrite: whether a file of that name is replaced.
+        console: for the output.
+
+    Returns:
+        The vehicle.
+
+    Raises:
+        ConfigurationError: the facts contradict each other, the file exists, or the vehicle does not fly.
+    """
+    check_facts(facts)
+    survey = file.with_name(f"{file.stem}_survey.yaml")
+    for taken in (file, survey):
+        if taken.exists() and not overwrite:
+            raise ConfigurationError("--out", f"{taken}, which exists", "a new file, or --overwrite")
+    assumed = assumed_hull(facts)
+    vehicle = _written(facts, assumed, file)
+    try:
+        write_text(survey, trial_text(vehicle))
+        mission = mission_file.load(str(survey), vehicle)
+        with console.status("flying a survey on the assumed hull"):
+            trials = fly_trials(vehicle, mission)
+    except BaseException:
+        for made in (file, survey):
+            made.unlink(missing_ok=True)
+        raise
+    wrote(console, file, "the vehicle; numbers that were not given are marked `assumed`")
+    wrote(console, survey, f"a survey that it can fly, {mission.path.length:.0f} m")
+    _show(console, trials)
+    _advise(console, facts, vehicle, file)
+    return vehicle
+
+
+def _show(console: Console, trials: list[TrialFlight]) -> None:
+    table = headed_table(
+        "The survey on the assumed hull, gains by the rule", (),
+        ("current (m/s)", "flown", "rms (m)", "largest (m)"),
+    )  # fmt: skip
+    for trial in trials:
+        table.add_row(
+            f"{trial.current:.2f}", f"{trial.share:.1%}", f"{trial.rms:.2f}", f"{trial.largest:.2f}"
+        )
+    console.print(table)
+
+
+def _written(facts: OwnerFacts, assumed: Assumed, file: Path) -> Vehicle:
+    """Write the vehicle file with the advice for this vehicle at its head; return the vehicle."""
+    hull, depth = assumed.hull, None
+    if facts.planes_deg is not None:
+        hull, depth = assumed_diver(assumed, facts)
+    write_text(file, text_of(facts, assumed, hull, depth, ""))
+    vehicle = vehicle_file.load(str(file))
+    advice = headline(worth_measuring(facts, vehicle))
+    write_text(file, text_of(facts, assumed, hull, depth, advice))
+    return vehicle
+
+
+def _advise(console: Console, facts: OwnerFacts, vehicle: Vehicle, file: Path) -> None:
+    for notice in gains_for(vehicle).notices:
+        console.print(f"[yellow]warning[/yellow] {notice}", highlight=False)
+    measurements = worth_measuring(facts, vehicle)
+    if measurements:
+        console.print("\nWorth measuring, the most helpful first:")
+    for number, measurement in enumerate(measurements, 1):
+        console.print(f"  {number}. {measurement.what}", markup=False)
+        console.print(f"     [dim]{measurement.why}[/dim]")
+    go_on(console, "Rehearse the manoeuvres", to_type("vehicle.py", "manoeuvres", vehicle=file))
