@@ -1,0 +1,1 @@
+"""Identify a hull from recordings of its manoeuvres: coefficients, rudder, delays, current, with intervals."""

@@ -1,0 +1,143 @@
+"""The 14 combinations of planar coefficients that motion data can show: Eqs. (18), (19) by their masses.
+
+Dividing Eq. (19) by the mass matrix of Eq. (18) gives accelerations. Masses and added masses are not
+separable from them, so a hull is written back with assumed masses and moves the same.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from auv_path_following.vehicle import Hull
+
+Numbers = NDArray[np.float64]
+
+
+class Combinations(NamedTuple):
+    """Accelerations for each unit of a product of velocities; `mx` is m - Xud.
+
+    Attributes:
+        X1: 1/mx, m/s^2 for each unit of thrust.
+        Xuu: Xuu/mx, 1/m.
+        Xvr: (Xvr + m)/mx.
+        Xrr: Xrr/mx, m.
+        Yvv, Yrr, Yur, Yuv, Yuud: sway acceleration by v|v| (1/m), r|r| (m), u r, u v (1/m), u^2 delta (1/m).
+        Nvv, Nrr, Nur, Nuv, Nuud: yaw acceleration by the same: 1/m^2, 1, 1/m, 1/m^2, 1/m^2.
+    """
+
+    X1: Any
+    Xuu: Any
+    Xvr: Any
+    Xrr: Any
+    Yvv: Any
+    Yrr: Any
+    Yur: Any
+    Yuv: Any
+    Yuud: Any
+    Nvv: Any
+    Nrr: Any
+    Nur: Any
+    Nuv: Any
+    Nuud: Any
+
+
+#: How many.
+COUNT = len(Combinations._fields)
+#: As they are printed.
+SYMBOLS = (
+    "1/mx", "Xuu/mx", "(Xvr+m)/mx", "Xrr/mx", "Yvv'", "Yrr'", "Yur'", "Yuv'", "Yuud'",
+    "Nvv'", "Nrr'", "Nur'", "Nuv'", "Nuud'",
+)  # fmt: skip
+UNITS = (
+    "1/kg", "1/m", "-", "m", "1/m", "m", "-", "1/m", "1/m", "1/m^2", "-", "1/m", "1/m^2", "1/m^2",
+)  # fmt: skip
+#: Powers of length with which the combinations of similar hulls grow; the first one is of 1/mass.
+_LENGTH_POWERS = np.array([-3, -1, 0, 1, -1, 1, 0, -1, -1, -2, 0, -1, -2, -2], float)
+#: Powers of the log's scale by which the combinations are multiplied when u and v are read too large by it.
+SCALE_POWERS = np.array([1, -1, 0, 1, -1, 1, 0, -1, -1, -2, 0, -1, -2, -2], float)
+
+
+def combinations_of(hull: Hull) -> Combinations:
+    """Return the combinations of a hull."""
+    values = {field.name: getattr(hull, field.name) for field in dataclasses.fields(hull)}
+    return _combined(values, hull.surge_coupling)
+
+
+def _combined(c: dict[str, Any], surge_coupling: bool) -> Combinations:
+    """Return the combinations of coefficients by name: numbers, or arrays of many hulls."""
+    mx = c["m"] - c["Xud"]
+    sway, yaw = c["m"] - c["Yvd"], c["Izz"] - c["Nrd"]
+    determinant = sway * yaw - c["Yrd"] * c["Nvd"]
+    Y = [c["Yvv"], c["Yrr"], c["Yur"] - c["m"], c["Yuv"], c["Yuud"]]
+    N = [c["Nvv"], c["Nrr"], c["Nur"], c["Nuv"], c["Nuud"]]
+    return Combinations(
+        1.0 / mx,
+        c["Xuu"] / mx,
+        (c["Xvr"] + (c["m"] if surge_coupling else 0.0)) / mx,
+        c["Xrr"] / mx,
+        *((yaw * y + c["Yrd"] * n) / determinant for y, n in zip(Y, N, strict=True)),
+        *((c["Nvd"] * y + sway * n) / determinant for y, n in zip(Y, N, strict=True)),
+    )
+
+
+def hull_with(combinations: Combinations, assumed: Hull) -> Hull:
+    """Return a hull that moves by these combinations, with the masses of another one.
+
+    Mass, moment of inertia and the added masses of sway and yaw are assumed. The added mass ahead follows
+    from 1/mx. A coefficient whose sign the vehicle file prescribes and the data contradict is held at a
+    thousandth of the assumed one.
+
+    Args:
+        combinations: of the hull.
+        assumed: the source of the masses.
+    """
+    c, h = combinations, assumed
+    mx = 1.0 / c.X1
+    sway, yaw = h.m - h.Yvd, h.Izz - h.Nrd
+    Y = [sway * y - h.Yrd * n for y, n in zip(c[4:9], c[9:14], strict=True)]
+    N = [-h.Nvd * y + yaw * n for y, n in zip(c[4:9], c[9:14], strict=True)]
+    found = {
+        "Xud": h.m - mx, "Xuu": c.Xuu * mx, "Xvr": c.Xvr * mx - h.m, "Xrr": c.Xrr * mx,
+        "Yvv": Y[0], "Yrr": Y[1], "Yur": Y[2] + h.m, "Yuv": Y[3], "Yuud": Y[4],
+        "Nvv": N[0], "Nrr": N[1], "Nur": N[2], "Nuv": N[3], "Nuud": N[4],
+    }  # fmt: skip
+    for name in ("Xuu", "Yvv", "Nrr", "Nuud"):
+        found[name] = min(found[name], 1e-3 * getattr(h, name))
+    return dataclasses.replace(h, surge_coupling=True, **{name: float(v) for name, v in found.items()})
+
+
+class Prior(NamedTuple):
+    """A normal distribution of the combinations: mean (14,), and a root of the covariance (14, 14)."""
+
+    mean: Numbers
+    root: Numbers
+
+
+#: Draws of hulls that make a prior, and the factor on their spread.
+_DRAWS, _WIDENED = 3000, 1.5
+#: Coefficients that inertia bounds: within the square root of the factor of two of all others.
+_INERTIA = ("m", "Izz")
+
+
+def prior_of(hull: Hull, length_ratio: float = 1.0, seed: int = 0) -> Prior:
+    """Return what is assumed before any data: each coefficient of a similar hull within a factor of two.
+
+    Args:
+        hull: a known one.
+        length_ratio: length of the vehicle over that of the known hull.
+        seed: of the draws.
+    """
+    generator = np.random.default_rng(seed)
+    values: dict[str, Any] = {}
+    for field in dataclasses.fields(hull):
+        value = getattr(hull, field.name)
+        if isinstance(value, float):
+            largest = 0.5 if field.name in _INERTIA else 1.0
+            values[field.name] = value * 2.0 ** generator.uniform(-largest, largest, _DRAWS)
+    drawn = np.array(_combined(values, hull.surge_coupling)) * (length_ratio**_LENGTH_POWERS)[:, None]
+    root = np.linalg.cholesky(np.cov(drawn) * _WIDENED**2)
+    return Prior(drawn.mean(axis=1), root)

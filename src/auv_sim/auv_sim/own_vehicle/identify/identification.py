@@ -1,0 +1,120 @@
+"""Identify a planar hull from recordings: several starts, the best likelihood, intervals."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from auv_path_following.vehicle import Hull
+from auv_sim.own_vehicle.identify.combinations import COUNT, Numbers, prior_of
+from auv_sim.own_vehicle.identify.innovations import Channels, channels_of
+from auv_sim.own_vehicle.identify.intervals import Spread, spread_of
+from auv_sim.own_vehicle.identify.minimise import Estimate, minimise
+from auv_sim.own_vehicle.identify.time_grid import PlanarData
+from auv_sim.own_vehicle.identify.unknowns import ALL, LATENCY, Scaling, Sheet
+
+#: Yaw coefficients of a hull that is damped in yaw, as another start.
+_DAMPED = {"Nuv": -3.0, "Nur": -4.0, "Nrr": -20.0}
+#: Dead times of the starts, s.
+_DEAD_TIMES = (0.05, 0.2)
+#: Dead bands that are tried where none is given, deg.
+DEAD_BANDS = (0.0, 0.1, 0.2, 0.3, 0.5)
+#: A found latency that differs by more from the grid's gets a grid of its own, s.
+_NEAR = 0.005
+
+
+class Identified(NamedTuple):
+    """What recordings show of a hull.
+
+    Attributes:
+        physical: the unknowns: see `Scaling.physical`.
+        spread: their uncertainty.
+        dead_band: of the rudder, rad.
+        channels, scaling, estimate: as of the last minimisation.
+        misfits: of each start, less that of the best.
+    """
+
+    physical: Numbers
+    spread: Spread
+    dead_band: float
+    channels: Channels
+    scaling: Scaling
+    estimate: Estimate
+    misfits: tuple[float, ...]
+
+
+def _quiet(done: int, total: int, what: str) -> None:
+    """Report no progress."""
+
+
+def identify(
+    recordings: Sequence[PlanarData],
+    hull: Hull,
+    sheet: Sheet | None = None,
+    dead_band: float | None = None,
+    length_ratio: float = 1.0,
+    progress: Callable[[int, int, str], None] = _quiet,
+) -> Identified:
+    """Identify a hull.
+
+    Args:
+        recordings: manoeuvres of one vehicle.
+        hull: a known hull of the same kind.
+        sheet: errors of instruments and servo.
+        dead_band: of the rudder, rad; None: the one of `DEAD_BANDS` that fits best.
+        length_ratio: length of the vehicle over that of the known hull.
+        progress: called with minimisations done, their number, and what the next one is.
+    """
+    sheet = Sheet() if sheet is None else sheet
+    damped = dataclasses.replace(hull, **_DAMPED)
+    starts = [(hull, _DEAD_TIMES[0]), (hull, _DEAD_TIMES[1]), (damped, _DEAD_TIMES[0])]
+    bands = [math.radians(band) for band in DEAD_BANDS] if dead_band is None else [dead_band]
+    total = len(starts) + len(bands) + 1
+    first_band = math.radians(0.1) if dead_band is None else dead_band
+    channels = channels_of(recordings, sheet, first_band)
+    found: list[tuple[Scaling, Estimate]] = []
+    for k, (known, dead_time) in enumerate(starts):
+        progress(k, total, f"start {k + 1} of {len(starts)}")
+        scaling = Scaling(prior_of(known, length_ratio), sheet._replace(dead_time=dead_time))
+        found.append((scaling, minimise(channels, scaling, np.zeros(ALL))))
+    misfits = [estimate.misfit for _, estimate in found]
+    scaling, estimate = found[int(np.argmin(misfits))]
+    tried = []
+    for k, band in enumerate(bands):
+        progress(len(starts) + k, total, "dead band of the rudder")
+        tried.append(_again(recordings, scaling, estimate, band))
+    channels, estimate = min(tried, key=lambda one: one[1].cost)
+    scaling, estimate = _widened(channels, scaling, estimate)
+    progress(total - 1, total, "intervals")
+    spread = spread_of(channels, scaling, estimate)
+    progress(total, total, "done")
+    return Identified(
+        scaling.physical(estimate.z), spread, channels.dead_band, channels, scaling, estimate,
+        tuple(misfit - min(misfits) for misfit in misfits),
+    )  # fmt: skip
+
+
+def _widened(channels: Channels, scaling: Scaling, estimate: Estimate) -> tuple[Scaling, Estimate]:
+    """Return an estimate whose prior is as wide as the hull differs from the known one, if it does."""
+    for _ in range(2):
+        factor = math.sqrt(float(np.mean(estimate.z[:COUNT] ** 2)))
+        if factor < 1.0:
+            break
+        wider = scaling._replace(prior=scaling.prior._replace(root=scaling.prior.root * max(factor, 1.1)))
+        z = wider.scaled(scaling.physical(estimate.z))
+        scaling, estimate = wider, minimise(channels, wider, z, first=estimate.deviations)
+    return scaling, estimate
+
+
+def _again(
+    recordings: Sequence[PlanarData], scaling: Scaling, estimate: Estimate, band: float
+) -> tuple[Channels, Estimate]:
+    """Minimise from an estimate with another dead band, on the grid of the latency found."""
+    latency = float(scaling.physical(estimate.z)[LATENCY])
+    latency = latency if abs(latency - scaling.sheet.latency) > _NEAR else scaling.sheet.latency
+    channels = channels_of(recordings, scaling.sheet, band, max(latency, 0.0))
+    return channels, minimise(channels, scaling, estimate.z, first=estimate.deviations)

@@ -1,0 +1,89 @@
+"""How far an estimate may be off: the statistical part of the intervals, and the systematic one apart."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from auv_sim.own_vehicle.identify.combinations import COUNT, SCALE_POWERS, Numbers
+from auv_sim.own_vehicle.identify.innovations import Channels
+from auv_sim.own_vehicle.identify.minimise import Estimate, free_unknowns, jacobian, weights_of
+from auv_sim.own_vehicle.identify.unknowns import ALL, Scaling, Sheet
+
+#: Of a 95 % interval, in standard deviations.
+REACH = 1.96
+
+
+class Spread(NamedTuple):
+    """Uncertainty of the physical unknowns.
+
+    Attributes:
+        classic: covariance by the curvature of the likelihood, (J'J)^-1.
+        sandwich: covariance that allows for innovations correlated within blocks of 10 s.
+        systematic: rows of what no data show, each one standard deviation: scale of the log, bias of the
+            thrust.
+    """
+
+    classic: Numbers
+    sandwich: Numbers
+    systematic: Numbers
+
+    def statistical(self, gradient: Numbers) -> float:
+        """Return the statistical standard deviation of a function with this gradient."""
+        variances = (gradient @ self.classic @ gradient, gradient @ self.sandwich @ gradient)
+        return float(np.sqrt(max(*variances, 0.0)))
+
+    def unseen(self, gradient: Numbers) -> float:
+        """Return the systematic standard deviation of a function with this gradient."""
+        return float(np.linalg.norm(self.systematic @ gradient))
+
+    def total(self, gradient: Numbers) -> float:
+        """Return the standard deviation with both parts."""
+        return float(np.hypot(self.statistical(gradient), self.unseen(gradient)))
+
+    @property
+    def deviations(self) -> Numbers:
+        """Total standard deviation of each unknown, shape (21,)."""
+        return np.array([self.total(row) for row in np.eye(ALL)])
+
+
+def spread_of(channels: Channels, scaling: Scaling, estimate: Estimate) -> Spread:
+    """Return the uncertainty of an estimate."""
+    free = free_unknowns(scaling)
+    weights = weights_of(channels, scaling, estimate)
+    J = jacobian(channels, scaling, estimate.z, free, weights)
+    bread = np.linalg.inv(J.T @ J + np.eye(free.size))
+    scores = np.zeros((int(channels.blocks.max()) + 1, free.size))
+    np.add.at(scores, channels.blocks, J * estimate.residuals[:, None])
+    meat = scores.T @ scores + np.eye(free.size)
+    slopes = scaling.slopes(estimate.z)[:, free]
+    physical = scaling.physical(estimate.z)
+    return Spread(
+        slopes @ bread @ slopes.T,
+        slopes @ bread @ meat @ bread @ slopes.T,
+        systematic_of(physical, scaling.sheet),
+    )
+
+
+def systematic_of(physical: Numbers, sheet: Sheet) -> Numbers:
+    """Return one standard deviation of each error that no data show, by the unknowns, shape (2, 21)."""
+    found = np.zeros((2, ALL))
+    found[0, :COUNT] = physical[:COUNT] * SCALE_POWERS * sheet.log_scale
+    found[1, 0] = physical[0] * sheet.thrust_bias
+    return found
+
+
+def gradient_of(function: Callable[[Numbers], float], physical: Numbers, spread: Spread) -> Numbers:
+    """Return the derivatives of a function of the physical unknowns, by central differences.
+
+    The steps are a hundredth of the standard deviations.
+    """
+    steps = 0.01 * spread.deviations
+    gradient = np.zeros(ALL)
+    for k in np.flatnonzero(steps > 0.0):
+        moved = np.zeros(ALL)
+        moved[k] = steps[k]
+        gradient[k] = (function(physical + moved) - function(physical - moved)) / (2.0 * steps[k])
+    return gradient

@@ -1,0 +1,148 @@
+"""Measurements and commands of a recording on one line of time: the nodes that the filter visits."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from auv_sim.own_vehicle.identify.combinations import Numbers
+
+#: Longest step of the filter, s.
+LONGEST_STEP = 0.06
+#: A longer gap between measurements of the yaw rate begins a new passage, s.
+LONGEST_GAP = 1.0
+#: Times nearer than this are one node, s.
+SAME = 1e-3
+
+
+class PlanarData(NamedTuple):
+    """A recording of manoeuvres in the plane: NED and FRD, SI units, radians.
+
+    Attributes:
+        name: for people.
+        t, r: times (s) and yaw rates, as measured.
+        water_t, u, v: arrival of each new sample of the velocity through the water, and its components.
+        rudder_t, rudder: times and values of the rudder commands.
+        thrust_t, thrust: the same of the thrust.
+        x, y, psi: pose at `t`.
+    """
+
+    name: str
+    t: Numbers
+    r: Numbers
+    water_t: Numbers
+    u: Numbers
+    v: Numbers
+    rudder_t: Numbers
+    rudder: Numbers
+    thrust_t: Numbers
+    thrust: Numbers
+    x: Numbers
+    y: Numbers
+    psi: Numbers
+
+    def between(self, begin: float, end: float) -> PlanarData:
+        """Return the measurements of an interval (s), with all commands before its end."""
+        rows, water = (self.t >= begin) & (self.t < end), (self.water_t >= begin) & (self.water_t < end)
+        rudder, thrust = self.rudder_t < end, self.thrust_t < end
+        return PlanarData(
+            self.name, self.t[rows], self.r[rows], self.water_t[water], self.u[water], self.v[water],
+            self.rudder_t[rudder], self.rudder[rudder], self.thrust_t[thrust], self.thrust[thrust],
+            self.x[rows], self.y[rows], self.psi[rows],
+        )  # fmt: skip
+
+
+class Grid(NamedTuple):
+    """The arrays that `planar_filter.planar_innovations` reads, one entry for each node."""
+
+    step: Numbers
+    begins: NDArray[np.bool_]
+    thrust: Numbers
+    rate_row: NDArray[np.int64]
+    rate: Numbers
+    u_row: NDArray[np.int64]
+    v_row: NDArray[np.int64]
+    u: Numbers
+    v: Numbers
+
+
+class Passage(NamedTuple):
+    """One recording, ready for the filter.
+
+    Attributes:
+        grid: its nodes.
+        times: of the nodes and of the end of the last step, s.
+        issued, commands: rudder commands.
+        rows: time of each row of the innovations, s: of r, then of u, then of v.
+        counts: rows of r, and of u (as many as of v).
+    """
+
+    grid: Grid
+    times: Numbers
+    issued: Numbers
+    commands: Numbers
+    rows: Numbers
+    counts: tuple[int, int]
+
+
+def passage_of(data: PlanarData, latency: float) -> Passage:
+    """Return the nodes of a recording.
+
+    Args:
+        data: its measurements and commands.
+        latency: age of a velocity when it arrives, s.
+    """
+    measured = data.water_t - latency
+    first = max(data.t[0], data.rudder_t[0], data.thrust_t[0], measured[0]) - SAME
+    rows, samples = data.t >= first, measured >= first
+    t, at = data.t[rows], measured[samples]
+    at = _snapped(at, t)
+    times = np.union1d(t, at)
+    times = _filled(times)
+    n = times.size
+    of_rate, of_water = np.searchsorted(times, t), np.searchsorted(times, at)
+    u, v, rate = np.zeros(n), np.zeros(n), np.interp(times, t, data.r[rows])
+    rate_row, u_row = np.full(n, -1), np.full(n, -1)
+    u[of_water], v[of_water] = data.u[samples], data.v[samples]
+    rate_row[of_rate], u_row[of_water] = np.arange(t.size), t.size + np.arange(at.size)
+    begins, unused = _begins(times, u_row >= 0)
+    rate_row[unused], u_row[unused] = -1, -1
+    v_row = np.where(u_row >= 0, u_row + at.size, -1)
+    step = np.append(np.diff(times), SAME)
+    last = np.searchsorted(data.thrust_t, times + SAME, side="right") - 1
+    thrust = data.thrust[np.maximum(last, 0)]
+    grid = Grid(step, begins, thrust, rate_row, rate, u_row, v_row, u, v)
+    every = np.concatenate((t, at, at))
+    ends = np.append(times, times[-1] + SAME)
+    return Passage(grid, ends, data.rudder_t, data.rudder, every, (t.size, at.size))
+
+
+def _snapped(at: Numbers, t: Numbers) -> Numbers:
+    """Return times, each moved to the nearest of `t` where that is near."""
+    right = np.clip(np.searchsorted(t, at), 1, t.size - 1)
+    nearest = np.where(at - t[right - 1] < t[right] - at, t[right - 1], t[right])
+    return np.where(np.abs(nearest - at) < SAME, nearest, at)
+
+
+def _filled(times: Numbers) -> Numbers:
+    """Return times with further ones between those that lie too far apart for one step."""
+    gaps = np.diff(times)
+    parts = np.where(gaps < LONGEST_GAP, np.ceil(gaps / LONGEST_STEP - 1e-9), 1).astype(int)
+    if (parts <= 1).all():
+        return times
+    pieces = [np.linspace(a, a + g, k, endpoint=False) for a, g, k in zip(times, gaps, parts, strict=False)]
+    return np.append(np.concatenate(pieces), times[-1])
+
+
+def _begins(times: Numbers, has_water: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Return the nodes at which a passage begins, and those before one: u and v are not known there."""
+    begins, unused = np.zeros(times.size, bool), np.zeros(times.size, bool)
+    waiting = True
+    for k in range(times.size):
+        waiting = waiting or (k > 0 and times[k] - times[k - 1] >= LONGEST_GAP)
+        if waiting and has_water[k]:
+            begins[k], waiting = True, False
+        unused[k] = waiting
+    return begins, unused
