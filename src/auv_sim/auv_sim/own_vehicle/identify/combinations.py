@@ -55,8 +55,6 @@ SYMBOLS = (
 UNITS = (
     "1/kg", "1/m", "-", "m", "1/m", "m", "-", "1/m", "1/m", "1/m^2", "-", "1/m", "1/m^2", "1/m^2",
 )  # fmt: skip
-#: Powers of length with which the combinations of similar hulls grow; the first one is of 1/mass.
-_LENGTH_POWERS = np.array([-3, -1, 0, 1, -1, 1, 0, -1, -1, -2, 0, -1, -2, -2], float)
 #: Powers of the log's scale by which the combinations are multiplied when u and v are read too large by it.
 SCALE_POWERS = np.array([1, -1, 0, 1, -1, 1, 0, -1, -1, -2, 0, -1, -2, -2], float)
 
@@ -110,6 +108,24 @@ def hull_with(combinations: Combinations, assumed: Hull) -> Hull:
     return dataclasses.replace(h, surge_coupling=True, **{name: float(v) for name, v in found.items()})
 
 
+#: Powers of length with which the coefficients of similar hulls grow.
+_POWERS = {
+    "m": 3, "Izz": 5, "Xuu": 2, "Xud": 3, "Xvr": 3, "Xrr": 4, "Yvv": 2, "Yvd": 3, "Yrr": 4, "Yrd": 4, "Yur": 3,
+    "Yuv": 2, "Yuud": 2, "Nvv": 3, "Nvd": 4, "Nrr": 5, "Nrd": 5, "Nur": 4, "Nuv": 3, "Nuud": 3,
+}  # fmt: skip
+
+
+def scaled_hull(hull: Hull, ratio: float) -> Hull:
+    """Return a planar hull of the same shape and density.
+
+    Args:
+        hull: a known one.
+        ratio: of the lengths, the new one over the known one.
+    """
+    values = {name: getattr(hull, name) * ratio**power for name, power in _POWERS.items()}
+    return dataclasses.replace(hull, vertical=None, **values)
+
+
 class Prior(NamedTuple):
     """A normal distribution of the combinations: mean (14,), and a root of the covariance (14, 14)."""
 
@@ -123,12 +139,11 @@ _DRAWS, _WIDENED = 3000, 1.5
 _INERTIA = ("m", "Izz")
 
 
-def prior_of(hull: Hull, length_ratio: float = 1.0, seed: int = 0) -> Prior:
+def prior_of(hull: Hull, seed: int = 0) -> Prior:
     """Return what is assumed before any data: each coefficient of a similar hull within a factor of two.
 
     Args:
-        hull: a known one.
-        length_ratio: length of the vehicle over that of the known hull.
+        hull: a known one of about this size: see `scaled_hull`.
         seed: of the draws.
     """
     generator = np.random.default_rng(seed)
@@ -138,6 +153,6 @@ def prior_of(hull: Hull, length_ratio: float = 1.0, seed: int = 0) -> Prior:
         if isinstance(value, float):
             largest = 0.5 if field.name in _INERTIA else 1.0
             values[field.name] = value * 2.0 ** generator.uniform(-largest, largest, _DRAWS)
-    drawn = np.array(_combined(values, hull.surge_coupling)) * (length_ratio**_LENGTH_POWERS)[:, None]
+    drawn = np.array(_combined(values, hull.surge_coupling))
     root = np.linalg.cholesky(np.cov(drawn) * _WIDENED**2)
     return Prior(drawn.mean(axis=1), root)

@@ -17,12 +17,15 @@ from auv_sim.own_vehicle.identify.minimise import Estimate, minimise
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
 from auv_sim.own_vehicle.identify.unknowns import ALL, LATENCY, Scaling, Sheet
 
-#: Yaw coefficients of a hull that is damped in yaw, as another start.
-_DAMPED = {"Nuv": -3.0, "Nur": -4.0, "Nrr": -20.0}
+#: Factors on the yaw coefficients for a hull that is damped in yaw, as another start.
+_DAMPED = {"Nuv": 0.125, "Nur": 2.0, "Nrr": 0.2}
 #: Dead times of the starts, s.
 _DEAD_TIMES = (0.05, 0.2)
 #: Dead bands that are tried where none is given, deg.
 DEAD_BANDS = (0.0, 0.1, 0.2, 0.3, 0.5)
+#: Each start is minimised first over this time (s), by a filter with this growth of the variances of u, v, r
+#: in a second: it follows the measurements, and its likelihood has hardly any local minima.
+_BEGIN, _GROWTH = 150.0, (1e-2, 1e-3, 1e-4)
 #: A found latency that differs by more from the grid's gets a grid of its own, s.
 _NEAR = 0.005
 
@@ -56,31 +59,32 @@ def identify(
     hull: Hull,
     sheet: Sheet | None = None,
     dead_band: float | None = None,
-    length_ratio: float = 1.0,
     progress: Callable[[int, int, str], None] = _quiet,
 ) -> Identified:
     """Identify a hull.
 
     Args:
         recordings: manoeuvres of one vehicle.
-        hull: a known hull of the same kind.
+        hull: a known hull of about this size.
         sheet: errors of instruments and servo.
         dead_band: of the rudder, rad; None: the one of `DEAD_BANDS` that fits best.
-        length_ratio: length of the vehicle over that of the known hull.
         progress: called with minimisations done, their number, and what the next one is.
     """
     sheet = Sheet() if sheet is None else sheet
-    damped = dataclasses.replace(hull, **_DAMPED)
+    damped = dataclasses.replace(hull, **{name: f * getattr(hull, name) for name, f in _DAMPED.items()})
     starts = [(hull, _DEAD_TIMES[0]), (hull, _DEAD_TIMES[1]), (damped, _DEAD_TIMES[0])]
     bands = [math.radians(band) for band in DEAD_BANDS] if dead_band is None else [dead_band]
     total = len(starts) + len(bands) + 1
     first_band = math.radians(0.1) if dead_band is None else dead_band
     channels = channels_of(recordings, sheet, first_band)
+    begin = channels_of([_beginning(recordings[0])], sheet, first_band)
+    begin = begin._replace(noise=(*begin.noise[:3], *_GROWTH, *begin.noise[6:]))
     found: list[tuple[Scaling, Estimate]] = []
     for k, (known, dead_time) in enumerate(starts):
         progress(k, total, f"start {k + 1} of {len(starts)}")
-        scaling = Scaling(prior_of(known, length_ratio), sheet._replace(dead_time=dead_time))
-        found.append((scaling, minimise(channels, scaling, np.zeros(ALL))))
+        scaling = Scaling(prior_of(known), sheet._replace(dead_time=dead_time))
+        z = minimise(begin, scaling, np.zeros(ALL), rounds=2, steps=10).z
+        found.append((scaling, minimise(channels, scaling, z)))
     misfits = [estimate.misfit for _, estimate in found]
     scaling, estimate = found[int(np.argmin(misfits))]
     tried = []
@@ -96,6 +100,10 @@ def identify(
         scaling.physical(estimate.z), spread, channels.dead_band, channels, scaling, estimate,
         tuple(misfit - min(misfits) for misfit in misfits),
     )  # fmt: skip
+
+
+def _beginning(data: PlanarData) -> PlanarData:
+    return data.between(data.t[0] - 1.0, data.t[0] + _BEGIN)
 
 
 def _widened(channels: Channels, scaling: Scaling, estimate: Estimate) -> tuple[Scaling, Estimate]:

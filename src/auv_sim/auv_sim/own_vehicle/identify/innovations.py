@@ -12,13 +12,14 @@ import numpy as np
 from auv_sim.flight.batch.compiled import COMPILED, compiled, take_over_pure
 from auv_sim.own_vehicle.identify.combinations import COUNT, Numbers
 from auv_sim.own_vehicle.identify.exact_servo import fin_angles
-from auv_sim.own_vehicle.identify.planar_filter import planar_innovations
+from auv_sim.own_vehicle.identify.planar_filter import planar_flight, planar_innovations
 from auv_sim.own_vehicle.identify.time_grid import Passage, PlanarData, passage_of
 from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, HALF_PLAY, LATENCY, RATE, Sheet
 
 take_over_pure()
 _fin_angles = compiled(fin_angles)
 _innovations = compiled(planar_innovations)
+_flight = compiled(planar_flight)
 
 #: Growth of the variances of u, v and r in a second: nearly none.
 _GROWTH = (1e-7, 1e-8, 1e-9)
@@ -46,6 +47,7 @@ class Channels(NamedTuple):
     blocks: Any
 
 
+_NO_STATES = np.zeros((0, 4))
 #: Length of a block of correlated innovations, s.
 _BLOCK = 10.0
 
@@ -92,12 +94,32 @@ def innovations(channels: Channels, physical: Numbers) -> Numbers:
     return np.clip(np.nan_to_num(np.concatenate(parts), nan=1e6), -1e6, 1e6)
 
 
+def filtered(passage: Passage, channels: Channels, physical: Numbers) -> Numbers:
+    """Return u, v, r and the thrust's error at each node of a passage, measurements used, shape (n, 4)."""
+    states = np.full((passage.times.size - 1, 4), np.nan)
+    means, changes = rudder_of(passage, channels.dead_band, physical)
+    out = np.zeros(passage.rows.size)
+    _innovations(arguments_of(channels, physical), channels.noise, passage.grid, means, changes, out, states)
+    return states
+
+
+def flown(
+    passage: Passage, channels: Channels, physical: Numbers, first: int, length: int, state: Numbers
+) -> Numbers:
+    """Return u, v, r after each of `length` steps from node `first`, by the commands alone: (length, 3)."""
+    means, changes = rudder_of(passage, channels.dead_band, physical)
+    out = np.zeros((length, 3))
+    c = arguments_of(channels, physical)
+    _flight(c, passage.grid, means, changes, first, length, tuple(map(float, state)), out)
+    return out
+
+
 def _of_passage(passage: Passage, channels: Channels, physical: Numbers) -> Numbers:
     out = np.zeros(passage.rows.size)
     means, changes = rudder_of(passage, channels.dead_band, physical)
-    arguments = _arguments(channels, physical)
+    arguments = arguments_of(channels, physical)
     with np.errstate(all="ignore"):
-        _innovations(arguments, channels.noise, passage.grid, means, changes, out)
+        _innovations(arguments, channels.noise, passage.grid, means, changes, out, _NO_STATES)
     return out
 
 
@@ -112,7 +134,8 @@ def rudder_of(passage: Passage, dead_band: float, physical: Numbers) -> tuple[Nu
     return means, changes
 
 
-def _arguments(channels: Channels, physical: Numbers) -> Numbers:
+def arguments_of(channels: Channels, physical: Numbers) -> Numbers:
+    """Return what `planar_innovations` takes as `c`."""
     lead = channels.latency - physical[LATENCY]
     return np.concatenate((physical[:COUNT], physical[HALF_PLAY + 1 : LATENCY], [lead]))
 
@@ -128,7 +151,7 @@ def many_innovations(channels: Channels, sets: Sequence[Numbers]) -> Numbers:
 def _uncompiled(channels: Channels, sets: Sequence[Numbers]) -> Numbers:
     """Compute all sets in one pass of NumPy, in a hundredth of the time of one after the other."""
     parts = []
-    arguments = list(np.array([_arguments(channels, one) for one in sets]).T)
+    arguments = list(np.array([arguments_of(channels, one) for one in sets]).T)
     for passage in channels.passages:
         seen: dict[tuple[float, ...], tuple[Numbers, Numbers]] = {}
         rudders = []
@@ -141,6 +164,6 @@ def _uncompiled(channels: Channels, sets: Sequence[Numbers]) -> Numbers:
         out = np.zeros((passage.rows.size, len(sets)))
         with np.errstate(all="ignore"):
             run: Callable[..., None] = planar_innovations
-            run(arguments, channels.noise, passage.grid, means, changes, out)
+            run(arguments, channels.noise, passage.grid, means, changes, out, _NO_STATES)
         parts.append(out)
     return np.clip(np.nan_to_num(np.concatenate(parts), nan=1e6), -1e6, 1e6)

@@ -126,7 +126,9 @@ def corrected(p: Any, q: Any, w: Any, x: Any, row: Any, noise: Any, innovation: 
 
 
 @pure
-def planar_innovations(c: Any, noise: Any, grid: Any, means: Any, changes: Any, out: Any) -> None:
+def planar_innovations(
+    c: Any, noise: Any, grid: Any, means: Any, changes: Any, out: Any, states: Any
+) -> None:
     """Fill in the innovations of u, v and r of a recording.
 
     The thrust's error is a Gauss-Markov process, estimated as a fourth state.
@@ -140,6 +142,7 @@ def planar_innovations(c: Any, noise: Any, grid: Any, means: Any, changes: Any, 
             thrust of the step, row of r in `out` or -1, r, rows of u and v in `out` or -1, u, v.
         means, changes: mean rudder angle of each step and its change in it, rad.
         out: written, (m,) or (m, sets).
+        states: written if it has rows: u, v, r and the thrust's error at each node, (n, 4).
     """
     step, begins, thrust, rate_row, rate, u_row, v_row, u_log, v_log = grid
     noise_u, noise_v, noise_r, grow_u, grow_v, grow_r, drift, decay = noise
@@ -165,6 +168,8 @@ def planar_innovations(c: Any, noise: Any, grid: Any, means: Any, changes: Any, 
             out[v_row[k]] = at_v - x[1]
             p, q, w, x = corrected(p, q, w, x, (p[0], p[1], p[2], q[0]), p[0] + noise_u, at_u - x[0])
             p, q, w, x = corrected(p, q, w, x, (p[1], p[3], p[4], q[1]), p[3] + noise_v, at_v - x[1])
+        if len(states) > 0:
+            states[k, 0], states[k, 1], states[k, 2], states[k, 3] = x
         h = step[k]
         f = transition(planar_jacobian(c, x[0], x[1], x[2], delta), h)
         shaken = h * c[0] * thrust[k]
@@ -182,3 +187,24 @@ def planar_innovations(c: Any, noise: Any, grid: Any, means: Any, changes: Any, 
         push = c[0] * thrust[k] * (1.0 + x[3])
         u, v, r = planar_advance(c, x[0], x[1], x[2], push, delta, changes[k], h)
         x = (u, v, r, kept * x[3])
+
+
+@pure
+def planar_flight(
+    c: Any, grid: Any, means: Any, changes: Any, first: int, length: int, state: Any, out: Any
+) -> None:
+    """Predict u, v and r by the commands alone.
+
+    Args:
+        c: as for `planar_innovations`.
+        grid, means, changes: as for `planar_innovations`.
+        first, length: node where the prediction begins, and its steps.
+        state: u, v, r (m/s, rad/s) and the thrust's error there, which is kept.
+        out: written, (length, 3): after each step.
+    """
+    u, v, r, error = state
+    for k in range(length):
+        push = c[0] * grid.thrust[first + k] * (1.0 + error)
+        h, delta = grid.step[first + k], means[first + k]
+        u, v, r = planar_advance(c, u, v, r, push, delta, changes[first + k], h)
+        out[k, 0], out[k, 1], out[k, 2] = u, v, r

@@ -26,7 +26,9 @@ class PlanarData(NamedTuple):
         water_t, u, v: arrival of each new sample of the velocity through the water, and its components.
         rudder_t, rudder: times and values of the rudder commands.
         thrust_t, thrust: the same of the thrust.
-        x, y, psi: pose at `t`.
+        psi: heading at `t`.
+        over_u, over_v: velocity over ground at `t`, m/s; NaN where there is none.
+        leg: number of the manoeuvre at `t`; zeros where it is not recorded.
     """
 
     name: str
@@ -39,9 +41,10 @@ class PlanarData(NamedTuple):
     rudder: Numbers
     thrust_t: Numbers
     thrust: Numbers
-    x: Numbers
-    y: Numbers
     psi: Numbers
+    over_u: Numbers
+    over_v: Numbers
+    leg: Numbers
 
     def between(self, begin: float, end: float) -> PlanarData:
         """Return the measurements of an interval (s), with all commands before its end."""
@@ -50,7 +53,7 @@ class PlanarData(NamedTuple):
         return PlanarData(
             self.name, self.t[rows], self.r[rows], self.water_t[water], self.u[water], self.v[water],
             self.rudder_t[rudder], self.rudder[rudder], self.thrust_t[thrust], self.thrust[thrust],
-            self.x[rows], self.y[rows], self.psi[rows],
+            self.psi[rows], self.over_u[rows], self.over_v[rows], self.leg[rows],
         )  # fmt: skip
 
 

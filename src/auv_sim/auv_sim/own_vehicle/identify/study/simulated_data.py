@@ -1,0 +1,26 @@
+"""Recordings of simulated manoeuvres as the identification reads them, and the truth behind them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from auv_sim.own_vehicle.identify.time_grid import PlanarData
+from auv_sim.own_vehicle.manoeuvres.manoeuvre_flight import Manoeuvred
+from auv_sim.vehicle.draws import Draws
+from auv_sim.vehicle.noise import noise_of
+from auv_sim.vehicle.sea import Sea
+
+
+def planar_data(flown: Manoeuvred, name: str = "simulated") -> PlanarData:
+    """Return manoeuvres of `simulate` as a recording."""
+    t = flown.t
+    return PlanarData(
+        name, t, flown.r, flown.water_t, flown.water_u, flown.water_v, t, flown.rudder, t, flown.thrust,
+        flown.psi, flown.u, flown.v, np.asarray(flown.leg),
+    )  # fmt: skip
+
+
+def thrust_share(sea: Sea, seed: int, step: float = 0.05) -> float:
+    """Return the mean efficiency of the propeller in a run of `simulate`: 1 and its bias."""
+    propeller, _ = noise_of(sea.thrust, (seed, 1), Draws(step, 1))
+    return 1.0 + propeller.bias
