@@ -1,0 +1,221 @@
+"""What an identification needs of a recording: measured motion, new samples of the log, commands."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.frames import Convention, FrameIds, FrameTable
+from auv_msgs_py.contract.topics import Topic
+from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
+from auv_sim.bags.reading.bag_reader import read_bag
+from auv_sim.bags.reading.columns import Columns, decode
+from auv_sim.bags.reading.deserialize import deserializer
+from auv_sim.bags.reading.load import run_of
+from auv_sim.bags.reading.recording import Bag, RecordedTopic
+from auv_sim.flight.run_record import Run, SpatialRun
+
+Column = NDArray[np.float64]
+#: Topics that are read, by the names of the wire contract.
+READ = (
+    topics.ODOM, topics.WATER_VELOCITY, topics.RUDDER_CMD, topics.THRUST_CMD, topics.STERNPLANE_CMD,
+)  # fmt: skip
+_COMMANDS = (topics.RUDDER_CMD, topics.THRUST_CMD, topics.STERNPLANE_CMD)
+#: Types of commands beside the contract's: one number named `data`.
+_NUMBERS = ("std_msgs/msg/Float64", "std_msgs/msg/Float32")
+
+
+class Commands(NamedTuple):
+    """Commands of one kind: times of the odometry's clock (s), and values (rad, N or per cent)."""
+
+    t: Column
+    value: Column
+
+
+class Manoeuvring(NamedTuple):
+    """A recording of manoeuvres, NED and FRD, SI units, radians.
+
+    Attributes:
+        run: poses and rates at the odometries.
+        over: velocity over ground at the odometries, (n, 3), m/s; NaN where there is none.
+        water_t, water: stamps of the new samples of the velocity through the water, s, and the samples, (m, 3).
+        rudder, thrust: commands.
+        sternplanes: commands; None where there are none.
+    """
+
+    run: Run
+    over: Column
+    water_t: Column
+    water: Column
+    rudder: Commands
+    thrust: Commands
+    sternplanes: Commands | None
+
+
+def manoeuvres_in(
+    path: Path, names: Mapping[str, str] | None = None, namespace: str | None = None,
+    odometry: str | None = None,
+) -> Manoeuvring:  # fmt: skip
+    """Read the manoeuvres of a recording.
+
+    Args:
+        path: of the recording.
+        names: name of the wire contract -> full topic name, where a recording has another.
+        namespace: which vehicle, where there are several.
+        odometry: full name of the odometry topic.
+
+    Raises:
+        ConfigurationError: no readable recording, a missing topic, one of another type, unknown frames.
+    """
+    bag = _renamed(read_bag(path, odometry=odometry), names or {})
+    found = {topic: bag.find(topic.name, namespace) for topic in READ}
+    for topic in READ[:4]:
+        if found[topic] is None or not found[topic].count:  # type: ignore[union-attr]
+            raise _missing(path, topic)
+    motion = {t.name: t for t in (found[topics.ODOM], found[topics.WATER_VELOCITY]) if t is not None}
+    planes = found[topics.STERNPLANE_CMD]
+    if planes is not None:  # makes a run in three dimensions
+        motion[planes.name] = dataclasses.replace(planes, type=topics.STERNPLANE_CMD.type)
+    run = run_of(dataclasses.replace(bag, topics=motion), namespace)
+    odom = _columns(bag, found[topics.ODOM], topics.ODOM)
+    water_t, water = _water(bag, found[topics.WATER_VELOCITY])
+    rudder, thrust, sternplanes = (_commands(bag, found[topic], odom) for topic in _COMMANDS)
+    if rudder is None or thrust is None:
+        raise _missing(path, topics.RUDDER_CMD if rudder is None else topics.THRUST_CMD)
+    spatial = sternplanes if isinstance(run, SpatialRun) else None
+    return Manoeuvring(run, _over(run, odom), water_t, water, rudder, thrust, spatial)
+
+
+def _missing(path: Path, topic: Topic) -> ConfigurationError:
+    expected = f"messages on {topic.name} ({topic.type}), or --topic {topic.name}=NAME with another topic"
+    return ConfigurationError(str(path), f"no {topic.name}", expected)
+
+
+def _renamed(bag: Bag, names: Mapping[str, str]) -> Bag:
+    """Return the bag with topics under their names of the wire contract.
+
+    Raises:
+        ConfigurationError: there is no such topic.
+    """
+    renamed = dict(bag.topics)
+    odometry = bag.odometry
+    for name, other in names.items():
+        full = "/" + other.strip("/")
+        if full not in bag.topics:
+            listed = ", ".join(sorted(bag.topics)) or "none"
+            raise ConfigurationError(f"--topic {name}", full, f"a topic of {bag.path}: {listed}")
+        if name == topics.ODOM.name:
+            odometry = full
+            continue
+        for key in [key for key in renamed if key.rsplit("/", 1)[-1] == name and key != full]:
+            del renamed[key]
+        topic = renamed.pop(full)
+        own = full.rsplit("/", 1)[0] + "/" + name
+        renamed[own] = dataclasses.replace(topic, name=own)
+    return dataclasses.replace(bag, topics=renamed, odometry=odometry)
+
+
+class _Decoded(NamedTuple):
+    """Messages of one topic by log time: log times, ns, and columns."""
+
+    log_ns: NDArray[np.int64]
+    columns: Columns
+
+
+def _columns(bag: Bag, topic: RecordedTopic | None, row: Topic) -> _Decoded:
+    assert topic is not None
+    if topic.type != row.type:
+        raise ConfigurationError(f"{bag.path}: {topic.name}", topic.type, row.type)
+    order = np.argsort(np.array(topic.log_ns, np.int64), kind="stable")
+    kept = [k for k in order if topic.messages[k] is not None]
+    try:
+        columns = decode(topic.type, [m for k in kept if (m := topic.messages[k]) is not None])
+    except Exception as error:  # damaged bytes raise any exception
+        reason = " ".join(str(error).split())
+        raise ConfigurationError(f"{bag.path}: {topic.name}", f"a damaged message ({reason})", row.type) from None
+    return _Decoded(np.array(topic.log_ns, np.int64)[kept], columns)
+
+
+def _convention(bag: Bag, topic: Topic, frames: tuple[tuple[str, ...], ...]) -> Convention:
+    table = FrameTable(FrameIds())
+    try:
+        (names,) = frames
+        return table.of_pose(topic.name, *names) if len(names) == 2 else table.of_body(topic.name, *names)
+    except MessageRefused as refused:
+        raise ConfigurationError(f"{bag.path}: {refused.topic}", refused.found, refused.expected) from None
+    except ValueError:
+        listed = " and ".join(map(repr, frames)) or "no frame id"
+        raise ConfigurationError(
+            f"{bag.path}: {topic.name}", f"frame ids {listed}", "the same in every message"
+        ) from None
+
+
+def _water(bag: Bag, topic: RecordedTopic | None) -> tuple[Column, Column]:
+    """Return stamps and values of new samples: a repeated one is no sample."""
+    _, columns = _columns(bag, topic, topics.WATER_VELOCITY)
+    down = _convention(bag, topics.WATER_VELOCITY, columns.frames) is Convention.NED_FRD
+    values = np.array([columns.column(f"twist.twist.linear.{axis}") for axis in "xyz"]).T
+    values[:, 1:] *= 1.0 if down else -1.0
+    t = columns.stamp_ns * 1e-9
+    order = np.argsort(t, kind="stable")
+    t, values = t[order], values[order]
+    with_numbers = np.isfinite(values[:, :2]).all(axis=1)
+    t, values = t[with_numbers], values[with_numbers]
+    if t.size == 0:
+        raise ConfigurationError(
+            f"{bag.path}: {topics.WATER_VELOCITY.name}", "no finite velocity", "a log that measures the water"
+        )
+    new = np.append(True, (np.diff(values[:, :2], axis=0) != 0.0).any(axis=1) & (np.diff(t) > 0.0))
+    return t[new], values[new]
+
+
+def _over(run: Run, odom: _Decoded) -> Column:
+    """Return the velocity over ground at the run's stamps, FRD, (n, 3), m/s."""
+    over = np.array([odom.columns.column(f"twist.twist.linear.{axis}") for axis in "xyz"]).T
+    ned = _is_ned(odom.columns.frames)
+    over[:, 1:] *= 1.0 if ned else -1.0
+    stamps = odom.columns.stamp_ns * 1e-9
+    order = np.argsort(stamps, kind="stable")
+    rows = np.clip(np.searchsorted(stamps[order], run.t), 0, stamps.size - 1)
+    found: Column = over[order][rows]
+    return found
+
+
+def _is_ned(frames: tuple[tuple[str, ...], ...]) -> bool:
+    return FrameTable(FrameIds()).of_pose(topics.ODOM.name, *frames[0]) is Convention.NED_FRD
+
+
+def _commands(bag: Bag, topic: RecordedTopic | None, odom: _Decoded) -> Commands | None:
+    """Return commands on the odometry's clock.
+
+    A command without a stamp that answers each odometry belongs to its stamp (lockstep); others to the time
+    by the log's clock, between the odometries around it.
+    """
+    if topic is None or not topic.count:
+        return None
+    if topic.type not in _NUMBERS:
+        raise ConfigurationError(f"{bag.path}: {topic.name}", topic.type, " or ".join(_NUMBERS))
+    decoder = deserializer(topic)
+    log_ns, values = [], []
+    for at in np.argsort(np.array(topic.log_ns, np.int64), kind="stable"):
+        data: Any = topic.messages[at]
+        if data is not None:
+            log_ns.append(topic.log_ns[at])
+            values.append(float(decoder(data).data))
+    value, stamps = np.array(values), odom.columns.stamp_ns * 1e-9
+    if value.size == stamps.size:
+        t = stamps
+    else:
+        logged = (np.array(log_ns) - odom.log_ns[0]) * 1e-9
+        own = (odom.log_ns - odom.log_ns[0]) * 1e-9
+        growing = np.append(True, np.diff(np.maximum.accumulate(own)) > 0.0)
+        t = np.interp(logged, own[growing], stamps[growing], left=np.nan, right=np.nan)
+    kept = np.isfinite(t) & np.isfinite(value)
+    order = np.argsort(t[kept], kind="stable")
+    return Commands(t[kept][order], value[kept][order])
