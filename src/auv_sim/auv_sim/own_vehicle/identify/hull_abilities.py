@@ -59,7 +59,7 @@ def abilities_of(physical: Numbers, spread: Spread, vehicle: Vehicle) -> list[Ab
     Args:
         physical: the unknowns.
         spread: their uncertainty.
-        vehicle: limits of rudder and thrust, and masses.
+        vehicle: in the plane, by coefficients, thrust in N: limits and masses.
     """
     thrust = vehicle.thrust_max
 

@@ -13,7 +13,7 @@ from auv_sim.flight.batch.compiled import COMPILED, compiled, take_over_pure
 from auv_sim.own_vehicle.identify.combinations import COUNT, Numbers
 from auv_sim.own_vehicle.identify.exact_servo import fin_angles
 from auv_sim.own_vehicle.identify.planar_filter import planar_flight, planar_innovations
-from auv_sim.own_vehicle.identify.time_grid import Passage, PlanarData, passage_of
+from auv_sim.own_vehicle.identify.time_grid import SAME, Passage, PlanarData, passage_of
 from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, HALF_PLAY, LATENCY, RATE, Sheet
 
 take_over_pure()
@@ -125,13 +125,15 @@ def _of_passage(passage: Passage, channels: Channels, physical: Numbers) -> Numb
 
 def rudder_of(passage: Passage, dead_band: float, physical: Numbers) -> tuple[Numbers, Numbers]:
     """Return the mean angle of the fin in each step of a passage, and its change in it, rad."""
-    means, changes = np.zeros(passage.times.size - 1), np.zeros(passage.times.size - 1)
+    # The servo's way before the first node is a step of its own.
+    begin = min(passage.times[0], passage.issued[0]) - SAME
+    times = np.append(begin, passage.times)
+    means, changes = np.zeros(times.size - 1), np.zeros(times.size - 1)
     rate, dead_time, half_play = (float(physical[k]) for k in (RATE, DEAD_TIME, HALF_PLAY))
     _fin_angles(
-        passage.times, passage.issued, passage.commands, rate, dead_time, dead_band, max(half_play, 0.0),
-        means, changes,
-    )  # fmt: skip
-    return means, changes
+        times, passage.issued, passage.commands, rate, dead_time, dead_band, max(half_play, 0.0), means, changes
+    )
+    return means[1:], changes[1:]
 
 
 def arguments_of(channels: Channels, physical: Numbers) -> Numbers:

@@ -163,7 +163,7 @@ def planar_innovations(
             p, q, w, x = corrected(p, q, w, x, (p[2], p[4], p[5], q[2]), p[5] + noise_r, innovation)
         if u_row[k] >= 0:
             du, dv, _ = planar_accelerations(c, x[0], x[1], x[2], push, delta)
-            at_u, at_v = u_log[k] - u_bias + lead * du, v_log[k] - v_bias + lead * dv
+            at_u, at_v = u_log[k] - u_bias - lead * du, v_log[k] - v_bias - lead * dv
             out[u_row[k]] = at_u - x[0]
             out[v_row[k]] = at_v - x[1]
             p, q, w, x = corrected(p, q, w, x, (p[0], p[1], p[2], q[0]), p[0] + noise_u, at_u - x[0])

@@ -13,6 +13,8 @@ from auv_sim.own_vehicle.identify.combinations import Numbers
 LONGEST_STEP = 0.06
 #: A longer gap between measurements of the yaw rate begins a new passage, s.
 LONGEST_GAP = 1.0
+#: Commands are kept from this time before an interval on, s.
+_BEFORE = 5.0
 #: Times nearer than this are one node, s.
 SAME = 1e-3
 
@@ -47,14 +49,21 @@ class PlanarData(NamedTuple):
     leg: Numbers
 
     def between(self, begin: float, end: float) -> PlanarData:
-        """Return the measurements of an interval (s), with all commands before its end."""
+        """Return the measurements of an interval (s), with the commands since shortly before it."""
         rows, water = (self.t >= begin) & (self.t < end), (self.water_t >= begin) & (self.water_t < end)
-        rudder, thrust = self.rudder_t < end, self.thrust_t < end
+        rudder = _since(self.rudder_t, begin - _BEFORE) & (self.rudder_t < end)
+        thrust = _since(self.thrust_t, begin - _BEFORE) & (self.thrust_t < end)
         return PlanarData(
             self.name, self.t[rows], self.r[rows], self.water_t[water], self.u[water], self.v[water],
             self.rudder_t[rudder], self.rudder[rudder], self.thrust_t[thrust], self.thrust[thrust],
             self.psi[rows], self.over_u[rows], self.over_v[rows], self.leg[rows],
         )  # fmt: skip
+
+
+def _since(t: Numbers, begin: float) -> NDArray[np.bool_]:
+    """Return the times from `begin` on, and the last one before it."""
+    rows: NDArray[np.bool_] = np.append(t[1:] > begin, True)
+    return rows
 
 
 class Grid(NamedTuple):

@@ -1,0 +1,66 @@
+"""What recordings lack: refusals where nothing can be identified, remarks where something cannot."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following.vehicle import Vehicle
+from auv_sim.own_vehicle.identify.combinations import Numbers
+from auv_sim.own_vehicle.identify.time_grid import PlanarData
+
+#: Least duration (s), new samples of the log, deviation of the rudder (deg) and rms yaw rate (deg/s).
+_LEAST_TIME, _LEAST_SAMPLES, _LEAST_RUDDER, _LEAST_RATE = 40.0, 50, 1.0, 1.0
+_EXPECTED = "zig-zags and circles: `vehicle.py manoeuvres` flies them"
+
+
+def check_excitation(recordings: Sequence[PlanarData], where: str) -> None:
+    """Check that a hull can be identified at all.
+
+    Raises:
+        ConfigurationError: too short, too few samples, or hardly any motion; names the missing manoeuvre.
+    """
+    time = sum(_duration(data) for data in recordings)
+    if time < _LEAST_TIME:
+        raise ConfigurationError(where, f"{time:.0f} s of manoeuvres", f"at least {_LEAST_TIME:.0f} s")
+    samples = sum(data.u.size for data in recordings)
+    if samples < _LEAST_SAMPLES:
+        raise ConfigurationError(
+            where, f"{samples} samples of velocity_through_water", f"at least {_LEAST_SAMPLES}"
+        )
+    rudder = math.degrees(float(np.std(_all(recordings, "rudder"))))
+    rate = math.degrees(float(np.sqrt(np.mean(_all(recordings, "r") ** 2))))
+    if rudder < _LEAST_RUDDER or rate < _LEAST_RATE:
+        found = f"a rudder that moves by {rudder:.1f} deg and turns by {rate:.1f} deg/s (rms)"
+        raise ConfigurationError(where, found, _EXPECTED)
+    forward = float(np.median(_all(recordings, "u")))
+    if not forward > 0.1:
+        raise ConfigurationError(where, f"a median speed ahead of {forward:.2f} m/s", "a vehicle under way")
+
+
+def remarks(recordings: Sequence[PlanarData], vehicle: Vehicle) -> list[str]:
+    """Return which manoeuvres would show more, one line each."""
+    found = []
+    thrust, speeds = _all(recordings, "thrust"), _all(recordings, "u")
+    if np.std(thrust) < 0.05 * max(float(np.mean(thrust)), 1e-9) and np.std(speeds) < 0.05 * np.mean(speeds):
+        found.append("no thrust steps: mass and drag ahead stay nearly as assumed; fly straights at 0.5 and 1")
+    rate = _all(recordings, "r")
+    right = float(np.mean(rate[np.abs(rate) > 0.02] > 0.0)) if np.any(np.abs(rate) > 0.02) else 0.5
+    if not 0.15 < right < 0.85:
+        side = "port" if right > 0.5 else "starboard"
+        found.append(f"nearly all turns to one side: fly circles to {side} too")
+    largest = float(np.max(np.abs(_all(recordings, "rudder")))) / vehicle.rudder.max_angle
+    if largest < 0.3:
+        found.append(f"only {largest:.0%} of the rudder used: the tightest turn is an extrapolation")
+    return found
+
+
+def _all(recordings: Sequence[PlanarData], name: str) -> Numbers:
+    return np.concatenate([getattr(data, name) for data in recordings])
+
+
+def _duration(data: PlanarData) -> float:
+    return float(data.t[-1] - data.t[0]) if data.t.size else 0.0

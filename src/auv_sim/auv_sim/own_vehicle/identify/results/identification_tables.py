@@ -1,0 +1,130 @@
+"""The identification on the terminal: coefficients, rudder and biases, abilities, whiteness, predictions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from rich.table import Table
+
+from auv_sim.own_vehicle.identify.combinations import COUNT, SYMBOLS, UNITS
+from auv_sim.own_vehicle.identify.hull_abilities import Ability
+from auv_sim.own_vehicle.identify.identification import Identified
+from auv_sim.own_vehicle.identify.intervals import REACH
+from auv_sim.own_vehicle.identify.predictions import Prediction
+from auv_sim.own_vehicle.identify.unknowns import (
+    ALL,
+    DEAD_TIME,
+    GYRO,
+    HALF_PLAY,
+    LATENCY,
+    RATE,
+    U_BIAS,
+    V_BIAS,
+)
+from auv_sim.own_vehicle.identify.water_current import MeanCurrent
+from auv_sim.terminal import headed_table
+
+#: A coefficient with a smaller standard deviation counts as identified, a share.
+IDENTIFIED = 0.10
+_CHANNELS = ("yaw rate", "u through the water", "v through the water")
+
+
+class Figure(NamedTuple):
+    """One row of the servo's table: name, value, half of the 95 % interval, unit."""
+
+    name: str
+    value: float
+    off: float
+    unit: str
+
+
+def coefficients_table(found: Identified) -> Table:
+    """Return the combinations with both parts of their intervals."""
+    table = headed_table(
+        "accelerations by the water, rudder and thrust", ("",),
+        ("value", "unit", "95 %: data +- %", "systematic +- %", ""),
+    )  # fmt: skip
+    for k in range(COUNT):
+        row, value = np.eye(ALL)[k], found.physical[k]
+        data, unseen = found.spread.statistical(row), found.spread.unseen(row)
+        share = math.hypot(data, unseen) / abs(value)
+        verdict = "" if share < IDENTIFIED else "weak" if share < 0.5 else "as assumed"
+        cells = (REACH * data, REACH * unseen)
+        table.add_row(
+            SYMBOLS[k], f"{value:.4g}", UNITS[k], *(f"{100.0 * cell / abs(value):.1f}" for cell in cells), verdict
+        )
+    return table
+
+
+def identified_count(found: Identified) -> int:
+    """Return how many combinations have a standard deviation below `IDENTIFIED`."""
+    shares = found.spread.deviations[:COUNT] / np.abs(found.physical[:COUNT])
+    return int((shares < IDENTIFIED).sum())
+
+
+def servo_figures(found: Identified) -> list[Figure]:
+    """Return rudder, biases and latency."""
+    p, off = found.physical, REACH * found.spread.deviations
+    return [
+        Figure("rudder rate", math.degrees(p[RATE]), math.degrees(off[RATE]), "deg/s"),
+        Figure("dead time of the rudder", p[DEAD_TIME], off[DEAD_TIME], "s"),
+        Figure("play of the rudder", 2.0 * math.degrees(p[HALF_PLAY]), 2.0 * math.degrees(off[HALF_PLAY]), "deg"),
+        Figure("dead band of the rudder", math.degrees(found.dead_band), math.nan, "deg"),
+        Figure("bias of the gyro", math.degrees(p[GYRO]), math.degrees(off[GYRO]), "deg/s"),
+        Figure("bias of u", p[U_BIAS], off[U_BIAS], "m/s"),
+        Figure("bias of v", p[V_BIAS], off[V_BIAS], "m/s"),
+        Figure("latency of the log", p[LATENCY], off[LATENCY] or math.nan, "s"),
+    ]
+
+
+def figures_table(
+    found: Identified, abilities: Sequence[Ability], currents: Sequence[MeanCurrent | None]
+) -> Table:
+    """Return abilities, rudder, biases, latency and current."""
+    table = headed_table("vehicle", ("",), ("value", "95 % +-", "unit"))
+    for ability in abilities:
+        table.add_row(ability.name, f"{ability.value:.4g}", f"{REACH * ability.deviation:.2g}", ability.unit)
+    for figure in servo_figures(found):
+        off = "given" if math.isnan(figure.off) and figure.name.startswith("lat") else f"{figure.off:.2g}"
+        table.add_row(
+            figure.name, f"{figure.value:.4g}", "tried" if figure.name.startswith("dead band") else off, figure.unit
+        )
+    for number, current in enumerate(currents, 1):
+        if current is not None:
+            which = f" of recording {number}" if len(currents) > 1 else ""
+            off = f"{REACH * current.deviation:.2g}"
+            table.add_row(f"current north{which}", f"{current.north:.3f}", off, "m/s")
+            table.add_row(f"current east{which}", f"{current.east:.3f}", off, "m/s")
+    return table
+
+
+def whiteness(found: Identified) -> Iterator[tuple[str, float, float, float]]:
+    """Yield name, deviation (SI), lag-1 correlation, and its bound for white noise, of each channel."""
+    for channel, name in enumerate(_CHANNELS):
+        own = found.estimate.residuals[found.channels.rows == channel]
+        lag = float(np.mean(own[1:] * own[:-1]) / max(np.mean(own * own), 1e-12))
+        yield name, float(found.estimate.deviations[channel]), lag, REACH / math.sqrt(max(own.size, 1))
+
+
+def whiteness_table(found: Identified) -> Table:
+    """Return deviation and lag-1 correlation of the innovations."""
+    table = headed_table("innovations", ("",), ("deviation", "unit", "lag-1 correlation", "white below"))
+    for number, (name, deviation, lag, bound) in enumerate(whiteness(found)):
+        shown, unit = (math.degrees(deviation), "deg/s") if number == 0 else (deviation, "m/s")
+        table.add_row(name, f"{shown:.3g}", unit, f"{lag:+.3f}", f"{bound:.3f}")
+    return table
+
+
+def predictions_table(predictions: Sequence[Prediction]) -> Table:
+    """Return the errors on left-out manoeuvres."""
+    table = headed_table(
+        "left-out manoeuvres, by the commands alone", ("over",), ("starts", "yaw rate off %", "speed off %")
+    )
+    for p in predictions:
+        table.add_row(
+            f"{p.horizon:g} s", str(p.starts), f"{100.0 * p.error:.1f}", f"{100.0 * p.speed:.1f}"
+        )
+    return table
