@@ -45,6 +45,7 @@ ROS_ROOMS = (
     "auv_sim.cli",
     "auv_sim.launch",
     "auv_sim.nodes",
+    "auv_sim.own_vehicle.verbs",
     "auv_sim.studies.campaign.campaign_replay",
     "auv_sim.studies.campaign.campaign_session",
     "auv_sim.studies.gallery_session",

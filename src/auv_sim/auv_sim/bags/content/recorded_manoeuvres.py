@@ -31,8 +31,8 @@ _COMMANDS = (topics.RUDDER_CMD, topics.THRUST_CMD, topics.STERNPLANE_CMD)
 _NUMBERS = ("std_msgs/msg/Float64", "std_msgs/msg/Float32")
 
 
-class Commands(NamedTuple):
-    """Commands of one kind: times of the odometry's clock (s), and values (rad, N or per cent)."""
+class TimedCommands(NamedTuple):
+    """TimedCommands of one kind: times of the odometry's clock (s), and values (rad, N or per cent)."""
 
     t: Column
     value: Column
@@ -44,7 +44,7 @@ class Manoeuvring(NamedTuple):
     Attributes:
         run: poses and rates at the odometries.
         over: velocity over ground at the odometries, (n, 3), m/s; NaN where there is none.
-        water_t, water: stamps of the new samples of the velocity through the water, s, and the samples, (m, 3).
+        water_t, water: stamps (s) of the new samples of the velocity through the water, and these, (m, 3).
         rudder, thrust: commands.
         sternplanes: commands; None where there are none.
     """
@@ -53,9 +53,9 @@ class Manoeuvring(NamedTuple):
     over: Column
     water_t: Column
     water: Column
-    rudder: Commands
-    thrust: Commands
-    sternplanes: Commands | None
+    rudder: TimedCommands
+    thrust: TimedCommands
+    sternplanes: TimedCommands | None
 
 
 def manoeuvres_in(
@@ -138,7 +138,9 @@ def _columns(bag: Bag, topic: RecordedTopic | None, row: Topic) -> _Decoded:
         columns = decode(topic.type, [m for k in kept if (m := topic.messages[k]) is not None])
     except Exception as error:  # damaged bytes raise any exception
         reason = " ".join(str(error).split())
-        raise ConfigurationError(f"{bag.path}: {topic.name}", f"a damaged message ({reason})", row.type) from None
+        raise ConfigurationError(
+            f"{bag.path}: {topic.name}", f"a damaged message ({reason})", row.type
+        ) from None
     return _Decoded(np.array(topic.log_ns, np.int64)[kept], columns)
 
 
@@ -191,7 +193,7 @@ def _is_ned(frames: tuple[tuple[str, ...], ...]) -> bool:
     return FrameTable(FrameIds()).of_pose(topics.ODOM.name, *frames[0]) is Convention.NED_FRD
 
 
-def _commands(bag: Bag, topic: RecordedTopic | None, odom: _Decoded) -> Commands | None:
+def _commands(bag: Bag, topic: RecordedTopic | None, odom: _Decoded) -> TimedCommands | None:
     """Return commands on the odometry's clock.
 
     A command without a stamp that answers each odometry belongs to its stamp (lockstep); others to the time
@@ -218,4 +220,4 @@ def _commands(bag: Bag, topic: RecordedTopic | None, odom: _Decoded) -> Commands
         t = np.interp(logged, own[growing], stamps[growing], left=np.nan, right=np.nan)
     kept = np.isfinite(t) & np.isfinite(value)
     order = np.argsort(t[kept], kind="stable")
-    return Commands(t[kept][order], value[kept][order])
+    return TimedCommands(t[kept][order], value[kept][order])

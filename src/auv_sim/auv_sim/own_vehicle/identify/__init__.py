@@ -1,1 +1,1 @@
-"""Identify a hull from recordings of its manoeuvres: coefficients, rudder, delays, current, with intervals."""
+"""Identify a hull from its manoeuvres: coefficients, rudder, delays and current, with intervals."""

@@ -105,13 +105,14 @@ def hull_with(combinations: Combinations, assumed: Hull) -> Hull:
     }  # fmt: skip
     for name in ("Xuu", "Yvv", "Nrr", "Nuud"):
         found[name] = min(found[name], 1e-3 * getattr(h, name))
-    return dataclasses.replace(h, surge_coupling=True, **{name: float(v) for name, v in found.items()})
+    values: dict[str, Any] = {name: float(value) for name, value in found.items()}
+    return dataclasses.replace(h, surge_coupling=True, **values)
 
 
 #: Powers of length with which the coefficients of similar hulls grow.
 _POWERS = {
-    "m": 3, "Izz": 5, "Xuu": 2, "Xud": 3, "Xvr": 3, "Xrr": 4, "Yvv": 2, "Yvd": 3, "Yrr": 4, "Yrd": 4, "Yur": 3,
-    "Yuv": 2, "Yuud": 2, "Nvv": 3, "Nvd": 4, "Nrr": 5, "Nrd": 5, "Nur": 4, "Nuv": 3, "Nuud": 3,
+    "m": 3, "Izz": 5, "Xuu": 2, "Xud": 3, "Xvr": 3, "Xrr": 4, "Yvv": 2, "Yvd": 3, "Yrr": 4, "Yrd": 4,
+    "Yur": 3, "Yuv": 2, "Yuud": 2, "Nvv": 3, "Nvd": 4, "Nrr": 5, "Nrd": 5, "Nur": 4, "Nuv": 3, "Nuud": 3,
 }  # fmt: skip
 
 
@@ -122,7 +123,7 @@ def scaled_hull(hull: Hull, ratio: float) -> Hull:
         hull: a known one.
         ratio: of the lengths, the new one over the known one.
     """
-    values = {name: getattr(hull, name) * ratio**power for name, power in _POWERS.items()}
+    values: dict[str, Any] = {name: getattr(hull, name) * ratio**power for name, power in _POWERS.items()}
     return dataclasses.replace(hull, vertical=None, **values)
 
 
@@ -155,4 +156,4 @@ def prior_of(hull: Hull, seed: int = 0) -> Prior:
             values[field.name] = value * 2.0 ** generator.uniform(-largest, largest, _DRAWS)
     drawn = np.array(_combined(values, hull.surge_coupling))
     root = np.linalg.cholesky(np.cov(drawn) * _WIDENED**2)
-    return Prior(drawn.mean(axis=1), root)
+    return Prior(drawn.mean(axis=1), np.asarray(root, float))

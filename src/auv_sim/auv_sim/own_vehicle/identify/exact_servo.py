@@ -33,22 +33,18 @@ def fin_angles(
         means, changes: written, shape (n - 1,), rad.
     """
     angle = target = fin = commands[0]
-    next_command, count = 0, len(issued)
+    following = 0
     for k in range(len(times) - 1):
         t, end = times[k], times[k + 1]
         length, middle = end - t, 0.5 * (t + end)
         area = moment = 0.0
         while True:
-            while next_command < count and issued[next_command] + dead_time <= t:
-                command = commands[next_command]
-                if target != angle or abs(command - angle) > dead_band:
-                    target = command
-                next_command += 1
+            target, following = due(issued, commands, following, t, dead_time, angle, target, dead_band)
             if t >= end:
                 break
             stop = end
-            if next_command < count and issued[next_command] + dead_time < stop:
-                stop = issued[next_command] + dead_time
+            if following < len(issued) and issued[following] + dead_time < stop:
+                stop = issued[following] + dead_time
             after, last, contact = angle, fin, stop
             if target != angle:
                 after, stop = moved(angle, target, rate, t, stop)
@@ -60,6 +56,26 @@ def fin_angles(
             angle, fin, t = after, last, stop
         means[k] = area / length
         changes[k] = 12.0 * moment / (length * length)
+
+
+@pure
+def due(
+    issued: Any,
+    commands: Any,
+    following: int,
+    t: float,
+    dead_time: float,
+    angle: float,
+    target: float,
+    dead_band: float,
+) -> tuple[float, int]:
+    """Return the servo's target (rad) by the commands whose dead time is over, and the next command."""
+    while following < len(issued) and issued[following] + dead_time <= t:
+        command = commands[following]
+        if target != angle or abs(command - angle) > dead_band:
+            target = command
+        following += 1
+    return target, following
 
 
 @pure

@@ -13,7 +13,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.control.hull_model import HullModel
 from auv_path_following.vehicle import Vehicle
 from auv_sim.own_vehicle.identify.combinations import Combinations, Numbers, hull_with
-from auv_sim.own_vehicle.identify.intervals import Spread, gradient_of
+from auv_sim.own_vehicle.identify.intervals import Covariances, gradient_of
 from auv_sim.own_vehicle.identify.unknowns import typed
 
 
@@ -53,7 +53,7 @@ def radius_of(c: Combinations, vehicle: Vehicle, share: float) -> float:
     return math.hypot(ur, vr) / r
 
 
-def abilities_of(physical: Numbers, spread: Spread, vehicle: Vehicle) -> list[Ability]:
+def abilities_of(physical: Numbers, spread: Covariances, vehicle: Vehicle) -> list[Ability]:
     """Return what matters to guidance and control, at full thrust.
 
     Args:

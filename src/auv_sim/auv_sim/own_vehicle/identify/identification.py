@@ -12,15 +12,16 @@ import numpy as np
 from auv_path_following.vehicle import Hull
 from auv_sim.own_vehicle.identify.combinations import COUNT, Numbers, prior_of
 from auv_sim.own_vehicle.identify.innovations import Channels, channels_of
-from auv_sim.own_vehicle.identify.intervals import Spread, spread_of
-from auv_sim.own_vehicle.identify.minimise import Estimate, minimise
+from auv_sim.own_vehicle.identify.intervals import Covariances, spread_of
+from auv_sim.own_vehicle.identify.minimise import Minimised, minimise
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
-from auv_sim.own_vehicle.identify.unknowns import ALL, LATENCY, Scaling, Sheet
+from auv_sim.own_vehicle.identify.unknowns import ALL, LATENCY, Scaling, DataSheet
 
 #: Factors on the yaw coefficients for a hull that is damped in yaw, as another start.
 _DAMPED = {"Nuv": 0.125, "Nur": 2.0, "Nrr": 0.2}
 #: Dead times of the starts, s.
 _DEAD_TIMES = (0.05, 0.2)
+_STARTS = 3
 #: Dead bands that are tried where none is given, deg.
 DEAD_BANDS = (0.0, 0.1, 0.2, 0.3, 0.5)
 #: Each start is minimised first over this time (s), by a filter with this growth of the variances of u, v, r
@@ -42,11 +43,11 @@ class Identified(NamedTuple):
     """
 
     physical: Numbers
-    spread: Spread
+    spread: Covariances
     dead_band: float
     channels: Channels
     scaling: Scaling
-    estimate: Estimate
+    estimate: Minimised
     misfits: tuple[float, ...]
 
 
@@ -57,7 +58,7 @@ def _quiet(done: int, total: int, what: str) -> None:
 def identify(
     recordings: Sequence[PlanarData],
     hull: Hull,
-    sheet: Sheet | None = None,
+    sheet: DataSheet | None = None,
     dead_band: float | None = None,
     progress: Callable[[int, int, str], None] = _quiet,
 ) -> Identified:
@@ -70,26 +71,15 @@ def identify(
         dead_band: of the rudder, rad; None: the one of `DEAD_BANDS` that fits best.
         progress: called with minimisations done, their number, and what the next one is.
     """
-    sheet = Sheet() if sheet is None else sheet
-    damped = dataclasses.replace(hull, **{name: f * getattr(hull, name) for name, f in _DAMPED.items()})
-    starts = [(hull, _DEAD_TIMES[0]), (hull, _DEAD_TIMES[1]), (damped, _DEAD_TIMES[0])]
+    sheet = DataSheet() if sheet is None else sheet
     bands = [math.radians(band) for band in DEAD_BANDS] if dead_band is None else [dead_band]
-    total = len(starts) + len(bands) + 1
-    first_band = math.radians(0.1) if dead_band is None else dead_band
-    channels = channels_of(recordings, sheet, first_band)
-    begin = channels_of([_beginning(recordings[0])], sheet, first_band)
-    begin = begin._replace(noise=(*begin.noise[:3], *_GROWTH, *begin.noise[6:]))
-    found: list[tuple[Scaling, Estimate]] = []
-    for k, (known, dead_time) in enumerate(starts):
-        progress(k, total, f"start {k + 1} of {len(starts)}")
-        scaling = Scaling(prior_of(known), sheet._replace(dead_time=dead_time))
-        z = minimise(begin, scaling, np.zeros(ALL), rounds=2, steps=10).z
-        found.append((scaling, minimise(channels, scaling, z)))
+    total = _STARTS + len(bands) + 1
+    found = _from_starts(recordings, hull, sheet, bands[min(1, len(bands) - 1)], progress, total)
     misfits = [estimate.misfit for _, estimate in found]
     scaling, estimate = found[int(np.argmin(misfits))]
     tried = []
     for k, band in enumerate(bands):
-        progress(len(starts) + k, total, "dead band of the rudder")
+        progress(_STARTS + k, total, "dead band of the rudder")
         tried.append(_again(recordings, scaling, estimate, band))
     channels, estimate = min(tried, key=lambda one: one[1].cost)
     scaling, estimate = _widened(channels, scaling, estimate)
@@ -102,11 +92,34 @@ def identify(
     )  # fmt: skip
 
 
+def _from_starts(
+    recordings: Sequence[PlanarData],
+    hull: Hull,
+    sheet: DataSheet,
+    dead_band: float,
+    progress: Callable[[int, int, str], None],
+    total: int,
+) -> list[tuple[Scaling, Minimised]]:
+    """Return the estimate from each start."""
+    damped = dataclasses.replace(hull, **{name: f * getattr(hull, name) for name, f in _DAMPED.items()})
+    starts = [(hull, _DEAD_TIMES[0]), (hull, _DEAD_TIMES[1]), (damped, _DEAD_TIMES[0])]
+    channels = channels_of(recordings, sheet, dead_band)
+    begin = channels_of([_beginning(recordings[0])], sheet, dead_band)
+    begin = begin._replace(noise=(*begin.noise[:3], *_GROWTH, *begin.noise[6:]))
+    found = []
+    for k, (known, dead_time) in enumerate(starts):
+        progress(k, total, f"start {k + 1} of {len(starts)}")
+        scaling = Scaling(prior_of(known), sheet._replace(dead_time=dead_time))
+        z = minimise(begin, scaling, np.zeros(ALL), rounds=2, steps=10).z
+        found.append((scaling, minimise(channels, scaling, z)))
+    return found
+
+
 def _beginning(data: PlanarData) -> PlanarData:
     return data.between(data.t[0] - 1.0, data.t[0] + _BEGIN)
 
 
-def _widened(channels: Channels, scaling: Scaling, estimate: Estimate) -> tuple[Scaling, Estimate]:
+def _widened(channels: Channels, scaling: Scaling, estimate: Minimised) -> tuple[Scaling, Minimised]:
     """Return an estimate whose prior is as wide as the hull differs from the known one, if it does."""
     for _ in range(2):
         factor = math.sqrt(float(np.mean(estimate.z[:COUNT] ** 2)))
@@ -119,8 +132,8 @@ def _widened(channels: Channels, scaling: Scaling, estimate: Estimate) -> tuple[
 
 
 def _again(
-    recordings: Sequence[PlanarData], scaling: Scaling, estimate: Estimate, band: float
-) -> tuple[Channels, Estimate]:
+    recordings: Sequence[PlanarData], scaling: Scaling, estimate: Minimised, band: float
+) -> tuple[Channels, Minimised]:
     """Minimise from an estimate with another dead band, on the grid of the latency found."""
     latency = float(scaling.physical(estimate.z)[LATENCY])
     latency = latency if abs(latency - scaling.sheet.latency) > _NEAR else scaling.sheet.latency

@@ -14,7 +14,7 @@ from auv_sim.own_vehicle.identify.combinations import COUNT, Numbers
 from auv_sim.own_vehicle.identify.exact_servo import fin_angles
 from auv_sim.own_vehicle.identify.planar_filter import planar_flight, planar_innovations
 from auv_sim.own_vehicle.identify.time_grid import SAME, Passage, PlanarData, passage_of
-from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, HALF_PLAY, LATENCY, RATE, Sheet
+from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, HALF_PLAY, LATENCY, RATE, DataSheet
 
 take_over_pure()
 _fin_angles = compiled(fin_angles)
@@ -53,7 +53,7 @@ _BLOCK = 10.0
 
 
 def channels_of(
-    recordings: Sequence[PlanarData], sheet: Sheet, dead_band: float, latency: float | None = None
+    recordings: Sequence[PlanarData], sheet: DataSheet, dead_band: float, latency: float | None = None
 ) -> Channels:
     """Return recordings ready for the filter.
 
@@ -131,7 +131,15 @@ def rudder_of(passage: Passage, dead_band: float, physical: Numbers) -> tuple[Nu
     means, changes = np.zeros(times.size - 1), np.zeros(times.size - 1)
     rate, dead_time, half_play = (float(physical[k]) for k in (RATE, DEAD_TIME, HALF_PLAY))
     _fin_angles(
-        times, passage.issued, passage.commands, rate, dead_time, dead_band, max(half_play, 0.0), means, changes
+        times,
+        passage.issued,
+        passage.commands,
+        rate,
+        dead_time,
+        dead_band,
+        max(half_play, 0.0),
+        means,
+        changes,
     )
     return means[1:], changes[1:]
 

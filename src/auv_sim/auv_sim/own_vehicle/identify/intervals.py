@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -9,14 +10,14 @@ import numpy as np
 
 from auv_sim.own_vehicle.identify.combinations import COUNT, SCALE_POWERS, Numbers
 from auv_sim.own_vehicle.identify.innovations import Channels
-from auv_sim.own_vehicle.identify.minimise import Estimate, free_unknowns, jacobian, weights_of
-from auv_sim.own_vehicle.identify.unknowns import ALL, Scaling, Sheet
+from auv_sim.own_vehicle.identify.minimise import Minimised, free_unknowns, jacobian, weights_of
+from auv_sim.own_vehicle.identify.unknowns import ALL, Scaling, DataSheet
 
 #: Of a 95 % interval, in standard deviations.
 REACH = 1.96
 
 
-class Spread(NamedTuple):
+class Covariances(NamedTuple):
     """Uncertainty of the physical unknowns.
 
     Attributes:
@@ -32,8 +33,8 @@ class Spread(NamedTuple):
 
     def statistical(self, gradient: Numbers) -> float:
         """Return the statistical standard deviation of a function with this gradient."""
-        variances = (gradient @ self.classic @ gradient, gradient @ self.sandwich @ gradient)
-        return float(np.sqrt(max(*variances, 0.0)))
+        variances = [float(gradient @ part @ gradient) for part in (self.classic, self.sandwich)]
+        return math.sqrt(max(*variances, 0.0))
 
     def unseen(self, gradient: Numbers) -> float:
         """Return the systematic standard deviation of a function with this gradient."""
@@ -49,7 +50,7 @@ class Spread(NamedTuple):
         return np.array([self.total(row) for row in np.eye(ALL)])
 
 
-def spread_of(channels: Channels, scaling: Scaling, estimate: Estimate) -> Spread:
+def spread_of(channels: Channels, scaling: Scaling, estimate: Minimised) -> Covariances:
     """Return the uncertainty of an estimate."""
     free = free_unknowns(scaling)
     weights = weights_of(channels, scaling, estimate)
@@ -60,14 +61,14 @@ def spread_of(channels: Channels, scaling: Scaling, estimate: Estimate) -> Sprea
     meat = scores.T @ scores + np.eye(free.size)
     slopes = scaling.slopes(estimate.z)[:, free]
     physical = scaling.physical(estimate.z)
-    return Spread(
+    return Covariances(
         slopes @ bread @ slopes.T,
         slopes @ bread @ meat @ bread @ slopes.T,
         systematic_of(physical, scaling.sheet),
     )
 
 
-def systematic_of(physical: Numbers, sheet: Sheet) -> Numbers:
+def systematic_of(physical: Numbers, sheet: DataSheet) -> Numbers:
     """Return one standard deviation of each error that no data show, by the unknowns, shape (2, 21)."""
     found = np.zeros((2, ALL))
     found[0, :COUNT] = physical[:COUNT] * SCALE_POWERS * sheet.log_scale
@@ -75,7 +76,7 @@ def systematic_of(physical: Numbers, sheet: Sheet) -> Numbers:
     return found
 
 
-def gradient_of(function: Callable[[Numbers], float], physical: Numbers, spread: Spread) -> Numbers:
+def gradient_of(function: Callable[[Numbers], float], physical: Numbers, spread: Covariances) -> Numbers:
     """Return the derivatives of a function of the physical unknowns, by central differences.
 
     The steps are a hundredth of the standard deviations.

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from auv_sim.own_vehicle.identify.combinations import Numbers
@@ -21,7 +22,7 @@ _OUTLIER = 4.0
 _FIRST = (math.radians(0.1), 0.03, 0.03)
 
 
-class Estimate(NamedTuple):
+class Minimised(NamedTuple):
     """Result of a minimisation.
 
     Attributes:
@@ -39,13 +40,13 @@ class Estimate(NamedTuple):
     residuals: Numbers
 
 
-def free_unknowns(scaling: Scaling) -> Numbers:
+def free_unknowns(scaling: Scaling) -> NDArray[np.int64]:
     """Return the indices of the unknowns that are not fixed."""
-    free = np.arange(ALL)
+    free = np.arange(ALL, dtype=np.int64)
     return free if scaling.sheet.latency_deviation > 0.0 else free[free != LATENCY]
 
 
-def deviations_of(errors: Numbers, rows: Numbers) -> Numbers:
+def deviations_of(errors: Numbers, rows: NDArray[np.int64]) -> Numbers:
     """Return the deviation of r, u and v, outliers weighed down, shape (3,)."""
     found = []
     for channel in range(3):
@@ -55,13 +56,14 @@ def deviations_of(errors: Numbers, rows: Numbers) -> Numbers:
     return np.array(found)
 
 
-def _weights(errors: Numbers, deviations: Numbers, rows: Numbers) -> Numbers:
+def _weights(errors: Numbers, deviations: Numbers, rows: NDArray[np.int64]) -> Numbers:
     """Return the factor on each innovation: 1 over its deviation, less for an outlier."""
     scaled = np.abs(errors) / deviations[rows]
-    return np.sqrt(np.minimum(1.0, _OUTLIER / np.maximum(scaled, 1e-12))) / deviations[rows]
+    weights: Numbers = np.sqrt(np.minimum(1.0, _OUTLIER / np.maximum(scaled, 1e-12))) / deviations[rows]
+    return weights
 
 
-def weights_of(channels: Channels, scaling: Scaling, estimate: Estimate) -> Numbers:
+def weights_of(channels: Channels, scaling: Scaling, estimate: Minimised) -> Numbers:
     """Return the factor on each innovation of an estimate."""
     return _weights(innovations(channels, scaling.physical(estimate.z)), estimate.deviations, channels.rows)
 
@@ -74,7 +76,7 @@ def minimise(
     steps: int = 12,
     first: Numbers | None = None,
     progress: Callable[[], None] = lambda: None,
-) -> Estimate:
+) -> Minimised:
     """Minimise from one start.
 
     Args:
@@ -100,16 +102,16 @@ def minimise(
         if abs(before - cost) < 0.05:
             break
     misfit = cost - 0.5 * float(z @ z)
-    return Estimate(z, deviations, cost, misfit, errors * _weights(errors, deviations, rows))
+    return Minimised(z, deviations, cost, misfit, errors * _weights(errors, deviations, rows))
 
 
-def _cost(deviations: Numbers, rows: Numbers, z: Numbers) -> float:
+def _cost(deviations: Numbers, rows: NDArray[np.int64], z: Numbers) -> float:
     counts = np.bincount(rows, minlength=3)
     return float(counts @ np.log(deviations) + 0.5 * z @ z)
 
 
 def _round(
-    channels: Channels, scaling: Scaling, z: Numbers, free: Numbers, weights: Numbers, steps: int
+    channels: Channels, scaling: Scaling, z: Numbers, free: NDArray[np.int64], weights: Numbers, steps: int
 ) -> Numbers:
     """Minimise with fixed weights."""
 
@@ -130,7 +132,7 @@ def _round(
 
 
 def jacobian(
-    channels: Channels, scaling: Scaling, z: Numbers, free: Numbers, weights: Numbers
+    channels: Channels, scaling: Scaling, z: Numbers, free: NDArray[np.int64], weights: Numbers
 ) -> Numbers:
     """Return the derivatives of the weighed innovations by the free unknowns, (m, free)."""
     sets = [scaling.physical(z)]

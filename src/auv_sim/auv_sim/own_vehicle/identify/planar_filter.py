@@ -89,9 +89,21 @@ def spread(p: tuple[Any, ...], f: tuple[Any, ...]) -> tuple[Any, ...]:
     """Return F P F' of a covariance, given and returned as its upper triangle, row after row."""
     p00, p01, p02, p11, p12, p22 = p
     f0, f1, f2, f3, f4, f5, f6, f7, f8 = f
-    b0, b1, b2 = f0 * p00 + f1 * p01 + f2 * p02, f0 * p01 + f1 * p11 + f2 * p12, f0 * p02 + f1 * p12 + f2 * p22
-    b3, b4, b5 = f3 * p00 + f4 * p01 + f5 * p02, f3 * p01 + f4 * p11 + f5 * p12, f3 * p02 + f4 * p12 + f5 * p22
-    b6, b7, b8 = f6 * p00 + f7 * p01 + f8 * p02, f6 * p01 + f7 * p11 + f8 * p12, f6 * p02 + f7 * p12 + f8 * p22
+    b0, b1, b2 = (
+        f0 * p00 + f1 * p01 + f2 * p02,
+        f0 * p01 + f1 * p11 + f2 * p12,
+        f0 * p02 + f1 * p12 + f2 * p22,
+    )
+    b3, b4, b5 = (
+        f3 * p00 + f4 * p01 + f5 * p02,
+        f3 * p01 + f4 * p11 + f5 * p12,
+        f3 * p02 + f4 * p12 + f5 * p22,
+    )
+    b6, b7, b8 = (
+        f6 * p00 + f7 * p01 + f8 * p02,
+        f6 * p01 + f7 * p11 + f8 * p12,
+        f6 * p02 + f7 * p12 + f8 * p22,
+    )
     return (
         b0 * f0 + b1 * f1 + b2 * f2,
         b0 * f3 + b1 * f4 + b2 * f5,
@@ -126,6 +138,42 @@ def corrected(p: Any, q: Any, w: Any, x: Any, row: Any, noise: Any, innovation: 
 
 
 @pure
+def carried(
+    c: Any, p: Any, q: Any, w: Any, x: Any, thrust: Any, delta: Any, change: Any, h: Any, noise: Any
+) -> Any:
+    """Return covariance and state `h` seconds later.
+
+    Args:
+        c: the numbers of a `Combinations`.
+        p, q, w, x: as for `corrected`.
+        thrust: of the step, N.
+        delta, change: mean angle of the rudder in the step, and its change, rad.
+        h: s.
+        noise: as for `planar_innovations`.
+    """
+    _, _, _, grow_u, grow_v, grow_r, drift, decay = noise
+    f = transition(planar_jacobian(c, x[0], x[1], x[2], delta), h)
+    shaken = h * c[0] * thrust
+    f0 = f[0] * q[0] + f[1] * q[1] + f[2] * q[2]
+    f1 = f[3] * q[0] + f[4] * q[1] + f[5] * q[2]
+    f2 = f[6] * q[0] + f[7] * q[1] + f[8] * q[2]
+    p00, p01, p02, p11, p12, p22 = spread(p, f)
+    p = (
+        p00 + shaken * (2.0 * f0 + shaken * w) + h * grow_u,
+        p01 + shaken * f1, p02 + shaken * f2, p11 + h * grow_v, p12, p22 + h * grow_r,
+    )  # fmt: skip
+    kept = 1.0 - decay * h
+    push = c[0] * thrust * (1.0 + x[3])
+    u, v, r = planar_advance(c, x[0], x[1], x[2], push, delta, change, h)
+    return (
+        p,
+        (kept * (f0 + shaken * w), kept * f1, kept * f2),
+        kept * kept * w + (1.0 - kept * kept) * drift,
+        (u, v, r, kept * x[3]),
+    )
+
+
+@pure
 def planar_innovations(
     c: Any, noise: Any, grid: Any, means: Any, changes: Any, out: Any, states: Any
 ) -> None:
@@ -145,7 +193,7 @@ def planar_innovations(
         states: written if it has rows: u, v, r and the thrust's error at each node, (n, 4).
     """
     step, begins, thrust, rate_row, rate, u_row, v_row, u_log, v_log = grid
-    noise_u, noise_v, noise_r, grow_u, grow_v, grow_r, drift, decay = noise
+    noise_u, noise_v, noise_r, _, _, _, drift, _ = noise
     gyro, u_bias, v_bias, lead = c[14], c[15], c[16], c[17]
     zero = 0.0 * c[0]
     x = (zero, zero, zero, zero)
@@ -170,23 +218,7 @@ def planar_innovations(
             p, q, w, x = corrected(p, q, w, x, (p[1], p[3], p[4], q[1]), p[3] + noise_v, at_v - x[1])
         if len(states) > 0:
             states[k, 0], states[k, 1], states[k, 2], states[k, 3] = x
-        h = step[k]
-        f = transition(planar_jacobian(c, x[0], x[1], x[2], delta), h)
-        shaken = h * c[0] * thrust[k]
-        f0 = f[0] * q[0] + f[1] * q[1] + f[2] * q[2]
-        f1 = f[3] * q[0] + f[4] * q[1] + f[5] * q[2]
-        f2 = f[6] * q[0] + f[7] * q[1] + f[8] * q[2]
-        p00, p01, p02, p11, p12, p22 = spread(p, f)
-        p = (
-            p00 + shaken * (2.0 * f0 + shaken * w) + h * grow_u,
-            p01 + shaken * f1, p02 + shaken * f2, p11 + h * grow_v, p12, p22 + h * grow_r,
-        )  # fmt: skip
-        kept = 1.0 - decay * h
-        q = (kept * (f0 + shaken * w), kept * f1, kept * f2)
-        w = kept * kept * w + (1.0 - kept * kept) * drift
-        push = c[0] * thrust[k] * (1.0 + x[3])
-        u, v, r = planar_advance(c, x[0], x[1], x[2], push, delta, changes[k], h)
-        x = (u, v, r, kept * x[3])
+        p, q, w, x = carried(c, p, q, w, x, thrust[k], delta, changes[k], step[k], noise)
 
 
 @pure

@@ -16,7 +16,7 @@ RATE, DEAD_TIME, HALF_PLAY, GYRO, U_BIAS, V_BIAS, LATENCY = range(COUNT, COUNT +
 ALL = COUNT + len(FURTHER)
 
 
-class Sheet(NamedTuple):
+class DataSheet(NamedTuple):
     """What data sheets say, as standard deviations, and first values.
 
     Attributes:
@@ -51,7 +51,7 @@ class Scaling(NamedTuple):
     """Turns scaled unknowns z (zero mean and unit variance before any data) into physical ones."""
 
     prior: Prior
-    sheet: Sheet
+    sheet: DataSheet
 
     def combinations(self, z: Numbers) -> Numbers:
         """Return the combinations, shape (14,)."""

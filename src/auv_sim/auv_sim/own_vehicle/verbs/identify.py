@@ -9,17 +9,17 @@ from __future__ import annotations
 
 import argparse
 import math
+from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
 from rich.progress import Progress
 
 from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_path_following import vehicle as vehicle_file
-from auv_path_following.vehicle import Hull, Vehicle
-from auv_sim.bags.content.recorded_manoeuvres import READ, Manoeuvring, manoeuvres_in
+from auv_path_following.vehicle import Vehicle
+from auv_sim.bags.content.recorded_manoeuvres import READ
 from auv_sim.command_line import not_negative, positive, say, target, to_type
 from auv_sim.own_vehicle.identify.hull_abilities import abilities_of
 from auv_sim.own_vehicle.identify.identification import Identified, identify
@@ -35,20 +35,18 @@ from auv_sim.own_vehicle.identify.results.identification_tables import (
     whiteness_table,
 )
 from auv_sim.own_vehicle.identify.results.known_vehicle import (
-    forces,
     identified_vehicle,
     in_plane,
     known_hull,
 )
 from auv_sim.own_vehicle.identify.results.vehicle_text import vehicle_text
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
-from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, RATE, Sheet, typed
+from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, RATE, DataSheet, typed
 from auv_sim.own_vehicle.identify.water_current import mean_current
+from auv_sim.own_vehicle.verbs.recordings_read import ENOUGH, LAST, divided, read
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, progress_bar, wrote
 
-#: With at least this much data (s) the last part is left out, and predicted.
-_ENOUGH, _LAST = 150.0, 45.0
 #: Latency of the log where it is found from the data: mean and deviation before them, s.
 _LATENCY = (0.1, 0.08)
 
@@ -76,7 +74,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--left-out", nargs=2, type=not_negative, metavar=("BEGIN", "END"),
         help="part of the last recording to leave out and predict, s from its begin; 0 0: none "
-        f"(default: its last {_LAST:g} s where there are {_ENOUGH:g} s in all)",
+        f"(default: its last {LAST:g} s where there are {ENOUGH:g} s in all)",
     )  # fmt: skip
     _add_sheet(parser)
     topics = ", ".join(topic.name for topic in READ)
@@ -106,20 +104,31 @@ def run(arguments: argparse.Namespace) -> int:
     """Identify, print, write."""
     vehicle = vehicle_file.load(arguments.vehicle)
     hull = known_hull(vehicle)
-    recordings = read(arguments, vehicle, hull)
+    recordings = read(arguments.bag, arguments.topic, arguments.namespace, vehicle, hull)
     where = ", ".join(map(str, arguments.bag))
     check_excitation(recordings, where)
-    used, left_out = _divided(recordings, arguments.left_out)
-    console = terminal()
+    used, left_out = divided(recordings, arguments.left_out)
     for remark in remarks(recordings, vehicle):
         say(f"notice {remark}", error=True)
     sheet = _sheet(arguments, vehicle)
     band = None if arguments.dead_band is None else math.radians(arguments.dead_band)
-    with progress_bar(console) as bar:
+    with progress_bar(terminal()) as bar:
         found = identify(used, hull, sheet, band, _reporter(bar))
     check_sign(found, where)
-    plain = in_plane(vehicle, hull)
-    abilities = abilities_of(found.physical, found.spread, plain)
+    report(arguments, vehicle, recordings, left_out, found)
+    return 0
+
+
+def report(
+    arguments: argparse.Namespace,
+    vehicle: Vehicle,
+    recordings: list[PlanarData],
+    left_out: PlanarData | None,
+    found: Identified,
+) -> None:
+    """Print tables; write the vehicle file and the picture."""
+    console, hull = terminal(), known_hull(vehicle)
+    abilities = abilities_of(found.physical, found.spread, in_plane(vehicle, hull))
     kept, predictions = _predicted(left_out, found)
     console.print(coefficients_table(found))
     console.print(f"{identified_count(found)} of 14 have a standard deviation below 10 %", highlight=False)
@@ -130,47 +139,13 @@ def run(arguments: argparse.Namespace) -> int:
     new = identified_vehicle(
         vehicle, hull, typed(found.physical), math.degrees(found.physical[RATE]), found.physical[DEAD_TIME]
     )
-    write_text(arguments.out, vehicle_text(new, hull, found, ", ".join(path.name for path in arguments.bag)))
+    names = ", ".join(path.name for path in arguments.bag)
+    write_text(arguments.out, vehicle_text(new, hull, found, names))
     picture = arguments.out.with_suffix(".png")
-    draw_identification(found, abilities, kept, predictions, f"{vehicle.name}: {where}", picture)
+    draw_identification(found, abilities, kept, predictions, f"{vehicle.name}: {names}", picture)
     wrote(console, arguments.out, "vehicle file, every coefficient with its interval")
     wrote(console, picture, "intervals, innovations, left-out manoeuvres")
     go_on(console, "Tune gains for it", to_type("vehicle.py", "tune", arguments.out))
-    return 0
-
-
-def read(arguments: argparse.Namespace, vehicle: Vehicle, hull: Hull) -> list[PlanarData]:
-    """Read the recordings that the options name.
-
-    Raises:
-        ConfigurationError: as `manoeuvres_in`; also an unknown name in `--topic`.
-    """
-    names = dict(map(_renaming, arguments.topic))
-    return [
-        planar(manoeuvres_in(path, names, arguments.namespace), vehicle, hull, path.name)
-        for path in arguments.bag
-    ]
-
-
-def _renaming(text: str) -> tuple[str, str]:
-    name, equals, other = text.partition("=")
-    allowed = [topic.name for topic in READ]
-    if name not in allowed or not equals or not other:
-        raise ConfigurationError("--topic", text, f"NAME=TOPIC with NAME one of {', '.join(allowed)}")
-    return name, other
-
-
-def planar(recorded: Manoeuvring, vehicle: Vehicle, hull: Hull, name: str) -> PlanarData:
-    """Return what the identification in the plane needs of a recording."""
-    run, rudder = recorded.run, recorded.rudder
-    largest = vehicle.rudder.max_angle
-    known = np.isfinite(run.r)
-    return PlanarData(
-        name, run.t[known], run.r[known], recorded.water_t, recorded.water[:, 0], recorded.water[:, 1],
-        rudder.t, np.clip(rudder.value, -largest, largest), recorded.thrust.t,
-        forces(vehicle, hull, np.clip(recorded.thrust.value, 0.0, vehicle.thrust_max)), run.psi[known],
-        recorded.over[known, 0], recorded.over[known, 1], np.zeros(int(known.sum())),
-    )  # fmt: skip
 
 
 def check_sign(found: Identified, where: str) -> None:
@@ -181,39 +156,21 @@ def check_sign(found: Identified, where: str) -> None:
     """
     if typed(found.physical).Nuud > 0.0:
         raise ConfigurationError(
-            f"{where}: rudder_cmd", "a positive rudder that turns to starboard", "one that turns to port, REP-103"
+            f"{where}: rudder_cmd",
+            "a positive rudder that turns to starboard",
+            "one that turns to port, REP-103",
         )
 
 
-def _sheet(arguments: argparse.Namespace, vehicle: Vehicle) -> Sheet:
+def _sheet(arguments: argparse.Namespace, vehicle: Vehicle) -> DataSheet:
     latency, deviation = _LATENCY if arguments.log_latency is None else (arguments.log_latency, 0.0)
-    return Sheet()._replace(
+    return DataSheet()._replace(
         rate=math.radians(arguments.rudder_rate or vehicle.rudder.max_rate_deg_s),
         latency=latency,
         latency_deviation=deviation,
         log_scale=0.01 * arguments.log_scale,
         thrust_bias=0.01 * arguments.thrust_bias,
     )
-
-
-def _divided(
-    recordings: list[PlanarData], left_out: list[float] | None
-) -> tuple[list[PlanarData], PlanarData | None]:
-    """Return recordings without the part that is left out, and that part."""
-    last = recordings[-1]
-    begin, end = last.t[0], last.t[-1]
-    if left_out is None:
-        total = sum(data.t[-1] - data.t[0] for data in recordings)
-        if total < _ENOUGH:
-            return recordings, None
-        first, until = end - _LAST, end
-    elif left_out[1] <= left_out[0]:
-        return recordings, None
-    else:
-        first, until = begin + left_out[0], begin + left_out[1]
-    parts = [last.between(begin - 1.0, first), last.between(until, end + 1.0)]
-    kept = [part for part in parts if part.t.size and part.t[-1] - part.t[0] > 10.0]
-    return [*recordings[:-1], *kept], last.between(first, until)
 
 
 def _predicted(left_out: PlanarData | None, found: Identified) -> tuple[Channels | None, list[Prediction]]:
@@ -223,10 +180,10 @@ def _predicted(left_out: PlanarData | None, found: Identified) -> tuple[Channels
     return channels, predictions_of(channels, found.physical)
 
 
-def _reporter(bar: Progress):  # type: ignore[no-untyped-def]
+def _reporter(bar: Progress) -> Callable[[int, int, str], None]:
     task = bar.add_task("reading", total=None)
 
-    def report(done: int, total: int, what: str) -> None:
+    def update(done: int, total: int, what: str) -> None:
         bar.update(task, completed=done, total=total, description=what)
 
-    return report
+    return update

@@ -46,7 +46,9 @@ def remarks(recordings: Sequence[PlanarData], vehicle: Vehicle) -> list[str]:
     found = []
     thrust, speeds = _all(recordings, "thrust"), _all(recordings, "u")
     if np.std(thrust) < 0.05 * max(float(np.mean(thrust)), 1e-9) and np.std(speeds) < 0.05 * np.mean(speeds):
-        found.append("no thrust steps: mass and drag ahead stay nearly as assumed; fly straights at 0.5 and 1")
+        found.append(
+            "no thrust steps: mass and drag ahead stay nearly as assumed; fly straights at 0.5 and 1"
+        )
     rate = _all(recordings, "r")
     right = float(np.mean(rate[np.abs(rate) > 0.02] > 0.0)) if np.any(np.abs(rate) > 0.02) else 0.5
     if not 0.15 < right < 0.85:

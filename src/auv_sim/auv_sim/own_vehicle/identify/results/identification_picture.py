@@ -108,6 +108,7 @@ def _autocorrelation(axes: Axes, found: Identified, channel: int) -> None:
     bound = REACH / math.sqrt(max(own.size, 1))
     axes.axhspan(-bound, bound, color=MUTED, alpha=0.25, linewidth=0)
     axes.set_ylim(-0.3, 0.3)
+    axes.set_xticks(range(0, _LAGS + 1, 5))
     axes.set_xlabel("lag, samples (band: white noise)", color=INK)
     style(axes, "autocorrelation")
 
@@ -131,5 +132,5 @@ def _left_out(axes: Axes, found: Identified, left_out: Channels | None) -> None:
         label = "predicted over 10 s by the commands alone" if number == 0 else None
         moments = times[first + 1 : first + 1 + length] - zero
         axes.plot(moments, np.degrees(track[:, 2]), label=label, **options)
-    axes.legend(frameon=False, fontsize=9, loc="upper left", ncols=2)
+    axes.legend(frameon=False, fontsize=9, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
     axes.set_title("left-out manoeuvres", color=INK, fontsize=10, loc="left")

@@ -54,7 +54,11 @@ def coefficients_table(found: Identified) -> Table:
         verdict = "" if share < IDENTIFIED else "weak" if share < 0.5 else "as assumed"
         cells = (REACH * data, REACH * unseen)
         table.add_row(
-            SYMBOLS[k], f"{value:.4g}", UNITS[k], *(f"{100.0 * cell / abs(value):.1f}" for cell in cells), verdict
+            SYMBOLS[k],
+            f"{value:.4g}",
+            UNITS[k],
+            *(f"{100.0 * cell / abs(value):.1f}" for cell in cells),
+            verdict,
         )
     return table
 
@@ -71,7 +75,9 @@ def servo_figures(found: Identified) -> list[Figure]:
     return [
         Figure("rudder rate", math.degrees(p[RATE]), math.degrees(off[RATE]), "deg/s"),
         Figure("dead time of the rudder", p[DEAD_TIME], off[DEAD_TIME], "s"),
-        Figure("play of the rudder", 2.0 * math.degrees(p[HALF_PLAY]), 2.0 * math.degrees(off[HALF_PLAY]), "deg"),
+        Figure(
+            "play of the rudder", 2.0 * math.degrees(p[HALF_PLAY]), 2.0 * math.degrees(off[HALF_PLAY]), "deg"
+        ),
         Figure("dead band of the rudder", math.degrees(found.dead_band), math.nan, "deg"),
         Figure("bias of the gyro", math.degrees(p[GYRO]), math.degrees(off[GYRO]), "deg/s"),
         Figure("bias of u", p[U_BIAS], off[U_BIAS], "m/s"),
@@ -90,7 +96,10 @@ def figures_table(
     for figure in servo_figures(found):
         off = "given" if math.isnan(figure.off) and figure.name.startswith("lat") else f"{figure.off:.2g}"
         table.add_row(
-            figure.name, f"{figure.value:.4g}", "tried" if figure.name.startswith("dead band") else off, figure.unit
+            figure.name,
+            f"{figure.value:.4g}",
+            "tried" if figure.name.startswith("dead band") else off,
+            figure.unit,
         )
     for number, current in enumerate(currents, 1):
         if current is not None:
@@ -124,7 +133,5 @@ def predictions_table(predictions: Sequence[Prediction]) -> Table:
         "left-out manoeuvres, by the commands alone", ("over",), ("starts", "yaw rate off %", "speed off %")
     )
     for p in predictions:
-        table.add_row(
-            f"{p.horizon:g} s", str(p.starts), f"{100.0 * p.error:.1f}", f"{100.0 * p.speed:.1f}"
-        )
+        table.add_row(f"{p.horizon:g} s", str(p.starts), f"{100.0 * p.error:.1f}", f"{100.0 * p.speed:.1f}")
     return table

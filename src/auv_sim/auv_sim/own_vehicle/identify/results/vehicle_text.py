@@ -26,17 +26,23 @@ def vehicle_text(vehicle: Vehicle, known: Hull, found: Identified, source: str) 
         source: names of the recordings.
     """
     rows = [
-        f"# Identified from {source}. Comments are 95 % intervals, systematic part included: the scale of the",
-        "# log and the bias of the thrust, which no recording shows. Masses are assumed: the hull moves by the",
-        "# identified accelerations whatever they are.",
+        f"# Identified from {source}.",
+        "# Comments are 95 % intervals. They include what no recording shows: the scale of the log, the bias",
+        "# of the thrust. Masses are assumed; the hull moves by the identified accelerations in any case.",
         f"name: {_text(vehicle.name)}",
         f"length: {vehicle.length:g}  # m",
         f"thrust_max: {vehicle.thrust_max:g}  # {vehicle.thrust_symbol}",
     ]
     if vehicle.thrust_unit != "N":
         table = ", ".join(f"[{a:.5g}, {b:.4g}]" for a, b in vehicle.thrust_table)
-        rows += [f"thrust_unit: {vehicle.thrust_unit}", f"thrust_table: [{table}]  # {vehicle.thrust_unit}, N"]
-    return "\n".join([*rows, *_rudder(vehicle.rudder, found), *_planes(vehicle), *_hull(vehicle, known, found)]) + "\n"
+        rows += [
+            f"thrust_unit: {vehicle.thrust_unit}",
+            f"thrust_table: [{table}]  # {vehicle.thrust_unit}, N",
+        ]
+    return (
+        "\n".join([*rows, *_rudder(vehicle.rudder, found), *_planes(vehicle), *_hull(vehicle, known, found)])
+        + "\n"
+    )
 
 
 def _text(name: str) -> str:
@@ -72,7 +78,13 @@ def _mapping(part: Any, indent: str) -> list[str]:
 
 
 def _value(value: Any) -> str:
-    return str(value).lower() if isinstance(value, bool) else f"{value:.6g}" if isinstance(value, float) else str(value)
+    return (
+        str(value).lower()
+        if isinstance(value, bool)
+        else f"{value:.6g}"
+        if isinstance(value, float)
+        else str(value)
+    )
 
 
 def _hull(vehicle: Vehicle, known: Hull, found: Identified) -> list[str]:

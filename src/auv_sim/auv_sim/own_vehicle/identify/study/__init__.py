@@ -1,1 +1,1 @@
-"""How well simulated vehicles are identified, whose hulls are known: the figures of docs/identification.md."""
+"""How well simulated vehicles of known hulls are identified: the figures of docs/identification.md."""
