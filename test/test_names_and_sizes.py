@@ -21,6 +21,8 @@ LONGER = {
     "current_observer.observe": (49, _STEP),
     "autopilot.steer": (44, _STEP),
     "progress.move": (42, _STEP),
+    "exact_servo.fin_angles": (48, _STEP),
+    "planar_filter.planar_innovations": (45, _STEP),
     "run_columns.assemble": (61, "one column after the other; a third is its docstring"),
     "judge.judged": (51, "a table: one figure a line"),
     "flight_figures.figures_of": (43, "a table: one figure a line"),

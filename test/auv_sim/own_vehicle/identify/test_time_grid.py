@@ -24,7 +24,7 @@ def test_a_late_sample_stands_at_the_moment_at_which_it_was_measured() -> None:
     with_water = np.flatnonzero(passage.grid.u_row >= 0)
     assert passage.times[with_water[1]] == pytest.approx(0.3)
     assert passage.grid.u[with_water[1]] == data.u[1]
-    assert passage.grid.begins.sum() == 1 and passage.grid.rate_row[0] == -1 or passage.times[0] >= 0.1 - 1e-3
+    assert passage.grid.begins.sum() == 1
 
 
 def test_samples_between_the_odometries_get_nodes_of_their_own() -> None:

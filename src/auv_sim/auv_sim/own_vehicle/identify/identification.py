@@ -15,7 +15,7 @@ from auv_sim.own_vehicle.identify.innovations import Channels, channels_of
 from auv_sim.own_vehicle.identify.intervals import Covariances, spread_of
 from auv_sim.own_vehicle.identify.minimise import Minimised, minimise
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
-from auv_sim.own_vehicle.identify.unknowns import ALL, LATENCY, Scaling, DataSheet
+from auv_sim.own_vehicle.identify.unknowns import ALL, LATENCY, DataSheet, Scaling
 
 #: Factors on the yaw coefficients for a hull that is damped in yaw, as another start.
 _DAMPED = {"Nuv": 0.125, "Nur": 2.0, "Nrr": 0.2}

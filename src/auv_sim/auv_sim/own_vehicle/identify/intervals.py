@@ -11,7 +11,7 @@ import numpy as np
 from auv_sim.own_vehicle.identify.combinations import COUNT, SCALE_POWERS, Numbers
 from auv_sim.own_vehicle.identify.innovations import Channels
 from auv_sim.own_vehicle.identify.minimise import Minimised, free_unknowns, jacobian, weights_of
-from auv_sim.own_vehicle.identify.unknowns import ALL, Scaling, DataSheet
+from auv_sim.own_vehicle.identify.unknowns import ALL, DataSheet, Scaling
 
 #: Of a 95 % interval, in standard deviations.
 REACH = 1.96

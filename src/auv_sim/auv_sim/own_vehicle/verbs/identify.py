@@ -34,12 +34,12 @@ from auv_sim.own_vehicle.identify.results.identification_tables import (
     predictions_table,
     whiteness_table,
 )
+from auv_sim.own_vehicle.identify.results.identified_file import identified_text
 from auv_sim.own_vehicle.identify.results.known_vehicle import (
     identified_vehicle,
     in_plane,
     known_hull,
 )
-from auv_sim.own_vehicle.identify.results.vehicle_text import vehicle_text
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
 from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, RATE, DataSheet, typed
 from auv_sim.own_vehicle.identify.water_current import mean_current
@@ -140,7 +140,7 @@ def report(
         vehicle, hull, typed(found.physical), math.degrees(found.physical[RATE]), found.physical[DEAD_TIME]
     )
     names = ", ".join(path.name for path in arguments.bag)
-    write_text(arguments.out, vehicle_text(new, hull, found, names))
+    write_text(arguments.out, identified_text(new, hull, found, names))
     picture = arguments.out.with_suffix(".png")
     draw_identification(found, abilities, kept, predictions, f"{vehicle.name}: {names}", picture)
     wrote(console, arguments.out, "vehicle file, every coefficient with its interval")

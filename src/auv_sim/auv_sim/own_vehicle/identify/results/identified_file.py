@@ -16,7 +16,7 @@ from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, HALF_PLAY, RATE, ty
 _ASSUMED = ("m", "Izz", "Yvd", "Yrd", "Nvd", "Nrd")
 
 
-def vehicle_text(vehicle: Vehicle, known: Hull, found: Identified, source: str) -> str:
+def identified_text(vehicle: Vehicle, known: Hull, found: Identified, source: str) -> str:
     """Return the vehicle file.
 
     Args:
