@@ -189,7 +189,7 @@ def figures_of(ends: Column, whole: Column, subpaths: Column, dt: Column) -> dic
         dt: shape (n,), between two odometries, s.
     """
     rows = subpaths[:, :, tally.ROWS]
-    counted, commands = rows.sum(axis=1), whole[:, tally.COMMANDS]
+    counted = rows.sum(axis=1)
     covered = subpaths[:, :, tally.COVERED].sum(axis=1)
     travel = np.degrees(subpaths[:, :, tally.TRAVEL].sum(axis=1))
     finite = ends[:, tally.FINITE] > 0.0
@@ -213,10 +213,7 @@ def figures_of(ends: Column, whole: Column, subpaths: Column, dt: Column) -> dic
             "distance_covered": covered,
             "rudder_travel": travel,
             "rudder_travel_per_metre": np.where(covered > 0.0, travel / covered, np.nan),
-            "rms_rudder_rate": np.degrees(_root(whole[:, tally.RATE_SQUARES], commands)),
-            "largest_rudder_rate": np.degrees(whole[:, tally.RATE_LARGEST]),
-            "late_rms_yaw_rate": np.degrees(_root(whole[:, tally.YAW_SQUARES], whole[:, tally.CALM_ROWS])),
-            "saturated": np.where(commands > 0.0, whole[:, tally.SATURATED] / commands, np.nan),
+            **_of_steering(whole),
             "current_estimate_error": _known(whole[:, tally.ESTIMATE_ERROR]),
             "last_x": ends[:, tally.LAST_X],
             "last_y": ends[:, tally.LAST_Y],
@@ -224,6 +221,17 @@ def figures_of(ends: Column, whole: Column, subpaths: Column, dt: Column) -> dic
             "subpath_largest_distance": np.where(rows > 0, subpaths[:, :, tally.LARGEST], np.nan),
             "subpath_duration": np.where(rows > 0, subpaths[:, :, tally.DURATION], np.nan),
         }
+
+
+def _of_steering(whole: Column) -> dict[str, Any]:
+    """Return the figures of commands and of the late yaw rate."""
+    commands = whole[:, tally.COMMANDS]
+    return {
+        "rms_rudder_rate": np.degrees(_root(whole[:, tally.RATE_SQUARES], commands)),
+        "largest_rudder_rate": np.degrees(whole[:, tally.RATE_LARGEST]),
+        "late_rms_yaw_rate": np.degrees(_root(whole[:, tally.YAW_SQUARES], whole[:, tally.CALM_ROWS])),
+        "saturated": np.where(commands > 0.0, whole[:, tally.SATURATED] / commands, np.nan),
+    }
 
 
 def spatial_figures_of(ends: Column, whole: Column, subpaths: Column, dt: Column) -> dict[str, Any]:

@@ -30,7 +30,6 @@ def judged(run: Run, scenario: Scenario) -> dict[str, Any]:
     arrived = bool(run.s[-1] >= path.n)
     # The last command of a completed mission is the stop.
     commands = run.rudder_cmd[:-1] if arrived else run.rudder_cmd
-    rate = np.degrees(np.diff(commands)) / scenario.step
     stops = (scenario.controller_vehicle or scenario.vehicle).rudder.max_angle
     elapsed = scenario.step * np.arange(run.steps)
     rows = FlownRows(run, path)
@@ -54,10 +53,8 @@ def judged(run: Run, scenario: Scenario) -> dict[str, Any]:
         "distance_covered": summary.distance_covered,
         "rudder_travel": summary.rudder_travel,
         "rudder_travel_per_metre": summary.rudder_travel_per_metre,
-        "rms_rudder_rate": _rms(rate),
-        "largest_rudder_rate": float(np.abs(rate).max()) if rate.size else 0.0,
         "late_rms_yaw_rate": math.degrees(_rms(run.r[elapsed >= tally.CALM_TIME - 1e-6])),
-        "saturated": float(np.mean(np.abs(commands[1:]) >= stops - 1e-12)) if rate.size else math.nan,
+        **_of_commands(commands, stops, scenario.step),
         "current_estimate_error": summary.current_estimate_error,
         "last_x": float(x[-1]),
         "last_y": float(y[-1]),
@@ -70,6 +67,16 @@ def judged(run: Run, scenario: Scenario) -> dict[str, Any]:
         settled = elapsed - joined >= SETTLING_TIME - 1e-6
         figures |= _in_space(run, rows, path, summary, settled)
     return figures
+
+
+def _of_commands(commands: Any, stops: float, step: float) -> dict[str, float]:
+    """Return the figures of the rudder's commands (rad), a `step` of s apart; `stops`: its largest angle."""
+    rate = np.degrees(np.diff(commands)) / step
+    return {
+        "rms_rudder_rate": _rms(rate),
+        "largest_rudder_rate": float(np.abs(rate).max()) if rate.size else 0.0,
+        "saturated": float(np.mean(np.abs(commands[1:]) >= stops - 1e-12)) if rate.size else math.nan,
+    }
 
 
 def _in_space(

@@ -1,0 +1,1 @@
+"""A campaign with given gains, and the sentence that it proves."""

@@ -1,0 +1,46 @@
+"""Courses of random legs, as long and as tight as a hull's turn needs; each seed has its own."""
+
+from __future__ import annotations
+
+import math
+from typing import Literal
+
+import numpy as np
+
+from auv_path_following.curves.composite import CompositePath
+from auv_path_following.missions.routes.smoothing import Smoothing, smooth
+
+#: Length of a leg (m), drawn evenly; on a hull that turns wider than `USUAL_TURN` (m) in proportion longer.
+SHORTEST, LONGEST, USUAL_TURN = 80.0, 140.0, 7.0
+#: Change of course at a corner, deg, drawn evenly, to either side.
+SHALLOWEST, SHARPEST = 30.0, 120.0
+#: Radius of rounded corners over that of the steady turn, drawn evenly.
+TIGHTEST, WIDEST = 1.5, 3.5
+
+Kind = Literal["sharp", "rounded"]
+
+
+def drawn_course(kind: Kind, turn_radius: float, legs: int, random: np.random.Generator) -> CompositePath:
+    """Draw a course of legs.
+
+    Args:
+        kind: corners as they are, or rounded by arcs.
+        turn_radius: of the hull's steady turn, m.
+        legs: how many.
+        random: where the numbers come from.
+    """
+    scale = max(1.0, turn_radius / USUAL_TURN)
+    point, course = (0.0, 0.0), random.uniform(-math.pi, math.pi)
+    points = [point]
+    for _ in range(legs):
+        length = scale * random.uniform(SHORTEST, LONGEST)
+        point = point[0] + length * math.cos(course), point[1] + length * math.sin(course)
+        points.append(point)
+        change = math.radians(random.uniform(SHALLOWEST, SHARPEST))
+        course += math.copysign(change, random.uniform(-1.0, 1.0))
+    if kind == "sharp":
+        return CompositePath(smooth(points, Smoothing(kind="linear")))
+    # An arc of radius R takes R tan(60 deg) of a leg at most, at both of its ends: it must fit.
+    most = 0.45 * SHORTEST * scale / math.tan(math.radians(0.5 * SHARPEST))
+    radius = min(random.uniform(TIGHTEST, WIDEST) * turn_radius, most)
+    return CompositePath(smooth(points, Smoothing(kind="circular", radius=radius)))

@@ -1,0 +1,101 @@
+"""The objective of the search, in one number: distance, rudder travel, limit cycles, margins.
+
+Of every hull, against the rule's gains on the same flights,
+
+    J = mean ln(rms/rms_rule) + mean ln(off/off_rule), each weighted by DISTANCE
+        + 0.1 mean ln(travel/travel_rule) + what the travel exceeds twice that of the rule
+        + limit cycles + flights that do not complete + margins that are too small
+
+`off` is the rms away from corners. The objective of several hulls is that of the worst. Smaller is better; the
+rule has 0 where it keeps all conditions.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from auv_sim.flight.batch.flight_figures import Flights
+
+#: Weights of ln(rms) and ln(off), of ln(travel), and of ln(travel) beyond `FREE_TRAVEL` times the rule's.
+DISTANCE, TRAVEL, TOO_MUCH, FREE_TRAVEL = 0.5, 0.1, 1.0, 2.0
+#: Rms yaw rate late on a straight line that is a limit cycle, and from which on it costs, deg/s.
+LIMIT_CYCLE, RESTLESS = 0.3, 0.1
+#: Cost of a limit cycle of `LIMIT_CYCLE`, doubling with each factor of e, and the largest of one flight.
+CYCLING, WORST = 1.0, 8.0
+#: Cost of a flight that does not complete its course.
+LOST = 5.0
+#: Smallest margins asked for: gain either way, delay over the loop's own; less where the rule has less.
+LEAST_GAIN, LEAST_DELAY = 1.4, 0.35
+#: Cost of a loop that is unstable where a margin asks for its stability.
+UNSTABLE = 2.0
+#: Smallest distance that counts, m: below, the rounding of a course decides.
+_RESOLVED = 1e-3
+
+
+class Terms(NamedTuple):
+    """The parts of an objective.
+
+    Attributes:
+        rms, off, travel: mean ln of the ratios to the rule.
+        cycling: of the flights on lines; 0 without a limit cycle.
+        lost: of flights that did not complete.
+        margins: of the linear loop.
+    """
+
+    rms: float
+    off: float
+    travel: float
+    cycling: float
+    lost: float
+    margins: float
+
+    @property
+    def total(self) -> float:
+        """J."""
+        excess = max(self.travel - math.log(FREE_TRAVEL), 0.0)
+        distance = DISTANCE * (self.rms + self.off)
+        return (
+            distance + TRAVEL * self.travel + TOO_MUCH * excess + self.cycling + self.lost + self.margins
+        )
+
+
+def terms_of(flown: Flights, ruled: Flights, is_line: Any, unstable: float = 0.0) -> Terms:
+    """Return the objective's parts of one hull.
+
+    Args:
+        flown, ruled: figures of the same flights with the gains and with the rule's.
+        is_line: which flights are along a line, shape (n,).
+        unstable: share of the margins asked for that the linear loop lacks, 0 to 1.
+    """
+    along = ~is_line
+    finished = along & flown.completed & ruled.completed
+    return Terms(
+        _mean_ratio(flown.rms_distance, ruled.rms_distance, finished),
+        _mean_ratio(flown.off_corners_rms_distance, ruled.off_corners_rms_distance, finished),
+        _mean_ratio(flown.rudder_travel_per_metre, ruled.rudder_travel_per_metre, finished),
+        cycling(flown.late_rms_yaw_rate[is_line]),
+        LOST * float(np.sum(along & ~flown.completed)),
+        UNSTABLE * unstable,
+    )
+
+
+def cycling(rates: Any) -> float:
+    """Return the cost of limit cycles, from late rms yaw rates on lines (deg/s); NaN counts as the worst."""
+    known = np.where(np.isfinite(rates), np.maximum(rates, 1e-9), math.inf)
+    cost = CYCLING * (np.log(known / RESTLESS) / math.log(LIMIT_CYCLE / RESTLESS))
+    return float(np.sum(np.clip(cost, 0.0, WORST)))
+
+
+def _mean_ratio(flown: Any, ruled: Any, rows: Any) -> float:
+    both = rows & np.isfinite(flown) & np.isfinite(ruled)
+    if not both.any():
+        return 0.0
+    return float(np.mean(np.log((flown[both] + _RESOLVED) / (ruled[both] + _RESOLVED))))
+
+
+def worst(totals: list[float]) -> float:
+    """Return the objective of several hulls: that of the worst."""
+    return max(totals)

@@ -1,0 +1,183 @@
+"""The search: CMA-ES over the dimensionless gains, with flights drawn anew in each generation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from auv_path_following.vehicle import Vehicle
+from auv_sim.flight.batch.scenarios import Courses
+from auv_sim.own_vehicle.tune import sampled_loop
+from auv_sim.own_vehicle.tune.gain_space import Flown, GainSpace, Vector, bounds
+from auv_sim.own_vehicle.tune.objective import LEAST_DELAY, LEAST_GAIN, Terms, terms_of, worst
+from auv_sim.own_vehicle.tune.sampled_loop import Margins, Plane
+from auv_sim.own_vehicle.tune.trial_flights import SEARCHED, Amount, Conditions, draw_flights, fly_all
+
+#: First step of the search, in logarithms of the ratios.
+FIRST_STEP = 0.25
+#: Candidates of a generation.
+POPULATION = 12
+#: Hulls of an ensemble that a generation flies besides the vehicle itself; others follow in the next ones.
+DRAWN_HULLS = 2
+
+
+class Budget(NamedTuple):
+    """Size of a search: generations, candidates of each, threads."""
+
+    generations: int
+    population: int = POPULATION
+    threads: int = 2
+
+
+class Problem(NamedTuple):
+    """What is tuned.
+
+    Attributes:
+        space: the gains.
+        hulls: the vehicle, and others that it may be.
+        conditions: delay, rates, sea.
+        seed: of all draws.
+    """
+
+    space: GainSpace
+    hulls: Sequence[Vehicle]
+    conditions: Conditions
+    seed: int
+
+
+class Found(NamedTuple):
+    """The result of a search.
+
+    Attributes:
+        point: mean of the last generation.
+        history: mean objective of the better half of each generation.
+    """
+
+    point: Vector
+    history: tuple[float, ...]
+
+
+class MarginsAsked(NamedTuple):
+    """The margins that a candidate must have on one hull; see `objective`."""
+
+    plane: Plane
+    delay: float
+    step: float
+    up: float
+    down: float
+    later: float
+
+
+def margins_of(flown: Flown, model: Vehicle, hull: Vehicle, conditions: Conditions) -> Margins:
+    """Return the margins of gains on a hull, at the slowest rate."""
+    step = max(conditions.steps)
+    loop = sampled_loop.loop_of(flown.autopilot, model, step)
+    return sampled_loop.margins(
+        sampled_loop.yaw_plane(hull), loop, step, conditions.delay + hull.rudder.dead_time
+    )
+
+
+def margins_asked(space: GainSpace, hull: Vehicle, conditions: Conditions) -> MarginsAsked:
+    """Return the margins to ask for: `LEAST_GAIN` and `LEAST_DELAY`, less where the rule has less."""
+    step = max(conditions.steps)
+    has = margins_of(space.rule(), space.vehicle, hull, conditions)
+    delay = conditions.delay + hull.rudder.dead_time
+    return MarginsAsked(
+        sampled_loop.yaw_plane(hull), delay, step,
+        min(LEAST_GAIN, max(0.95 * has.up, 1.0)), min(LEAST_GAIN, max(0.95 * has.down, 1.0)),
+        min(LEAST_DELAY * (delay + 0.5 * step), 0.9 * has.delay),
+    )  # fmt: skip
+
+
+def lacking(asked: MarginsAsked, flown: Flown, model: Vehicle) -> float:
+    """Return the share of three margins (up, down, delay) that a candidate lacks."""
+    loop = sampled_loop.loop_of(flown.autopilot, model, asked.step)
+    cases = (
+        (asked.delay, asked.up),
+        (asked.delay, 1.0 / asked.down),
+        (asked.delay + asked.later, 1.0),
+    )
+    failed = [not sampled_loop.is_stable(asked.plane, loop, asked.step, *case) for case in cases]
+    return sum(failed) / len(cases)
+
+
+def assess(
+    problem: Problem, candidates: Sequence[Flown], amount: Amount, stream: Sequence[int],
+    hulls: Sequence[Vehicle], threads: int, courses: Courses,
+) -> list[list[Terms]]:  # fmt: skip
+    """Fly candidates on hulls, with flights of their own draw; return the terms by candidate and hull.
+
+    Args:
+        problem: what is tuned.
+        candidates: gains.
+        amount: of flights.
+        stream: place of the draw: the same place draws the same flights.
+        hulls: plants.
+        threads: flights at the same time.
+        courses: for paths that are flown again.
+    """
+    space, conditions = problem.space, problem.conditions
+    model = space.vehicle
+    terms: list[list[Terms]] = [[] for _ in candidates]
+    for k, hull in enumerate(hulls):
+        random = np.random.default_rng([problem.seed, *stream, k])
+        flights = draw_flights(hull, conditions, amount, random)
+        is_line = np.array([flight.is_line for flight in flights])
+        *flown, ruled = fly_all(flights, [*candidates, space.rule()], model, threads, courses)
+        asked = margins_asked(space, hull, conditions)
+        for own, candidate, figures in zip(terms, candidates, flown, strict=True):
+            own.append(terms_of(figures, ruled, is_line, lacking(asked, candidate, model)))
+    return terms
+
+
+def search(problem: Problem, budget: Budget, done: Callable[[float], Any] | None = None) -> Found:
+    """Search from the rule's gains.
+
+    Args:
+        problem: what is tuned.
+        budget: how long.
+        done: called with the objective of each generation.
+    """
+    import cma
+
+    space = problem.space
+    low, high = bounds()
+    options = {
+        "bounds": [(low - space.first).tolist(), (high - space.first).tolist()],
+        "popsize": budget.population, "seed": problem.seed + 1, "verbose": -9, "verb_disp": 0, "verb_log": 0,
+        "maxiter": budget.generations, "tolfun": 0.0, "tolfunhist": 0.0, "tolx": 0.0, "tolstagnation": 10**9,
+        "tolflatfitness": 10**9,
+    }  # fmt: skip
+    strategy = cma.CMAEvolutionStrategy(np.zeros(len(low)), FIRST_STEP, options)
+    history = []
+    for generation in range(budget.generations):
+        points = strategy.ask()
+        gains = [space.gains(space.first + point) for point in points]
+        hulls = hulls_of(problem, generation)
+        # Courses are drawn anew: those of earlier generations are not kept.
+        terms = assess(problem, gains, SEARCHED, (0, generation), hulls, budget.threads, Courses())
+        costs = [worst([one.total for one in own]) for own in terms]
+        strategy.tell(points, costs)
+        history.append(float(np.mean(sorted(costs)[: max(len(costs) // 2, 1)])))
+        if done is not None:
+            done(history[-1])
+    mean = np.asarray(strategy.result.xfavorite, float)
+    return Found(space.first + (mean if np.isfinite(mean).all() else 0.0), tuple(history))
+
+
+def hulls_of(problem: Problem, generation: int) -> list[Vehicle]:
+    """Return the hulls that a generation flies: the vehicle itself, and some of the others in turn."""
+    first, *others = problem.hulls
+    if not others:
+        return [first]
+    n = min(DRAWN_HULLS, len(others))
+    begin = generation * n % len(others)
+    return [first, *[others[(begin + k) % len(others)] for k in range(n)]]
+
+
+def is_better(total: float) -> bool:
+    """Return whether an objective is below that of the rule."""
+    return math.isfinite(total) and total < 0.0

@@ -1,0 +1,179 @@
+"""The flights by which gains are judged: straight lines from hard starts, courses in currents, a sea.
+
+Everything is drawn: starts, rates, delays, courses, currents. Search and acceptance draw from different seeds.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from auv_msgs_py.values.types import Current
+from auv_path_following.control.hull_model import tightest_turn
+from auv_path_following.curves.composite import CompositePath
+from auv_path_following.curves.kinds.line import Line
+from auv_path_following.guidance.approach import ApproachConfig
+from auv_path_following.vehicle import Vehicle
+from auv_sim.flight.batch import engine
+from auv_sim.flight.batch.flight_figures import Flights
+from auv_sim.flight.batch.scenarios import Courses
+from auv_sim.flight.scenario import Scenario
+from auv_sim.own_vehicle.tune.drawn_courses import drawn_course
+from auv_sim.own_vehicle.tune.gain_space import Flown
+from auv_sim.vehicle.hulls.rigid_body import BodyState, body_at
+from auv_sim.vehicle.remus import PlantState
+from auv_sim.vehicle.sea import Sea
+
+#: A flight on a line lasts as long, s; its yaw rate counts in the second half.
+LINE_TIME = 120.0
+#: Share by which the delay of a flight on a line may be longer than stated.
+LATER = 0.15
+#: Starts on a line: largest distance beside it over the radius of the turn, largest rate over the turn's.
+BESIDE, TURNING = 4.0, 1.0
+#: Current over the speed through the water, drawn evenly up to this.
+STRONGEST = 0.25
+#: A flight along a course ends at this many times the time that it takes straight ahead, and 60 s later.
+PATIENCE = 1.6
+
+
+class Conditions(NamedTuple):
+    """What the gains are for.
+
+    Attributes:
+        delay: from a measurement to the arrival of its command, s; dead times of the fins are added.
+        step: between two odometries on courses, s.
+        steps: between two odometries on lines, s; each is flown.
+        sea: imperfections of one flight; None for none.
+    """
+
+    delay: float
+    step: float
+    steps: tuple[float, ...]
+    sea: Sea | None
+
+
+class Flight(NamedTuple):
+    """One flight without its gains: a scenario whose laws are replaced, and whether it is along a line."""
+
+    scenario: Scenario
+    is_line: bool
+
+
+class Amount(NamedTuple):
+    """How many flights: starts on the line for each rate; courses of each kind and water; legs; at sea."""
+
+    starts: int
+    courses: int
+    legs: int
+    at_sea: int
+
+
+#: Of one generation of the search, and of the acceptance.
+SEARCHED = Amount(starts=2, courses=1, legs=5, at_sea=1)
+HELD_OUT = Amount(starts=16, courses=3, legs=7, at_sea=4)
+
+
+def draw_flights(
+    vehicle: Vehicle, conditions: Conditions, amount: Amount, random: np.random.Generator
+) -> list[Flight]:
+    """Draw the flights of one hull.
+
+    Args:
+        vehicle: the plant.
+        conditions: delay, rates, sea.
+        amount: how many.
+        random: where the numbers come from.
+    """
+    c, thrust = conditions, thrust_of(vehicle)
+    speed, turn = vehicle.speed_at(thrust), tightest_turn(vehicle)
+    flights = []
+    line = _LINE
+    for step in c.steps:
+        for _ in range(amount.starts):
+            beside = random.uniform(-1.0, 1.0) * BESIDE * turn.radius
+            heading, rate = random.uniform(-math.pi, math.pi), random.uniform(-1.0, 1.0) * TURNING
+            start = start_at(vehicle, beside, heading, speed, rate * 0.75 * turn.rate)
+            late = c.delay + random.uniform(0.0, LATER) * (c.delay + vehicle.rudder.dead_time)
+            flown = Scenario(
+                path=line, vehicle=vehicle, thrust=thrust, initial=start, step=step, command_delay=late,
+                time_limit=LINE_TIME,
+            )  # fmt: skip
+            flights.append(Flight(flown, True))
+    for kind, flowing, sea, number in (
+        ("sharp", False, None, amount.courses),
+        ("sharp", True, None, amount.courses),
+        ("rounded", False, None, amount.courses),
+        ("rounded", True, None, amount.courses),
+        ("rounded", False, c.sea, amount.at_sea if c.sea is not None else 0),
+    ):
+        for _ in range(number):
+            path = drawn_course(kind, turn.radius, amount.legs, random)  # type: ignore[arg-type]
+            size, course = random.uniform(0.3, 1.0) * STRONGEST * speed, random.uniform(-math.pi, math.pi)
+            current = Current(size * math.cos(course), size * math.sin(course)) if flowing else Current(0, 0)
+            seed = int(random.integers(2**31))
+            limit = PATIENCE * path.length / speed + 60.0
+            flown = Scenario(
+                path=path, vehicle=vehicle, thrust=thrust, current=current, sea=sea, seed=seed, step=c.step,
+                command_delay=c.delay, time_limit=limit, initial=_on_path(vehicle, path, speed),
+            )  # fmt: skip
+            flights.append(Flight(flown, False))
+    return flights
+
+
+def thrust_of(vehicle: Vehicle) -> float:
+    """Return the thrust of the design: that of the measured cruise, else the largest, N."""
+    return vehicle.thrust_max if vehicle.cruise is None else vehicle.cruise.thrust
+
+
+def start_at(
+    vehicle: Vehicle, y: float, heading: float, speed: float, rate: float, x: float = 0.0
+) -> PlantState | BodyState:
+    """Return a first state: position and speed in m and m/s, heading and yaw rate in rad and rad/s."""
+    if not vehicle.dives:
+        return PlantState(x, y, heading, speed, 0.0, rate)
+    depth = max(vehicle.depth.surface, vehicle.shallowest)
+    return body_at(x, y, depth, 0.0, 0.0, heading, speed)._replace(r=rate)
+
+
+def _on_path(vehicle: Vehicle, path: CompositePath, speed: float) -> PlantState | BodyState:
+    x, y, chi = path.start_pose
+    return start_at(vehicle, y, chi, speed, 0.0, x)
+
+
+def with_laws(flight: Flight, flown: Flown, model: Vehicle) -> Scenario:
+    """Return a flight with gains; on a line guidance begins at once, without an approach.
+
+    Args:
+        flight: without its gains.
+        flown: the gains.
+        model: the vehicle that guidance and autopilots assume.
+    """
+    guidance = flown.guidance
+    if flight.is_line:
+        guidance = dataclasses.replace(guidance, approach=ApproachConfig(enabled=False))
+    return dataclasses.replace(
+        flight.scenario, guidance=guidance, autopilot=flown.autopilot, pitch=flown.pitch,
+        controller_vehicle=model,
+    )  # fmt: skip
+
+
+def fly_all(
+    flights: Sequence[Flight], candidates: Sequence[Flown], model: Vehicle, threads: int, courses: Courses
+) -> list[Flights]:
+    """Fly every flight with every set of gains; return the figures of each set."""
+    scenarios = [with_laws(flight, flown, model) for flown in candidates for flight in flights]
+    found = engine.fly(scenarios, threads, courses=courses)
+    n = len(flights)
+    return [_rows(found, slice(k * n, (k + 1) * n)) for k in range(len(candidates))]
+
+
+def _rows(flights: Flights, rows: slice) -> Flights:
+    columns = {field.name: getattr(flights, field.name)[rows] for field in dataclasses.fields(flights)}
+    return type(flights)(**columns)
+
+
+_LINE = CompositePath([Line(0.0, 0.0, 2000.0, 0.0)])
