@@ -117,9 +117,9 @@ def reasons_against(held: Sequence[Held]) -> list[str]:
     travel = math.exp(max(one.terms.travel for one in held))
     if travel > MOST_TRAVEL:
         reasons.append(f"{travel:.1f} times the rudder travel of the rule, more than {MOST_TRAVEL:g}")
-    distance = max(one.terms.rms + one.terms.off for one in held)
+    distance = max(one.terms.distance for one in held)
     if distance >= 0.0 and not _cures(held):
-        reasons.append(f"{100 * math.expm1(0.5 * distance):.0f} % more distance than with the rule")
+        reasons.append(f"{100 * math.expm1(distance):.0f} % more distance than with the rule")
     return reasons
 
 
@@ -127,5 +127,3 @@ def _cures(held: Sequence[Held]) -> bool:
     """Return whether the gains remove a limit cycle that the rule has: then distance may be the price."""
     ruled, own = max(one.ruled_unrest for one in held), max(one.unrest for one in held)
     return ruled > LIMIT_CYCLE >= own
-
-

@@ -14,21 +14,23 @@ from auv_path_following.missions.routes.smoothing import Smoothing, smooth
 SHORTEST, LONGEST, USUAL_TURN = 80.0, 140.0, 7.0
 #: Change of course at a corner, deg, drawn evenly, to either side.
 SHALLOWEST, SHARPEST = 30.0, 120.0
-#: Radius of rounded corners over that of the steady turn, drawn evenly.
-TIGHTEST, WIDEST = 1.5, 3.5
+#: Radius of rounded corners and of the turns of a survey over that of the steady turn, drawn evenly.
+TIGHTEST, WIDEST = 1.15, 3.5
 
-Kind = Literal["sharp", "rounded"]
+Kind = Literal["sharp", "rounded", "survey"]
 
 
 def drawn_course(kind: Kind, turn_radius: float, legs: int, random: np.random.Generator) -> CompositePath:
     """Draw a course of legs.
 
     Args:
-        kind: corners as they are, or rounded by arcs.
+        kind: corners as they are, or rounded by arcs; or parallel legs with turns from one to the next.
         turn_radius: of the hull's steady turn, m.
         legs: how many.
         random: where the numbers come from.
     """
+    if kind == "survey":
+        return _survey(turn_radius, legs, random)
     scale = max(1.0, turn_radius / USUAL_TURN)
     point, course = (0.0, 0.0), random.uniform(-math.pi, math.pi)
     points = [point]
@@ -43,4 +45,22 @@ def drawn_course(kind: Kind, turn_radius: float, legs: int, random: np.random.Ge
     # An arc of radius R takes R tan(60 deg) of a leg at most, at both of its ends: it must fit.
     most = 0.45 * SHORTEST * scale / math.tan(math.radians(0.5 * SHARPEST))
     radius = min(random.uniform(TIGHTEST, WIDEST) * turn_radius, most)
+    return CompositePath(smooth(points, Smoothing(kind="circular", radius=radius)))
+
+
+def _survey(turn_radius: float, legs: int, random: np.random.Generator) -> CompositePath:
+    """Draw parallel legs, joined by two arcs of a quarter each."""
+    scale = max(1.0, turn_radius / USUAL_TURN)
+    radius, length = random.uniform(TIGHTEST, WIDEST) * turn_radius, scale * random.uniform(SHORTEST, LONGEST)
+    # Between the arcs a short straight is left.
+    spacing, course = 2.2 * radius, random.uniform(-math.pi, math.pi)
+    side = math.copysign(1.0, random.uniform(-1.0, 1.0))
+    along, across = (math.cos(course), math.sin(course)), (-math.sin(course), math.cos(course))
+    points = []
+    for k in range(max(legs - 2, 2)):
+        ends = (0.0, length + 2.0 * radius) if k % 2 == 0 else (length + 2.0 * radius, 0.0)
+        points += [
+            tuple(a * end + side * b * k * spacing for a, b in zip(along, across, strict=True))
+            for end in ends
+        ]
     return CompositePath(smooth(points, Smoothing(kind="circular", radius=radius)))

@@ -71,7 +71,9 @@ def ensemble(
         drawn = _drawn(vehicle, spread, random, own or {})
         if drawn is not None:
             hulls.append(drawn)
-    raise ConfigurationError(f"{vehicle.name}: --spread", f"{100 * spread:g} %", "one within which hulls turn")
+    raise ConfigurationError(
+        f"{vehicle.name}: --spread", f"{100 * spread:g} %", "one within which hulls turn"
+    )
 
 
 def _drawn(

@@ -2,12 +2,12 @@
 
 Of every hull, against the rule's gains on the same flights,
 
-    J = mean ln(rms/rms_rule) + mean ln(off/off_rule), each weighted by DISTANCE
-        + 0.1 mean ln(travel/travel_rule) + what the travel exceeds twice that of the rule
+    J = 0.6 mean f(rms/rms_rule) + 0.4 mean f(off/off_rule), with f(x) = ln x + max(ln x, 0)
+        + 0.1 mean ln(travel/travel_rule) + what that mean exceeds ln 2
         + limit cycles + flights that do not complete + margins that are too small
 
-`off` is the rms away from corners. The objective of several hulls is that of the worst. Smaller is better; the
-rule has 0 where it keeps all conditions.
+`off` is the rms away from corners. With f a course that becomes worse counts twice. The objective of several
+hulls is that of the worst. Smaller is better; the rule has 0 where it keeps all conditions.
 """
 
 from __future__ import annotations
@@ -19,8 +19,10 @@ import numpy as np
 
 from auv_sim.flight.batch.flight_figures import Flights
 
-#: Weights of ln(rms) and ln(off), of ln(travel), and of ln(travel) beyond `FREE_TRAVEL` times the rule's.
-DISTANCE, TRAVEL, TOO_MUCH, FREE_TRAVEL = 0.5, 0.1, 1.0, 2.0
+#: Weights of distances and of distances away from corners.
+RMS, OFF = 0.6, 0.4
+#: Weights of ln(travel), and of what exceeds `FREE_TRAVEL` times the rule's.
+TRAVEL, TOO_MUCH, FREE_TRAVEL = 0.1, 1.0, 2.0
 #: Rms yaw rate late on a straight line that is a limit cycle, and from which on it costs, deg/s.
 LIMIT_CYCLE, RESTLESS = 0.3, 0.1
 #: Cost of a limit cycle of `LIMIT_CYCLE`, doubling with each factor of e, and the largest of one flight.
@@ -31,15 +33,16 @@ LOST = 5.0
 LEAST_GAIN, LEAST_DELAY = 1.4, 0.35
 #: Cost of a loop that is unstable where a margin asks for its stability.
 UNSTABLE = 2.0
-#: Smallest distance that counts, m: below, the rounding of a course decides.
-_RESOLVED = 1e-3
+#: Distance (m) and travel (deg/m) added to both sides of a ratio: differences far below them do not matter.
+_RESOLVED, _STILL = 0.02, 0.01
 
 
 class Terms(NamedTuple):
     """The parts of an objective.
 
     Attributes:
-        rms, off, travel: mean ln of the ratios to the rule.
+        rms, off: mean f of the ratios to the rule.
+        travel: mean ln of the ratio to the rule.
         cycling: of the flights on lines; 0 without a limit cycle.
         lost: of flights that did not complete.
         margins: of the linear loop.
@@ -53,12 +56,16 @@ class Terms(NamedTuple):
     margins: float
 
     @property
+    def distance(self) -> float:
+        """The part of both distances."""
+        return RMS * self.rms + OFF * self.off
+
+    @property
     def total(self) -> float:
         """J."""
         excess = max(self.travel - math.log(FREE_TRAVEL), 0.0)
-        distance = DISTANCE * (self.rms + self.off)
         return (
-            distance + TRAVEL * self.travel + TOO_MUCH * excess + self.cycling + self.lost + self.margins
+            self.distance + TRAVEL * self.travel + TOO_MUCH * excess + self.cycling + self.lost + self.margins
         )
 
 
@@ -73,9 +80,11 @@ def terms_of(flown: Flights, ruled: Flights, is_line: Any, unstable: float = 0.0
     along = ~is_line
     finished = along & flown.completed & ruled.completed
     return Terms(
-        _mean_ratio(flown.rms_distance, ruled.rms_distance, finished),
-        _mean_ratio(flown.off_corners_rms_distance, ruled.off_corners_rms_distance, finished),
-        _mean_ratio(flown.rudder_travel_per_metre, ruled.rudder_travel_per_metre, finished),
+        distance_cost(flown.rms_distance[finished], ruled.rms_distance[finished]),
+        distance_cost(flown.off_corners_rms_distance[finished], ruled.off_corners_rms_distance[finished]),
+        _mean(
+            _ratio(flown.rudder_travel_per_metre[finished], ruled.rudder_travel_per_metre[finished], _STILL)
+        ),
         cycling(flown.late_rms_yaw_rate[is_line]),
         LOST * float(np.sum(along & ~flown.completed)),
         UNSTABLE * unstable,
@@ -89,11 +98,19 @@ def cycling(rates: Any) -> float:
     return float(np.sum(np.clip(cost, 0.0, WORST)))
 
 
-def _mean_ratio(flown: Any, ruled: Any, rows: Any) -> float:
-    both = rows & np.isfinite(flown) & np.isfinite(ruled)
-    if not both.any():
-        return 0.0
-    return float(np.mean(np.log((flown[both] + _RESOLVED) / (ruled[both] + _RESOLVED))))
+def distance_cost(flown: Any, ruled: Any) -> float:
+    """Return the mean f of the ratios of distances (m); 0 without any."""
+    ratio = _ratio(flown, ruled, _RESOLVED)
+    return _mean(ratio + np.maximum(ratio, 0.0))
+
+
+def _ratio(flown: Any, ruled: Any, added: float) -> Any:
+    return np.log((flown + added) / (ruled + added))
+
+
+def _mean(values: Any) -> float:
+    known = values[np.isfinite(values)]
+    return float(np.mean(known)) if known.size else 0.0
 
 
 def worst(totals: list[float]) -> float:

@@ -69,9 +69,7 @@ def yaw_plane(vehicle: Vehicle) -> Plane:
     model = HullModel(vehicle)
     (vv, vr), (rv, rr) = slopes(model.sway_yaw, speed, 0.0, 0.0)
     sway, yaw = rudder_gain(model.sway_yaw, speed)
-    return Plane(
-        np.array([[vv, vr, 0.0], [rv, rr, 0.0], [0.0, 1.0, 0.0]]), np.array([[sway], [yaw], [0.0]])
-    )
+    return Plane(np.array([[vv, vr, 0.0], [rv, rr, 0.0], [0.0, 1.0, 0.0]]), np.array([[sway], [yaw], [0.0]]))
 
 
 def _measured_plane(vehicle: Vehicle) -> Plane:
@@ -215,5 +213,3 @@ def _with_numbers(state: Any, numbers: Iterator[float]) -> Any:
         for value in state
     ]
     return type(state)(*values)
-
-

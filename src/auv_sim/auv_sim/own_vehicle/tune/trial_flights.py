@@ -91,7 +91,7 @@ def draw_flights(
     c, thrust = conditions, thrust_of(vehicle)
     speed, turn = vehicle.speed_at(thrust), tightest_turn(vehicle)
     flights = []
-    line = _LINE
+    line = LINE
     for step in c.steps:
         for _ in range(amount.starts):
             beside = random.uniform(-1.0, 1.0) * BESIDE * turn.radius
@@ -108,6 +108,7 @@ def draw_flights(
         ("sharp", True, None, amount.courses),
         ("rounded", False, None, amount.courses),
         ("rounded", True, None, amount.courses),
+        ("survey", True, None, amount.courses),
         ("rounded", False, c.sea, amount.at_sea if c.sea is not None else 0),
     ):
         for _ in range(number):
@@ -176,4 +177,4 @@ def _rows(flights: Flights, rows: slice) -> Flights:
     return type(flights)(**columns)
 
 
-_LINE = CompositePath([Line(0.0, 0.0, 2000.0, 0.0)])
+LINE = CompositePath([Line(0.0, 0.0, 2000.0, 0.0)])
