@@ -56,11 +56,9 @@ def _survey(turn_radius: float, legs: int, random: np.random.Generator) -> Compo
     spacing, course = 2.2 * radius, random.uniform(-math.pi, math.pi)
     side = math.copysign(1.0, random.uniform(-1.0, 1.0))
     along, across = (math.cos(course), math.sin(course)), (-math.sin(course), math.cos(course))
-    points = []
+    points: list[tuple[float, float]] = []
     for k in range(max(legs - 2, 2)):
         ends = (0.0, length + 2.0 * radius) if k % 2 == 0 else (length + 2.0 * radius, 0.0)
-        points += [
-            tuple(a * end + side * b * k * spacing for a, b in zip(along, across, strict=True))
-            for end in ends
-        ]
+        beside = side * k * spacing
+        points += [(along[0] * end + across[0] * beside, along[1] * end + across[1] * beside) for end in ends]
     return CompositePath(smooth(points, Smoothing(kind="circular", radius=radius)))

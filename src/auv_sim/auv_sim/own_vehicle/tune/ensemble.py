@@ -53,8 +53,8 @@ def ensemble(
     Args:
         vehicle: as its file has it.
         members: how many, the vehicle included.
-        spread: half width of the uncertainty of every coefficient, of the rudder's rate and of its dead time, a
-            share; drawn evenly.
+        spread: half width of the uncertainty of every coefficient, of the rudder's rate and of its dead time,
+            a share; drawn evenly.
         random: where the numbers come from.
         own: half widths of single coefficients, shares, in place of `spread`.
 

@@ -13,12 +13,14 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from auv_msgs_py.settings.schema import leaves
 from auv_path_following.control.autopilot import AutopilotConfig
+from auv_path_following.control.hull_model import tightest_turn
 from auv_path_following.control.nism import NismConfig
 from auv_path_following.control.pitch_plane import pitch_gains
 from auv_path_following.control.reference_model import ReferenceConfig, ReferenceLimits
 from auv_path_following.control.rule.fin_response import FinResponse, response_of
-from auv_path_following.control.rule.gain_rule import RATE_SHARE, RuledGains, gains_for
+from auv_path_following.control.rule.gain_rule import RuledGains, gains_for
 from auv_path_following.guidance.acceptance import cornering_within
 from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.guidance.ruled_guidance import with_gains
@@ -26,11 +28,12 @@ from auv_path_following.vehicle import Vehicle
 
 Vector = npt.NDArray[np.float64]
 
-#: Largest acceleration of the reference over b times the full rudder angle, and of its rate over the turn.
-LARGEST_ACCELERATION, LARGEST_RATE = 0.8, RATE_SHARE
+#: Largest acceleration of the reference over b times the full rudder angle, and its largest rate over u0/R of
+#: the steady turn: a corner is over before the turn has cost speed, so this is more than the steady rate.
+LARGEST_ACCELERATION, LARGEST_RATE = 0.8, 0.9
 
 
-class Flown(NamedTuple):
+class GainSet(NamedTuple):
     """Settings that a flight takes.
 
     Attributes:
@@ -59,7 +62,7 @@ VARIABLES = (
     Variable("k3 k4 over w_c", 0.01, 0.25),
     Variable("w_r over w_c", 0.02, 0.4),
     Variable("acceleration over b times full rudder", 0.03, LARGEST_ACCELERATION),
-    Variable("rate over steady turn", 0.3, LARGEST_RATE),
+    Variable("rate over u0/R", 0.2, LARGEST_RATE),
     Variable("look-ahead times w_r over speed", 0.7, 12.0),
     Variable("turn rate at corners over rate", 0.5, 2.0),
     Variable("lead at corners over that of the limits", 0.3, 2.0),
@@ -76,6 +79,7 @@ class GainSpace:
         step: between two odometries, s.
 
     Attributes:
+        fastest: u0/R of the steady turn, rad/s.
         ruled: gains of the rule.
         first: their point, within the bounds.
     """
@@ -84,6 +88,7 @@ class GainSpace:
         self.vehicle, self._guidance = vehicle, guidance
         self.response: FinResponse = response_of(vehicle)
         self.delay = max(delay + vehicle.rudder.dead_time + 0.5 * step, 0.02)
+        self.fastest = self.response.speed / tightest_turn(vehicle).radius
         self.ruled: RuledGains = gains_for(vehicle, delay, step)
         self.first = self._clipped(self._point_of_rule())
 
@@ -97,7 +102,7 @@ class GainSpace:
             nism.k3 * nism.k4 / w_c,
             w_r / w_c,
             reference.max_acceleration / (response.effect * self.vehicle.rudder.max_angle),
-            reference.max_rate / response.turn,
+            reference.max_rate / self.fastest,
             heading.lookahead * w_r / response.speed,
             1.0,
             1.0,
@@ -108,15 +113,15 @@ class GainSpace:
     def _clipped(point: Vector) -> Vector:
         return np.clip(point, *bounds())
 
-    def rule(self) -> Flown:
+    def rule(self) -> GainSet:
         """Return the gains of the rule."""
         guidance = with_gains(self._guidance, self.ruled)
         pitch = self.ruled.pitch
-        return Flown(
+        return GainSet(
             guidance, self.ruled.heading.autopilot, pitch_gains() if pitch is None else pitch.autopilot
         )
 
-    def gains(self, point: Sequence[float] | Vector) -> Flown:
+    def gains(self, point: Sequence[float] | Vector) -> GainSet:
         """Return the gains at a point (logarithms of `VARIABLES`, clipped to their bounds)."""
         ratios = np.exp(self._clipped(np.asarray(point, float))).tolist()
         crossing, a, c, slower, pull, turn, ahead, corner_rate, corner_lead = ratios
@@ -125,28 +130,40 @@ class GainSpace:
         w_r = slower * w_c
         kp = ruled.nism.kp
         acceleration = pull * response.effect * self.vehicle.rudder.max_angle
-        rate = turn * response.turn
+        rate = turn * self.fastest
         k1 = ruled.nism.k1 / ruled.reference.max_rate * rate
         k3 = ruled.nism.k3 / ruled.reference.max_acceleration * acceleration
-        nism = NismConfig(
-            k1=k1, k2=a * w_c / k1, k3=k3, k4=c * w_c / k3,
-            k5=1.0 / (kp * abs(response.gain(w_c))), kp=kp, ks=0.0,
+        k5 = 1.0 / (kp * abs(response.gain(w_c)))
+        nism = _allowed(
+            NismConfig, k1=k1, k2=a * w_c / k1, k3=k3, k4=c * w_c / k3, k5=k5, kp=kp, ks=0.0
         )  # fmt: skip
         jerk = ruled.reference.max_jerk
-        reference = ReferenceConfig(
-            enabled=True, bandwidth=w_r, max_rate=rate, max_acceleration=acceleration, max_jerk=jerk
-        )
+        reference = _allowed(
+            ReferenceConfig, enabled=True, bandwidth=w_r, max_rate=rate, max_acceleration=acceleration,
+            max_jerk=jerk,
+        )  # fmt: skip
         base = self.rule()
         guidance = with_lookahead(base.guidance, ahead * response.speed / w_r)
         by_limits = cornering_within(ReferenceLimits(rate, acceleration, jerk))
         switching = dataclasses.replace(
             guidance.switching, radius=0.0, turn_rate=corner_rate * rate, lead=corner_lead * by_limits.lead
         )
-        return Flown(
+        return GainSet(
             dataclasses.replace(guidance, switching=switching),
-            dataclasses.replace(base.autopilot, nism=nism, reference=reference),
+            AutopilotConfig(nism=nism, reference=reference),
             base.pitch,
         )
+
+
+def _allowed(cls: type[Any], **values: Any) -> Any:
+    """Return settings whose numbers are cut to the largest that their class allows."""
+    largest = {leaf.name: leaf.maximum for leaf in leaves(cls)}
+    return cls(
+        **{
+            name: value if isinstance(value, bool) or largest[name] is None else min(value, largest[name])
+            for name, value in values.items()
+        }
+    )
 
 
 def with_lookahead(config: PathFollowerConfig, lookahead: float) -> PathFollowerConfig:

@@ -37,7 +37,7 @@ UNSTABLE = 2.0
 _RESOLVED, _STILL = 0.02, 0.01
 
 
-class Terms(NamedTuple):
+class CostTerms(NamedTuple):
     """The parts of an objective.
 
     Attributes:
@@ -69,7 +69,7 @@ class Terms(NamedTuple):
         )
 
 
-def terms_of(flown: Flights, ruled: Flights, is_line: Any, unstable: float = 0.0) -> Terms:
+def terms_of(flown: Flights, ruled: Flights, is_line: Any, unstable: float = 0.0) -> CostTerms:
     """Return the objective's parts of one hull.
 
     Args:
@@ -79,7 +79,7 @@ def terms_of(flown: Flights, ruled: Flights, is_line: Any, unstable: float = 0.0
     """
     along = ~is_line
     finished = along & flown.completed & ruled.completed
-    return Terms(
+    return CostTerms(
         distance_cost(flown.rms_distance[finished], ruled.rms_distance[finished]),
         distance_cost(flown.off_corners_rms_distance[finished], ruled.off_corners_rms_distance[finished]),
         _mean(
@@ -96,6 +96,25 @@ def cycling(rates: Any) -> float:
     known = np.where(np.isfinite(rates), np.maximum(rates, 1e-9), math.inf)
     cost = CYCLING * (np.log(known / RESTLESS) / math.log(LIMIT_CYCLE / RESTLESS))
     return float(np.sum(np.clip(cost, 0.0, WORST)))
+
+
+class Ratios(NamedTuple):
+    """Geometric means over the flights along courses, against the rule: rms, away from corners, travel."""
+
+    rms: float
+    off: float
+    travel: float
+
+
+def ratios_of(flown: Flights, ruled: Flights, is_line: Any) -> Ratios:
+    """Return the ratios of the flights along courses that completed with both; arguments as of `terms_of`."""
+    both = ~is_line & flown.completed & ruled.completed
+    pairs = (
+        (flown.rms_distance, ruled.rms_distance, _RESOLVED),
+        (flown.off_corners_rms_distance, ruled.off_corners_rms_distance, _RESOLVED),
+        (flown.rudder_travel_per_metre, ruled.rudder_travel_per_metre, _STILL),
+    )
+    return Ratios(*(math.exp(_mean(_ratio(own[both], other[both], added))) for own, other, added in pairs))
 
 
 def distance_cost(flown: Any, ruled: Any) -> float:

@@ -30,14 +30,14 @@ LARGEST_FACTOR, LONGEST = 16.0, 1.0
 _HALVINGS = 20
 
 
-class Plane(NamedTuple):
+class LinearPlane(NamedTuple):
     """A hull in one plane, linear: x' = A x + B delta with x = (sway or its equal, rate, angle)."""
 
     A: Matrix
     B: Matrix
 
 
-class Loop(NamedTuple):
+class SampledLoop(NamedTuple):
     """A controller from (angle, rate) to the fin: z' = F z + G y, delta = H z + K y, at each odometry."""
 
     F: Matrix
@@ -61,7 +61,7 @@ class Margins(NamedTuple):
     is_stable: bool
 
 
-def yaw_plane(vehicle: Vehicle) -> Plane:
+def yaw_plane(vehicle: Vehicle) -> LinearPlane:
     """Return a vehicle in yaw at the speed of its design; without a hull from what was measured."""
     speed = response_of(vehicle).speed
     if vehicle.hull is None:
@@ -69,18 +69,20 @@ def yaw_plane(vehicle: Vehicle) -> Plane:
     model = HullModel(vehicle)
     (vv, vr), (rv, rr) = slopes(model.sway_yaw, speed, 0.0, 0.0)
     sway, yaw = rudder_gain(model.sway_yaw, speed)
-    return Plane(np.array([[vv, vr, 0.0], [rv, rr, 0.0], [0.0, 1.0, 0.0]]), np.array([[sway], [yaw], [0.0]]))
+    return LinearPlane(
+        np.array([[vv, vr, 0.0], [rv, rr, 0.0], [0.0, 1.0, 0.0]]), np.array([[sway], [yaw], [0.0]])
+    )
 
 
-def _measured_plane(vehicle: Vehicle) -> Plane:
+def _measured_plane(vehicle: Vehicle) -> LinearPlane:
     """Return the state space of -b (s - zero)/((s - pole)(s - divergence)), and the heading."""
     f = response_of(vehicle)
     # The lag (s - zero)/(s - pole) = 1 + (pole - zero)/(s - pole), before the growth 1/(s - divergence).
     A = np.array([[f.pole, 0.0, 0.0], [f.pole - f.zero, f.divergence, 0.0], [0.0, 1.0, 0.0]])
-    return Plane(A, np.array([[-f.effect], [-f.effect], [0.0]]))
+    return LinearPlane(A, np.array([[-f.effect], [-f.effect], [0.0]]))
 
 
-def loop_of(config: AutopilotConfig, vehicle: Vehicle, step: float) -> Loop:
+def loop_of(config: AutopilotConfig, vehicle: Vehicle, step: float) -> SampledLoop:
     """Return the heading autopilot, linear where it follows a constant course.
 
     Args:
@@ -105,10 +107,10 @@ def loop_of(config: AutopilotConfig, vehicle: Vehicle, step: float) -> Loop:
         return np.array([command.rudder, *_numbers(after)])
 
     slopes_of = _jacobian(respond, 2 + len(list(_numbers(begun))))
-    return Loop(slopes_of[1:, 2:], slopes_of[1:, :2], slopes_of[:1, 2:], slopes_of[:1, :2])
+    return SampledLoop(slopes_of[1:, 2:], slopes_of[1:, :2], slopes_of[:1, 2:], slopes_of[:1, :2])
 
 
-def margins(plane: Plane, loop: Loop, step: float, delay: float) -> Margins:
+def margins(plane: LinearPlane, loop: SampledLoop, step: float, delay: float) -> Margins:
     """Return the margins of a loop.
 
     Args:
@@ -125,12 +127,14 @@ def margins(plane: Plane, loop: Loop, step: float, delay: float) -> Margins:
     return Margins(math.exp(up), math.exp(down), later, True)
 
 
-def is_stable(plane: Plane, loop: Loop, step: float, delay: float, factor: float = 1.0) -> bool:
+def is_stable(plane: LinearPlane, loop: SampledLoop, step: float, delay: float, factor: float = 1.0) -> bool:
     """Return whether every deviation decays, with the loop's gain times `factor`."""
     return spectral_radius(plane, loop, step, delay, factor) < 1.0 - 1e-9
 
 
-def spectral_radius(plane: Plane, loop: Loop, step: float, delay: float, factor: float = 1.0) -> float:
+def spectral_radius(
+    plane: LinearPlane, loop: SampledLoop, step: float, delay: float, factor: float = 1.0
+) -> float:
     """Return the factor by which the slowest deviation changes from one odometry to the next."""
     whole = math.floor(delay / step + 1e-9)
     part = max(delay - whole * step, 0.0)
@@ -159,8 +163,8 @@ def _picked(size: int, k: int) -> Matrix:
     return row
 
 
-def _sampled(plane: Plane, step: float, part: float) -> tuple[Matrix, Matrix, Matrix]:
-    """Return x after a step: matrix of x, of the command that arrives `part` s after its begin, of the old."""
+def _sampled(plane: LinearPlane, step: float, part: float) -> tuple[Matrix, Matrix, Matrix]:
+    """Return x after a step: matrices of x, of the command that arrives after `part` s, of the one before."""
 
     def held(seconds: float) -> tuple[Matrix, Matrix]:
         block = np.zeros((4, 4))

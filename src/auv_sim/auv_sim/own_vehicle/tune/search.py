@@ -11,9 +11,9 @@ import numpy as np
 from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.batch.scenarios import Courses
 from auv_sim.own_vehicle.tune import sampled_loop
-from auv_sim.own_vehicle.tune.gain_space import Flown, GainSpace, Vector, bounds
-from auv_sim.own_vehicle.tune.objective import LEAST_DELAY, LEAST_GAIN, Terms, terms_of, worst
-from auv_sim.own_vehicle.tune.sampled_loop import Margins, Plane
+from auv_sim.own_vehicle.tune.gain_space import GainSet, GainSpace, Vector, bounds
+from auv_sim.own_vehicle.tune.objective import LEAST_DELAY, LEAST_GAIN, CostTerms, terms_of, worst
+from auv_sim.own_vehicle.tune.sampled_loop import LinearPlane, Margins
 from auv_sim.own_vehicle.tune.trial_flights import SEARCHED, Amount, Conditions, draw_flights, fly_all
 
 #: First step of the search, in logarithms of the ratios.
@@ -63,7 +63,7 @@ class Found(NamedTuple):
 class MarginsAsked(NamedTuple):
     """The margins that a candidate must have on one hull; see `objective`."""
 
-    plane: Plane
+    plane: LinearPlane
     delay: float
     step: float
     up: float
@@ -71,7 +71,7 @@ class MarginsAsked(NamedTuple):
     later: float
 
 
-def margins_of(flown: Flown, model: Vehicle, hull: Vehicle, conditions: Conditions) -> Margins:
+def margins_of(flown: GainSet, model: Vehicle, hull: Vehicle, conditions: Conditions) -> Margins:
     """Return the margins of gains on a hull, at the slowest rate."""
     step = max(conditions.steps)
     loop = sampled_loop.loop_of(flown.autopilot, model, step)
@@ -92,7 +92,7 @@ def margins_asked(space: GainSpace, hull: Vehicle, conditions: Conditions) -> Ma
     )  # fmt: skip
 
 
-def lacking(asked: MarginsAsked, flown: Flown, model: Vehicle) -> float:
+def lacking(asked: MarginsAsked, flown: GainSet, model: Vehicle) -> float:
     """Return the share of three margins (up, down, delay) that a candidate lacks."""
     loop = sampled_loop.loop_of(flown.autopilot, model, asked.step)
     cases = (
@@ -105,9 +105,9 @@ def lacking(asked: MarginsAsked, flown: Flown, model: Vehicle) -> float:
 
 
 def assess(
-    problem: Problem, candidates: Sequence[Flown], amount: Amount, stream: Sequence[int],
+    problem: Problem, candidates: Sequence[GainSet], amount: Amount, stream: Sequence[int],
     hulls: Sequence[Vehicle], threads: int, courses: Courses,
-) -> list[list[Terms]]:  # fmt: skip
+) -> list[list[CostTerms]]:  # fmt: skip
     """Fly candidates on hulls, with flights of their own draw; return the terms by candidate and hull.
 
     Args:
@@ -121,7 +121,7 @@ def assess(
     """
     space, conditions = problem.space, problem.conditions
     model = space.vehicle
-    terms: list[list[Terms]] = [[] for _ in candidates]
+    terms: list[list[CostTerms]] = [[] for _ in candidates]
     for k, hull in enumerate(hulls):
         random = np.random.default_rng([problem.seed, *stream, k])
         flights = draw_flights(hull, conditions, amount, random)

@@ -1,6 +1,6 @@
 """The flights by which gains are judged: straight lines from hard starts, courses in currents, a sea.
 
-Everything is drawn: starts, rates, delays, courses, currents. Search and acceptance draw from different seeds.
+Starts, rates, delays, courses and currents are drawn. Search and acceptance draw from different seeds.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from auv_sim.flight.batch import engine
 from auv_sim.flight.batch.flight_figures import Flights
 from auv_sim.flight.batch.scenarios import Courses
 from auv_sim.flight.scenario import Scenario
-from auv_sim.own_vehicle.tune.drawn_courses import drawn_course
-from auv_sim.own_vehicle.tune.gain_space import Flown
+from auv_sim.own_vehicle.tune.drawn_courses import Kind, drawn_course
+from auv_sim.own_vehicle.tune.gain_space import GainSet
 from auv_sim.vehicle.hulls.rigid_body import BodyState, body_at
 from auv_sim.vehicle.remus import PlantState
 from auv_sim.vehicle.sea import Sea
@@ -33,7 +33,7 @@ LINE_TIME = 120.0
 #: Share by which the delay of a flight on a line may be longer than stated.
 LATER = 0.15
 #: Starts on a line: largest distance beside it over the radius of the turn, largest rate over the turn's.
-BESIDE, TURNING = 4.0, 1.0
+BESIDE, TURNING = 4.0, 0.75
 #: Current over the speed through the water, drawn evenly up to this.
 STRONGEST = 0.25
 #: A flight along a course ends at this many times the time that it takes straight ahead, and 60 s later.
@@ -88,40 +88,53 @@ def draw_flights(
         amount: how many.
         random: where the numbers come from.
     """
-    c, thrust = conditions, thrust_of(vehicle)
-    speed, turn = vehicle.speed_at(thrust), tightest_turn(vehicle)
+    return [
+        *_on_lines(vehicle, conditions, amount.starts, random),
+        *_along_courses(vehicle, conditions, amount, random),
+    ]
+
+
+def _on_lines(
+    vehicle: Vehicle, conditions: Conditions, starts: int, random: np.random.Generator
+) -> list[Flight]:
+    thrust, late, turn = thrust_of(vehicle), conditions.delay, tightest_turn(vehicle)
+    whole, speed = late + vehicle.rudder.dead_time, vehicle.speed_at(thrust)
     flights = []
-    line = LINE
-    for step in c.steps:
-        for _ in range(amount.starts):
+    for step in conditions.steps:
+        for _ in range(starts):
             beside = random.uniform(-1.0, 1.0) * BESIDE * turn.radius
-            heading, rate = random.uniform(-math.pi, math.pi), random.uniform(-1.0, 1.0) * TURNING
-            start = start_at(vehicle, beside, heading, speed, rate * 0.75 * turn.rate)
-            late = c.delay + random.uniform(0.0, LATER) * (c.delay + vehicle.rudder.dead_time)
-            flown = Scenario(
-                path=line, vehicle=vehicle, thrust=thrust, initial=start, step=step, command_delay=late,
-                time_limit=LINE_TIME,
+            heading, rate = random.uniform(-math.pi, math.pi), random.uniform(-1.0, 1.0) * TURNING * turn.rate
+            scenario = Scenario(
+                path=LINE, vehicle=vehicle, thrust=thrust, step=step, time_limit=LINE_TIME,
+                initial=start_at(vehicle, beside, heading, speed, rate),
+                command_delay=late + random.uniform(0.0, LATER) * whole,
             )  # fmt: skip
-            flights.append(Flight(flown, True))
-    for kind, flowing, sea, number in (
-        ("sharp", False, None, amount.courses),
-        ("sharp", True, None, amount.courses),
-        ("rounded", False, None, amount.courses),
-        ("rounded", True, None, amount.courses),
-        ("survey", True, None, amount.courses),
-        ("rounded", False, c.sea, amount.at_sea if c.sea is not None else 0),
-    ):
+            flights.append(Flight(scenario, True))
+    return flights
+
+
+def _along_courses(
+    vehicle: Vehicle, conditions: Conditions, amount: Amount, random: np.random.Generator
+) -> list[Flight]:
+    thrust, turn = thrust_of(vehicle), tightest_turn(vehicle)
+    speed, n = vehicle.speed_at(thrust), amount.courses
+    kinds: list[tuple[Kind, float, Sea | None, int]] = [
+        ("sharp", 0.0, None, n), ("sharp", STRONGEST, None, n),
+        ("rounded", 0.0, None, n), ("rounded", STRONGEST, None, n), ("survey", STRONGEST, None, n),
+        ("rounded", 0.0, conditions.sea, amount.at_sea if conditions.sea is not None else 0),
+    ]  # fmt: skip
+    flights = []
+    for kind, strongest, sea, number in kinds:
         for _ in range(number):
-            path = drawn_course(kind, turn.radius, amount.legs, random)  # type: ignore[arg-type]
-            size, course = random.uniform(0.3, 1.0) * STRONGEST * speed, random.uniform(-math.pi, math.pi)
-            current = Current(size * math.cos(course), size * math.sin(course)) if flowing else Current(0, 0)
-            seed = int(random.integers(2**31))
-            limit = PATIENCE * path.length / speed + 60.0
-            flown = Scenario(
-                path=path, vehicle=vehicle, thrust=thrust, current=current, sea=sea, seed=seed, step=c.step,
-                command_delay=c.delay, time_limit=limit, initial=_on_path(vehicle, path, speed),
+            path = drawn_course(kind, turn.radius, amount.legs, random)
+            size, course = random.uniform(0.3, 1.0) * strongest * speed, random.uniform(-math.pi, math.pi)
+            scenario = Scenario(
+                path=path, vehicle=vehicle, thrust=thrust, initial=_on_path(vehicle, path, speed),
+                current=Current(size * math.cos(course), size * math.sin(course)), sea=sea,
+                seed=int(random.integers(2**31)), step=conditions.step, command_delay=conditions.delay,
+                time_limit=PATIENCE * path.length / speed + 60.0,
             )  # fmt: skip
-            flights.append(Flight(flown, False))
+            flights.append(Flight(scenario, False))
     return flights
 
 
@@ -145,7 +158,7 @@ def _on_path(vehicle: Vehicle, path: CompositePath, speed: float) -> PlantState 
     return start_at(vehicle, y, chi, speed, 0.0, x)
 
 
-def with_laws(flight: Flight, flown: Flown, model: Vehicle) -> Scenario:
+def with_laws(flight: Flight, flown: GainSet, model: Vehicle) -> Scenario:
     """Return a flight with gains; on a line guidance begins at once, without an approach.
 
     Args:
@@ -163,7 +176,7 @@ def with_laws(flight: Flight, flown: Flown, model: Vehicle) -> Scenario:
 
 
 def fly_all(
-    flights: Sequence[Flight], candidates: Sequence[Flown], model: Vehicle, threads: int, courses: Courses
+    flights: Sequence[Flight], candidates: Sequence[GainSet], model: Vehicle, threads: int, courses: Courses
 ) -> list[Flights]:
     """Fly every flight with every set of gains; return the figures of each set."""
     scenarios = [with_laws(flight, flown, model) for flown in candidates for flight in flights]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
 from pathlib import Path
 from typing import Any
 
@@ -18,9 +17,9 @@ from auv_path_following.vehicle import Vehicle
 from auv_sim.command_line import EXIT_DONE, to_type
 from auv_sim.flight.batch.compiled import COMPILED
 from auv_sim.own_vehicle.tune import tuned_file, tuned_picture
-from auv_sim.own_vehicle.tune.acceptance import Held, Verdict, judge
 from auv_sim.own_vehicle.tune.ensemble import check_simulated, ensemble, planar
-from auv_sim.own_vehicle.tune.gain_space import Flown, GainSpace, ratios_at
+from auv_sim.own_vehicle.tune.gain_space import GainSet, GainSpace, ratios_at
+from auv_sim.own_vehicle.tune.gain_verdict import GainVerdict, Held, judge
 from auv_sim.own_vehicle.tune.sampled_loop import LARGEST_FACTOR, Margins
 from auv_sim.own_vehicle.tune.search import Budget, Problem, search
 from auv_sim.own_vehicle.tune.trial_flights import Amount, Conditions, draw_flights, with_laws
@@ -103,17 +102,18 @@ def _explain(console: Console, problem: Problem) -> None:
     late = 1e3 * (conditions.delay + space.vehicle.rudder.dead_time)
     console.print(
         f"{space.vehicle.name}: b {f.effect:.2f} 1/s², p {f.divergence:.2f} 1/s, turn {f.turn:.2f} rad/s, "
-        f"delay {late:.0f} ms, {rates} odometries a second, {len(problem.hulls)} hulls"
+        f"delay {late:.0f} ms, {rates} odometries a second"
     )
     for notice in space.ruled.notices:
         console.print(f"notice {notice}", markup=False)
     console.print(
-        f"crossover by the rule {heading.crossover:.2f} 1/s, p τ {heading.product:.2f}. Objective: distance and "
-        "rudder travel against the rule, no limit cycle, margins; the worst hull counts (docs/tuning.md)"
+        f"crossover by the rule {heading.crossover:.2f} 1/s, p τ {heading.product:.2f}; {len(problem.hulls)} "
+        "hulls, the worst counts\n"
+        "objective: distance and rudder travel against the rule, no limit cycle, margins (docs/tuning.md)"
     )
 
 
-def _report(console: Console, verdict: Verdict) -> None:
+def _report(console: Console, verdict: GainVerdict) -> None:
     for reason in verdict.why:
         console.print(f"not accepted: {reason}", markup=False)
     table = headed_table(
@@ -131,9 +131,8 @@ def _report(console: Console, verdict: Verdict) -> None:
 
 
 def _cells(held: Held) -> list[str]:
-    ratios = (held.terms.rms, held.terms.off, held.terms.travel)
     return [
-        str(held.flights), *(f"× {math.exp(ratio):.2f}" for ratio in ratios),
+        str(held.flights), *(f"× {ratio:.2f}" for ratio in held.ratios),
         f"{held.unrest:.2f}", f"{held.ruled_unrest:.2f}",
     ]  # fmt: skip
 
@@ -148,26 +147,31 @@ def words_of(margins: Margins) -> str:
     )
 
 
-def _comments(options: argparse.Namespace, own: Vehicle, problem: Problem, verdict: Verdict) -> list[str]:
+def _comments(options: argparse.Namespace, own: Vehicle, problem: Problem, verdict: GainVerdict) -> list[str]:
     words = {
         "--delay": options.delay, "--rate": options.rate, "--slowest": options.slowest, "--sea": options.sea,
         "--spread": options.spread, "--members": options.members, "--generations": options.generations,
         "--seed": options.seed,
     }  # fmt: skip
     flags = [part for name, value in words.items() for part in (name, f"{value}")]
-    kind = "found by a search" if verdict.accepted else "by the rule of docs/tuning.md, the search found none better"
+    kind = (
+        "found by a search"
+        if verdict.accepted
+        else "by the rule of docs/tuning.md, the search found none better"
+    )
     comments = [
         f"Gains for {own.name}, {kind}:",
         " " + to_type("vehicle.py", "tune", options.vehicle, *flags),
         f"Delay {1e3 * (options.delay + own.rudder.dead_time):.0f} ms, of which the fin's dead time "
-        f"{1e3 * own.rudder.dead_time:.0f} ms. {len(problem.hulls)} hulls. Margins {words_of(verdict.margins)}.",
+        f"{1e3 * own.rudder.dead_time:.0f} ms. Margins {words_of(verdict.margins)}.",
     ]
     for k, held in enumerate(verdict.held):
-        distance, off, travel = (math.exp(v) for v in (held.terms.rms, held.terms.off, held.terms.travel))
+        distance, off, travel = held.ratios
         name = "the vehicle" if k == 0 else f"drawn hull {k}"
         comments.append(
-            f"Held out, {name}, {held.flights} flights against the rule: distance {distance:.2f} times, off corners "
-            f"{off:.2f}, rudder travel {travel:.2f}; late yaw rate on lines at most {held.unrest:.2f} deg/s."
+            f"Held out, {name}, {held.flights} flights against the rule: distance {distance:.2f} times, off "
+            f"corners {off:.2f}, rudder travel {travel:.2f}; late yaw rate on lines at most "
+            f"{held.unrest:.2f} deg/s."
         )
     comments += [f"Not accepted: {reason}." for reason in verdict.why]
     ratios = ", ".join(f"{name} {value:.3g}" for name, value in ratios_at(verdict.point).items())
@@ -176,7 +180,12 @@ def _comments(options: argparse.Namespace, own: Vehicle, problem: Problem, verdi
 
 
 def _draw(
-    picture: Path, own: Vehicle, problem: Problem, written: Flown, verdict: Verdict, history: tuple[float, ...]
+    picture: Path,
+    own: Vehicle,
+    problem: Problem,
+    written: GainSet,
+    verdict: GainVerdict,
+    history: tuple[float, ...],
 ) -> None:
     space = problem.space
     one = Amount(starts=0, courses=1, legs=5, at_sea=0)
@@ -186,6 +195,6 @@ def _draw(
     gains = [("rule", space.rule())] + ([("tuned", written)] if verdict.accepted else [])
     flights = [(label, with_laws(flight, flown, space.vehicle)) for label, flown in gains]
     state = "tuned" if verdict.accepted else "the rule's gains stay"
-    title = f"{own.name}: {state}. A held-out course in {np.hypot(*flight.scenario.current[:2]):.2f} m/s of current"
+    speed = np.hypot(*flight.scenario.current[:2])
+    title = f"{own.name}: {state}. A held-out course in {speed:.2f} m/s of current"
     tuned_picture.draw(picture, title, flight.scenario.path, flights, history)
-

@@ -11,7 +11,7 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.settings import params_file, yaml_file
 from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.settings.schema import flattened, nested
-from auv_sim.own_vehicle.tune.gain_space import Flown
+from auv_sim.own_vehicle.tune.gain_space import GainSet
 from auv_sim.sim_parameters import SUITE
 
 #: Significant digits of a gain.
@@ -19,7 +19,7 @@ _DIGITS = 5
 _WIDTH = 108
 
 
-def settings_of(flown: Flown, base: Mapping[str, Any]) -> dict[str, Any]:
+def settings_of(flown: GainSet, base: Mapping[str, Any]) -> dict[str, Any]:
     """Return all nodes' settings with gains in place of their own; numbers as the file will have them.
 
     Args:
@@ -27,7 +27,7 @@ def settings_of(flown: Flown, base: Mapping[str, Any]) -> dict[str, Any]:
         base: node name -> its settings, for everything else.
     """
     guidance, steering = base[topics.GUIDANCE], base[topics.AUTOPILOT]
-    changed = {
+    changed: dict[str, dict[str, Any]] = {
         topics.GUIDANCE: {"guidance": flown.guidance},
         topics.AUTOPILOT: {"autopilot": flown.autopilot, "pitch": flown.pitch},
     }
@@ -43,7 +43,9 @@ def settings_of(flown: Flown, base: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _flat(groups: Mapping[str, Any]) -> dict[str, Any]:
-    return {f"{name}.{key}": value for name, group in groups.items() for key, value in flattened(group).items()}
+    return {
+        f"{name}.{key}": value for name, group in groups.items() for key, value in flattened(group).items()
+    }
 
 
 def _rounded(value: Any) -> Any:
@@ -52,7 +54,7 @@ def _rounded(value: Any) -> Any:
     return list(value) if isinstance(value, tuple) else value
 
 
-def write(target: Path, flown: Flown, base: Mapping[str, Any], comments: Iterable[str]) -> Flown:
+def write(target: Path, flown: GainSet, base: Mapping[str, Any], comments: Iterable[str]) -> GainSet:
     """Write the file; return the gains as a reader gets them.
 
     Args:
@@ -78,7 +80,7 @@ def write(target: Path, flown: Flown, base: Mapping[str, Any], comments: Iterabl
     return read(target)
 
 
-def read(file: Path) -> Flown:
+def read(file: Path) -> GainSet:
     """Return the gains of a parameter file.
 
     Raises:
@@ -87,7 +89,7 @@ def read(file: Path) -> Flown:
     return flown_of(params_file.load(file, SUITE))
 
 
-def flown_of(settings: Mapping[str, Any]) -> Flown:
+def flown_of(settings: Mapping[str, Any]) -> GainSet:
     """Return the gains among all nodes' settings."""
     steering = settings[topics.AUTOPILOT]
-    return Flown(settings[topics.GUIDANCE].guidance, steering.autopilot, steering.pitch)
+    return GainSet(settings[topics.GUIDANCE].guidance, steering.autopilot, steering.pitch)

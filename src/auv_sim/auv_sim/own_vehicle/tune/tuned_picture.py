@@ -6,13 +6,14 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from auv_path_following.curves.composite import CompositePath
-from auv_sim.flight.loops import followed_path
 from auv_sim.flight.batch import engine
 from auv_sim.flight.flown_rows import FlownRows
+from auv_sim.flight.loops import followed_path
 from auv_sim.flight.metrics import under_way
 from auv_sim.flight.scenario import Scenario
 from auv_sim.views.plot_style import BLUE, INK, MUTED, ORANGE, PATH, save, style
@@ -49,30 +50,38 @@ def draw(
     x, y, _ = path.polyline(1.0)
     over.plot(y, x, color=PATH, linewidth=5.0, solid_capstyle="round", label="path")
     for (label, scenario), colour in zip(flights, _COLOURS, strict=False):
-        followed = followed_path(scenario)
-        run = under_way(engine.track(scenario), followed.n)
-        t = run.t - run.t[0]
-        x, y = run.track
-        distance = FlownRows(run, followed).distance
-        text = f"{label}: rms {np.sqrt(np.mean(distance**2)):.2f} m, largest {distance.max():.2f} m"
-        over.plot(y, x, color=colour, linewidth=1.4, label=label)
-        away.plot(t, distance, color=colour, linewidth=1.2, label=text)
-        rudder.plot(t, np.degrees(run.rudder), color=colour, linewidth=0.9, label=label)
-        moved = np.degrees(np.abs(np.diff(run.rudder, prepend=run.rudder[:1])))
-        spent.plot(t, np.cumsum(moved), color=colour, linewidth=1.4)
+        _add(label, scenario, colour, (over, away, rudder, spent))
     over.set_aspect("equal", adjustable="datalim")
     over.set_xlabel("east y (m)", color=INK)
     spent.set_xlabel("time (s)", color=INK)
-    away.set_ylim(bottom=0.0)
-    spent.set_ylim(bottom=0.0)
+    for axes in (away, spent):
+        axes.set_ylim(bottom=0.0)
     for axes in (over, away):
-        axes.legend(frameon=False, fontsize=9, loc="best")
+        axes.legend(frameon=False, fontsize=9)
     if history:
-        found = figure.add_subplot(grid[2, 0])
-        style(found, "objective, the rule has 0")
-        found.axhline(0.0, color=PATH, linewidth=1.0)
-        found.plot(range(1, len(history) + 1), history, color=MUTED, linewidth=1.4)
-        found.set_xlabel("generation; each flies other courses", color=INK)
+        _add_search(figure.add_subplot(grid[2, 0]), history)
     figure.suptitle(title, color=INK, fontsize=12)
     figure.tight_layout(rect=(0.0, 0.0, 1.0, 0.97))
     save(figure, target)
+
+
+def _add(label: str, scenario: Scenario, colour: str, panels: Sequence[Axes]) -> None:
+    """Add one flight to the panels of track, distance, rudder and travel."""
+    over, away, rudder, spent = panels
+    followed = followed_path(scenario)
+    run = under_way(engine.track(scenario), followed.n)
+    t, (x, y) = run.t - run.t[0], run.track
+    distance = FlownRows(run, followed).distance
+    text = f"{label}: rms {np.sqrt(np.mean(distance**2)):.2f} m, largest {distance.max():.2f} m"
+    over.plot(y, x, color=colour, linewidth=1.4, label=label)
+    away.plot(t, distance, color=colour, linewidth=1.2, label=text)
+    rudder.plot(t, np.degrees(run.rudder), color=colour, linewidth=0.9)
+    moved = np.degrees(np.abs(np.diff(run.rudder, prepend=run.rudder[:1])))
+    spent.plot(t, np.cumsum(moved), color=colour, linewidth=1.4)
+
+
+def _add_search(axes: Axes, history: Sequence[float]) -> None:
+    style(axes, "objective")
+    axes.axhline(0.0, color=PATH, linewidth=1.0)
+    axes.plot(range(1, len(history) + 1), history, color=MUTED, linewidth=1.4)
+    axes.set_xlabel("generation, each with other courses; the rule has 0", color=INK)

@@ -1,7 +1,7 @@
 """Tune gains, look-ahead, corners and limits of the reference for a vehicle.
 
-Starts from the rule's gains (docs/tuning.md), flies thousands of drawn flights, and accepts what it finds only
-after flights that the search never saw. Otherwise the rule's gains stay. Writes a parameter file that
+Starts from the rule's gains (docs/tuning.md), flies thousands of drawn flights, and accepts what it finds
+only after flights that the search never saw. Otherwise the rule's gains stay. Writes a parameter file that
 `mission.py --params FILE` flies, and a picture beside it.
 """
 

@@ -15,7 +15,7 @@ from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.batch import engine
 from auv_sim.flight.batch.scenarios import Courses
 from auv_sim.flight.scenario import Scenario
-from auv_sim.own_vehicle.tune.gain_space import Flown
+from auv_sim.own_vehicle.tune.gain_space import GainSet
 from auv_sim.own_vehicle.tune.trial_flights import LINE, LINE_TIME, Flight, start_at, thrust_of, with_laws
 from auv_sim.studies.gains.study_hulls import late
 
@@ -39,7 +39,7 @@ class Figures(NamedTuple):
     completed: bool
 
 
-def unrest(hull: Vehicle, delay: float, step: float, gains: Flown) -> float:
+def unrest(hull: Vehicle, delay: float, step: float, gains: GainSet) -> float:
     """Return the rms yaw rate in the second minute on a line, deg/s: the worst of four starts.
 
     Args:
@@ -64,7 +64,7 @@ def unrest(hull: Vehicle, delay: float, step: float, gains: Flown) -> float:
     return float(np.max(np.nan_to_num(found.late_rms_yaw_rate, nan=math.inf)))
 
 
-def fly_courses(hull: Vehicle, gains: Flown, threads: int = 1) -> dict[tuple[str, bool], Figures]:
+def fly_courses(hull: Vehicle, gains: GainSet, threads: int = 1) -> dict[tuple[str, bool], Figures]:
     """Fly the missions in still water and in a current; return figures by (mission, in the current)."""
     thrust = thrust_of(hull)
     scenarios, keys = [], []
@@ -83,11 +83,13 @@ def fly_courses(hull: Vehicle, gains: Flown, threads: int = 1) -> dict[tuple[str
             )  # fmt: skip
             keys.append((name, flowing))
     found = engine.fly(scenarios, threads, courses=_courses)
-    rows = zip(
-        found.rms_distance, found.off_corners_rms_distance, found.rudder_travel_per_metre, found.completed,
-        strict=True,
-    )  # fmt: skip
-    return {key: Figures(*map(float, row[:3]), bool(row[3])) for key, row in zip(keys, rows, strict=True)}
+    return {
+        key: Figures(
+            float(found.rms_distance[k]), float(found.off_corners_rms_distance[k]),
+            float(found.rudder_travel_per_metre[k]), bool(found.completed[k]),
+        )
+        for k, key in enumerate(keys)
+    }  # fmt: skip
 
 
 _missions: dict[str, mission_file.Mission] = {}

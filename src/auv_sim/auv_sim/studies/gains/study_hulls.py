@@ -49,8 +49,8 @@ def stable_hull() -> Vehicle:
 def drawn_hull(number: int) -> Vehicle:
     """Draw a hull; every second one is drawn around the one that is stable in yaw.
 
-    Every coefficient is between half and twice that of its model, the rudder's rate and the dead time lie within
-    `RATES` and `DELAYS`. Draws without a steady turn are drawn again.
+    Every coefficient is between half and twice that of its model; the rudder's rate and the dead time lie
+    within `RATES` and `DELAYS`. Draws without a steady turn are drawn again.
     """
     model = (vehicle.load("remus100"), stable_hull())[number % 2]
     names = [field.name for field in dataclasses.fields(Hull) if field.type == "float"]

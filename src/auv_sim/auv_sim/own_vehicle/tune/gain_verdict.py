@@ -8,16 +8,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.batch.flight_figures import Flights
 from auv_sim.flight.batch.scenarios import Courses
-from auv_sim.own_vehicle.tune.gain_space import Flown, Vector
-from auv_sim.own_vehicle.tune.objective import LIMIT_CYCLE, Terms, terms_of
+from auv_sim.own_vehicle.tune.gain_space import GainSet, Vector
+from auv_sim.own_vehicle.tune.objective import LIMIT_CYCLE, CostTerms, Ratios, ratios_of, terms_of
 from auv_sim.own_vehicle.tune.sampled_loop import Margins
 from auv_sim.own_vehicle.tune.search import Found, Problem, lacking, margins_asked, margins_of
 from auv_sim.own_vehicle.tune.trial_flights import HELD_OUT, Amount, draw_flights, fly_all
 
-#: Shares of the way from the rule's gains to those found, the first that is accepted counts. Each has its own flights.
+#: Shares of the way from the rule's gains to those found; the first that is accepted counts. Each has flights
+#: of its own.
 SHARES = (1.0, 0.6, 0.3)
 #: Largest travel of the rudder over that of the rule, mean of the held-out flights.
 MOST_TRAVEL = 3.0
@@ -28,19 +28,21 @@ class Held(NamedTuple):
 
     Attributes:
         terms: the objective's parts.
+        ratios: to the rule.
         unrest, ruled_unrest: largest late rms yaw rate on lines, deg/s.
         flights: how many.
         lost: how many did not complete their course.
     """
 
-    terms: Terms
+    terms: CostTerms
+    ratios: Ratios
     unrest: float
     ruled_unrest: float
     flights: int
     lost: int
 
 
-class Verdict(NamedTuple):
+class GainVerdict(NamedTuple):
     """What the held-out flights say.
 
     Attributes:
@@ -61,9 +63,10 @@ class Verdict(NamedTuple):
     ruled_margins: Margins
 
 
-def judge(problem: Problem, found: Found, threads: int, amount: Amount = HELD_OUT) -> Verdict:
+def judge(problem: Problem, found: Found, threads: int, amount: Amount = HELD_OUT) -> GainVerdict:
     """Fly the held-out flights with the gains found, or with a share of the way to them."""
-    space, vehicle, reasons = problem.space, problem.space.vehicle, []
+    space, vehicle = problem.space, problem.space.vehicle
+    reasons: list[str] = []
     held: tuple[Held, ...] = ()
     ruled = margins_of(space.rule(), vehicle, vehicle, problem.conditions)
     for attempt, share in enumerate(SHARES):
@@ -75,13 +78,13 @@ def judge(problem: Problem, found: Found, threads: int, amount: Amount = HELD_OU
             held = own
         margins = margins_of(gains, vehicle, vehicle, problem.conditions)
         if not against:
-            return Verdict(True, share, point, tuple(reasons), held, margins, ruled)
+            return GainVerdict(True, share, point, tuple(reasons), held, margins, ruled)
         reasons.extend(f"{100 * share:.0f} % of the way: {reason}" for reason in against)
-    return Verdict(False, 0.0, space.first, tuple(reasons), held, ruled, ruled)
+    return GainVerdict(False, 0.0, space.first, tuple(reasons), held, ruled, ruled)
 
 
 def hold_out(
-    problem: Problem, gains: Flown, stream: Sequence[int], threads: int, amount: Amount
+    problem: Problem, gains: GainSet, stream: Sequence[int], threads: int, amount: Amount
 ) -> list[Held]:
     """Fly one set of held-out flights on each hull."""
     space, courses, held = problem.space, Courses(), []
@@ -93,7 +96,16 @@ def hold_out(
         asked = margins_asked(space, hull, problem.conditions)
         terms = terms_of(flown, ruled, is_line, lacking(asked, gains, space.vehicle))
         lost = int(np.sum(~is_line & ~flown.completed))
-        held.append(Held(terms, unrest(flown, is_line), unrest(ruled, is_line), len(flights), lost))
+        held.append(
+            Held(
+                terms,
+                ratios_of(flown, ruled, is_line),
+                unrest(flown, is_line),
+                unrest(ruled, is_line),
+                len(flights),
+                lost,
+            )
+        )
     return held
 
 
@@ -114,12 +126,12 @@ def reasons_against(held: Sequence[Held]) -> list[str]:
         reasons.append(f"{lost} flights that did not complete their course")
     if any(one.terms.margins > 0.0 for one in held):
         reasons.append("margins of the linear loop below those asked for")
-    travel = math.exp(max(one.terms.travel for one in held))
+    travel = max(one.ratios.travel for one in held)
     if travel > MOST_TRAVEL:
         reasons.append(f"{travel:.1f} times the rudder travel of the rule, more than {MOST_TRAVEL:g}")
     distance = max(one.terms.distance for one in held)
     if distance >= 0.0 and not _cures(held):
-        reasons.append(f"{100 * math.expm1(distance):.0f} % more distance than with the rule")
+        reasons.append("no less distance than with the rule")
     return reasons
 
 

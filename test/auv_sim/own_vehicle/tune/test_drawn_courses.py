@@ -1,0 +1,63 @@
+"""Drawn courses and hulls: within what they promise, the same for the same seed."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following import vehicle
+from auv_sim.own_vehicle.tune.drawn_courses import drawn_course
+from auv_sim.own_vehicle.tune.ensemble import UNCERTAIN, check_simulated, ensemble, planar
+from hulls import DIVER, REMUS
+
+
+@settings(deadline=None, max_examples=20)
+@given(st.integers(0, 10**6), st.floats(2.0, 40.0), st.sampled_from(["sharp", "rounded", "survey"]))
+def test_a_course_can_be_flown(seed: int, radius: float, kind) -> None:
+    path, again = (drawn_course(kind, radius, 5, np.random.default_rng(seed)) for _ in range(2))
+    assert path.length == again.length
+    corners = [joint for joint in path.joints if joint.geometric == "G0"]
+    assert len(corners) == (4 if kind == "sharp" else 0)
+    assert path.length > 300.0
+
+
+def test_members_stay_within_the_spread() -> None:
+    hulls = ensemble(REMUS, 5, 0.1, np.random.default_rng(3))
+    assert hulls[0] is REMUS
+    assert len(hulls) == 5
+    for drawn in hulls[1:]:
+        shares = [getattr(drawn.coefficients, name) / getattr(REMUS.coefficients, name) for name in UNCERTAIN]
+        assert 0.9 - 1e-9 <= min(shares) < max(shares) <= 1.1 + 1e-9
+        assert drawn.coefficients.m == REMUS.coefficients.m
+
+
+def test_a_coefficient_may_have_its_own_spread() -> None:
+    hulls = ensemble(REMUS, 4, 0.0, np.random.default_rng(3), {"Nuud": 0.2})
+    shares = [hull.coefficients.Nuud / REMUS.coefficients.Nuud for hull in hulls[1:]]
+    assert max(abs(share - 1.0) for share in shares) > 0.02
+    assert all(hull.coefficients.Yuv == REMUS.coefficients.Yuv for hull in hulls)
+
+
+def test_a_hull_without_coefficients_has_no_spread() -> None:
+    peer = vehicle.load("mss_remus100")
+    assert ensemble(peer, 1, 0.0, np.random.default_rng(0)) == [peer]
+    with pytest.raises(ConfigurationError, match="--spread"):
+        ensemble(peer, 3, 0.1, np.random.default_rng(0))
+
+
+def test_a_vehicle_that_cannot_be_simulated_is_refused() -> None:
+    measured = dataclasses.replace(vehicle.load("mss_remus100"), simulated_as=None)
+    with pytest.raises(ConfigurationError, match="coefficients"):
+        check_simulated(measured)
+
+
+def test_the_planar_part_of_a_diver_has_its_coefficients() -> None:
+    flat = planar(DIVER)
+    assert not flat.dives
+    assert flat.coefficients.Nuud == DIVER.coefficients.Nuud
+    assert planar(REMUS) is REMUS

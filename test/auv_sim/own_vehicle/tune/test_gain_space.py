@@ -1,0 +1,63 @@
+"""The variables of the search: the rule is their origin, bounds hold everywhere."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from auv_msgs_py.settings.schema import flattened
+from auv_path_following import vehicle
+from auv_path_following.control.hull_model import tightest_turn
+from auv_path_following.guidance.path_follower import PathFollowerConfig
+from auv_sim.own_vehicle.tune.gain_space import VARIABLES, GainSpace, bounds, ratios_at
+from hulls import REMUS, STABLE
+
+SPACES = [GainSpace(hull, PathFollowerConfig(), 0.05, 0.05) for hull in (REMUS, STABLE)]
+
+
+@pytest.mark.parametrize(
+    "space", [*SPACES, GainSpace(vehicle.load("mss_remus100"), PathFollowerConfig(), 0, 0.1)]
+)
+def test_the_first_point_is_the_rule(space: GainSpace) -> None:
+    rule, first = space.rule(), space.gains(space.first)
+    assert flattened(first.guidance) == pytest.approx(flattened(rule.guidance))
+    assert flattened(first.autopilot) == pytest.approx(flattened(rule.autopilot))
+    assert first.pitch == rule.pitch
+
+
+@settings(deadline=None, max_examples=40)
+@given(
+    st.lists(st.floats(-6.0, 6.0), min_size=len(VARIABLES), max_size=len(VARIABLES)), st.sampled_from(SPACES)
+)
+def test_no_point_leaves_the_bounds(away, space: GainSpace) -> None:
+    hull, point = space.vehicle, space.first + np.array(away)
+    reference = space.gains(point).autopilot.reference
+    assert reference.max_acceleration <= 0.8 * space.response.effect * hull.rudder.max_angle * (1 + 1e-9)
+    assert reference.max_rate <= 0.9 * hull.top_speed / tightest_turn(hull).radius * (1 + 1e-9)
+    assert reference.max_jerk == space.ruled.heading.autopilot.reference.max_jerk
+    low, high = bounds()
+    for (name, ratio), least, most in zip(ratios_at(point).items(), low, high, strict=True):
+        assert least - 1e-9 <= math.log(ratio) <= most + 1e-9, name
+
+
+def test_each_variable_moves_what_it_is_named_after() -> None:
+    """One at a time, half as much again."""
+    space = SPACES[1]
+    first = space.gains(space.first)
+    moved = [space.gains(space.first + math.log(1.5) * row) for row in np.eye(len(VARIABLES))]
+    crossing, a, c, slower, pull, _, ahead, rate, lead = moved
+    nism = first.autopilot.nism
+    assert crossing.autopilot.nism.k5 > 1.3 * nism.k5
+    assert a.autopilot.nism.k2 == pytest.approx(1.5 * nism.k2)
+    assert c.autopilot.nism.k4 == pytest.approx(1.5 * nism.k4)
+    assert slower.autopilot.reference.bandwidth == pytest.approx(1.5 * first.autopilot.reference.bandwidth)
+    assert pull.autopilot.reference.max_acceleration == pytest.approx(
+        1.5 * first.autopilot.reference.max_acceleration
+    )
+    assert ahead.guidance.ailos.lookahead == pytest.approx(1.5 * first.guidance.ailos.lookahead)
+    assert rate.guidance.switching.turn_rate == pytest.approx(1.5 * first.guidance.switching.turn_rate)
+    assert lead.guidance.switching.lead == pytest.approx(1.5 * first.guidance.switching.lead)

@@ -1,0 +1,84 @@
+"""The objective: more distance, rudder, unrest or lost flights never make it smaller."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from auv_sim.flight.batch.flight_figures import Flights
+from auv_sim.own_vehicle.tune.objective import LIMIT_CYCLE, cycling, distance_cost, ratios_of, terms_of, worst
+
+#: Two flights on lines, three along courses.
+IS_LINE = np.array([True, True, False, False, False])
+
+
+def flights(**columns) -> Flights:
+    """Return five flights, alike but for some columns."""
+    values = {field.name: np.full(5, 0.1) for field in dataclasses.fields(Flights)}
+    values |= {"completed": np.array([False, False, True, True, True])}
+    return Flights(**values | columns)  # type: ignore[arg-type]
+
+
+def total(flown: Flights) -> float:
+    return terms_of(flown, flights(), IS_LINE).total
+
+
+def test_the_rule_has_zero() -> None:
+    assert total(flights()) == pytest.approx(0.0)
+
+
+@settings(deadline=None)
+@given(
+    st.sampled_from(
+        ["rms_distance", "off_corners_rms_distance", "rudder_travel_per_metre", "late_rms_yaw_rate"]
+    ),
+    st.lists(st.floats(0.0, 5.0), min_size=5, max_size=5),
+    st.integers(0, 4),
+    st.floats(0.0, 5.0),
+)
+def test_it_is_monotone(name: str, values, flight: int, more: float) -> None:
+    before = np.array(values)
+    after = before.copy()
+    after[flight] += more
+    assert total(flights(**{name: after})) >= total(flights(**{name: before})) - 1e-12
+
+
+def test_a_lost_flight_costs_more_than_any_distance_gains() -> None:
+    lost = flights(
+        completed=np.array([False, False, True, True, False]), rms_distance=np.full(5, 1e-3),
+        off_corners_rms_distance=np.full(5, 1e-3),
+    )  # fmt: skip
+    assert total(lost) > 2.0
+
+
+def test_a_limit_cycle_costs_more_the_larger_it_is() -> None:
+    calm, edge, wild = (cycling(np.array([0.05, rate])) for rate in (0.05, LIMIT_CYCLE, 10.0))
+    assert calm == 0.0
+    assert edge == pytest.approx(1.0)
+    assert wild > 3.0
+    assert cycling(np.array([math.nan])) >= wild
+
+
+def test_a_course_that_becomes_worse_counts_twice() -> None:
+    ruled = np.array([1.0, 1.0])
+    better, worse = distance_cost(np.array([0.5, 1.0]), ruled), distance_cost(np.array([2.0, 1.0]), ruled)
+    assert worse == pytest.approx(-2.0 * better, rel=0.03)
+
+
+def test_the_worst_hull_counts() -> None:
+    assert worst([-0.5, 0.2, -0.1]) == 0.2
+
+
+def test_margins_that_are_missing_cost() -> None:
+    assert terms_of(flights(), flights(), IS_LINE, 2 / 3).total > 1.0
+
+
+def test_ratios_are_plain_means() -> None:
+    found = ratios_of(flights(rms_distance=np.array([9.0, 9.0, 0.22, 0.1, 0.1])), flights(), IS_LINE)
+    assert found.rms == pytest.approx(2.0 ** (1 / 3))
+    assert found.travel == pytest.approx(1.0)

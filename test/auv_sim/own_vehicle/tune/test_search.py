@@ -1,0 +1,91 @@
+"""Search and acceptance on one hull: few flights, so that this shows the machinery, not the best gains."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.settings import params_file
+from auv_path_following import config_files
+from auv_sim.own_vehicle.tune import search as searching
+from auv_sim.own_vehicle.tune import tuned_file
+from auv_sim.own_vehicle.tune.gain_space import VARIABLES, GainSpace
+from auv_sim.own_vehicle.tune.gain_verdict import judge
+from auv_sim.own_vehicle.tune.search import Budget, Found, Problem, hulls_of, search
+from auv_sim.own_vehicle.tune.trial_flights import Amount, Conditions, draw_flights
+from auv_sim.sim_parameters import SUITE
+from hulls import REMUS, STABLE
+
+BASE = params_file.load(config_files.find("params", "robust"), SUITE)
+CONDITIONS = Conditions(0.05, 0.05, (0.1, 0.05), None)
+SPACE = GainSpace(STABLE, BASE[topics.GUIDANCE].guidance, 0.05, 0.05)
+PROBLEM = Problem(SPACE, [STABLE], CONDITIONS, 4)
+FEW = Amount(starts=2, courses=1, legs=4, at_sea=0)
+#: Gains that a search of 50 generations found on this hull, as ratios.
+GOOD = (0.345, 0.351, 0.139, 0.251, 0.787, 0.87, 5.25, 0.95, 0.88)
+
+
+def test_good_gains_are_accepted() -> None:
+    verdict = judge(PROBLEM, Found(np.log(GOOD), ()), 1, FEW)
+    assert verdict.accepted, verdict.why
+    assert verdict.share == 1.0
+    assert verdict.held[0].ratios.rms < 0.8
+    assert verdict.held[0].unrest < 0.3
+
+
+def test_bad_gains_are_not_and_the_rule_stays() -> None:
+    """A loop that is too fast for its delay, in every share of the way."""
+    wild = SPACE.first.copy()
+    wild[0], wild[3] = np.log(1.25) * 20.0, np.log(0.4) + 20.0
+    verdict = judge(PROBLEM, Found(wild, ()), 1, FEW)
+    assert not verdict.accepted
+    assert verdict.point == pytest.approx(SPACE.first)
+    assert any("margins" in why or "limit cycle" in why for why in verdict.why)
+
+
+def test_a_short_search_improves_or_the_rule_stays(monkeypatch) -> None:
+    monkeypatch.setattr(searching, "SEARCHED", Amount(starts=1, courses=1, legs=3, at_sea=0))
+    found = search(PROBLEM, Budget(generations=2, population=4, threads=1))
+    again = search(PROBLEM, Budget(generations=2, population=4, threads=1))
+    assert found == Found(pytest.approx(again.point), again.history)
+    verdict = judge(PROBLEM, found, 1, FEW)
+    if verdict.accepted:
+        assert verdict.held[0].terms.distance < 0.0
+    else:
+        assert verdict.point == pytest.approx(SPACE.first)
+        assert verdict.why
+
+
+def test_generations_fly_other_starts_and_courses() -> None:
+    first, other = (
+        draw_flights(REMUS, CONDITIONS, FEW, np.random.default_rng([0, 0, generation, 0]))
+        for generation in (1, 2)
+    )
+    assert [flight.is_line for flight in first] == [True] * 4 + [False] * 5
+    assert first[0].scenario.initial != other[0].scenario.initial
+    assert first[4].scenario.path.length != other[4].scenario.path.length
+    assert all(flight.scenario.command_delay >= 0.05 for flight in first)
+
+
+def test_all_hulls_of_an_ensemble_have_their_turn(monkeypatch) -> None:
+    hulls = [dataclasses.replace(REMUS, name=str(k)) for k in range(5)]
+    problem = Problem(SPACE, hulls, CONDITIONS, 0)
+    flown = [[hull.name for hull in hulls_of(problem, generation)] for generation in range(2)]
+    assert flown == [["0", "1", "2"], ["0", "3", "4"]]
+    assert searching.DRAWN_HULLS == 2
+
+
+def test_the_file_is_what_was_found(tmp_path) -> None:
+    target = tmp_path / "tuned.yaml"
+    gains = SPACE.gains(np.log(GOOD))
+    written = tuned_file.write(target, gains, BASE, ["Made by a test.", " " + "word " * 40])
+    assert tuned_file.read(target) == written
+    assert written.autopilot.nism.k5 == pytest.approx(gains.autopilot.nism.k5, rel=1e-4)
+    assert written.guidance.switching.lead == pytest.approx(gains.guidance.switching.lead, rel=1e-4)
+    loaded = params_file.load(target, SUITE)
+    assert loaded[topics.OBSERVER] == BASE[topics.OBSERVER]
+    assert target.read_text().startswith("# Made by a test.\n")
+    assert len(VARIABLES) == len(GOOD)
