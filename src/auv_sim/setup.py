@@ -59,7 +59,7 @@ setup(
         "console": ["aiohttp"],
         "foxglove": ["foxglove-sdk"],
         "test": ["hypothesis", "pytest"],
-        "vehicle": ["numba"],
+        "vehicle": ["cma", "numba"],
     },
     zip_safe=False,
     entry_points={

@@ -43,10 +43,9 @@ def draw(
     grid = figure.add_gridspec(3, 2, width_ratios=(1.0, 1.35))
     over = figure.add_subplot(grid[:, 0] if not history else grid[:2, 0])
     away, rudder, spent = (figure.add_subplot(grid[k, 1]) for k in range(3))
-    style(over, "north x (m)")
-    style(away, "distance to the path (m)")
-    style(rudder, "rudder (°)")
-    style(spent, "rudder travel so far (°)")
+    labels = ("north x (m)", "distance to the path (m)", "rudder (°)", "rudder travel so far (°)")
+    for axes, text in zip((over, away, rudder, spent), labels, strict=True):
+        style(axes, text)
     x, y, _ = path.polyline(1.0)
     over.plot(y, x, color=PATH, linewidth=5.0, solid_capstyle="round", label="path")
     for (label, scenario), colour in zip(flights, _COLOURS, strict=False):
