@@ -106,8 +106,8 @@ def words_of(line: Line, run: object = "runs/example") -> list[str]:
     """The arguments of a script, with something in place of MISSION, RUN and the like."""
     stands_for = {
         "MISSION": "survey_wgs84", "RUN": str(run), "runs/...": str(run), "NEW.yaml": "rough",
-        "signed.yaml": "robust", "my_law.yaml": "robust", "tuned.yaml": "robust", "rule": "robust", "path.kml": "/dev/null",
-        "my_study": "currents", "...": str(run),
+        "signed.yaml": "robust", "my_law.yaml": "robust", "rule": "robust", "path.kml": "/dev/null",
+        "tuned.yaml": "robust", "my_study": "currents", "...": str(run),
     }  # fmt: skip
     return [stands_for.get(word, word) for word in shlex.split(line.text)[2:]]
 
