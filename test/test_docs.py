@@ -29,6 +29,7 @@ from auv_sim.cli import plan as plan_cli
 from auv_sim.driver_parameters import MavlinkDriverParameters
 from auv_sim.flight import closed_loop
 from auv_sim.flight.batch.judge import judged
+from auv_sim.own_vehicle.manoeuvres.manoeuvre_parameters import ManoeuvresParameters
 from auv_sim.sim_parameters import SUITE, FaultRelayParameters
 from auv_sim.studies.campaign.campaign_plan import StudyPlan
 from auv_sim.vehicle import sea
@@ -73,7 +74,7 @@ FILES: dict[str, config_files.Kind] = {
 }
 #: Where colcon puts what config/ ships.
 SHARE = "install/auv_path_following/share/auv_path_following/"
-NODES = SUITE | {"fault_relay": FaultRelayParameters}
+NODES = SUITE | {"fault_relay": FaultRelayParameters, "manoeuvres": ManoeuvresParameters}
 
 
 class Line(NamedTuple):

@@ -40,6 +40,7 @@ EXECUTABLES = {
         "mavlink_emulator",
         "mission_supervisor",
         "display",
+        "manoeuvres",
         "mavlink_strangers",
     },
 }

@@ -71,6 +71,7 @@ setup(
             "check_vehicle = auv_sim.cli.vehicles.check_vehicle:main",
             "mavlink_driver = auv_sim.nodes.mavlink.driver:main",
             "mavlink_emulator = auv_sim.nodes.mavlink.emulator:main",
+            "manoeuvres = auv_sim.nodes.manoeuvres.manoeuvres_node:main",
             "display = auv_sim.nodes.display.display_node:main",
             "mission_supervisor = auv_sim.launch.ros_launch.supervisor:main",
             "mavlink_strangers = auv_sim.checks.faults.strangers:main",

@@ -18,6 +18,8 @@ from auv_path_following.missions.mission_spec import MissionSpec
 from auv_path_following.parameters import NavigationParameters, NodeParameters
 from auv_path_following.vehicle import Vehicle
 from auv_sim.launch.fleet.fleet_file import Fleet
+from auv_sim.own_vehicle.manoeuvres.manoeuvre_parameters import ManoeuvresParameters
+from auv_sim.own_vehicle.manoeuvres.program_file import Program
 from auv_sim.sim_parameters import SUITE, FaultRelayParameters, FleetClockParameters
 from auv_sim.studies.campaign.study_file import Study
 from auv_sim.vehicle.sea import Sea
@@ -58,14 +60,17 @@ def page() -> str:
     parts += _section(
         "Every node that reads the vehicle's navigation", _parameters(NavigationParameters, every)
     )
-    others = {"fault_relay": FaultRelayParameters, topics.FLEET_CLOCK: FleetClockParameters}
+    others = {
+        "fault_relay": FaultRelayParameters, topics.FLEET_CLOCK: FleetClockParameters,
+        topics.MANOEUVRES: ManoeuvresParameters,
+    }  # fmt: skip
     for name, cls in (SUITE | others).items():
         above = navigating if issubclass(cls, NavigationParameters) else every
         parts += _section(f"`{name}`", _parameters(cls, above))
     parts.append(_FILES)
     for title, cls in (
         ("Mission file", MissionSpec), ("Vehicle file", Vehicle), ("Sea file", Sea), ("Study", Study),
-        ("Fleet", Fleet),
+        ("Fleet", Fleet), ("Manoeuvres", Program),
     ):  # fmt: skip
         parts += _section(title, keys(cls))
     return "\n\n".join(parts) + "\n"

@@ -17,6 +17,8 @@ FLEET_CLOCK = "fleet_clock"
 DISPLAY = "display"
 #: Shows the missions of a domain in the browser, and passes on what an operator asks for.
 CONSOLE = "console"
+#: Flies manoeuvres in place of guidance and autopilot.
+MANOEUVRES = "manoeuvres"
 #: Replaces the simulator on a real vehicle.
 MAVLINK_DRIVER = "mavlink_driver"
 

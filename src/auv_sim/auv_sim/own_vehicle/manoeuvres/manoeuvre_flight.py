@@ -13,6 +13,7 @@ from auv_msgs_py.values.attitude import attitude_over_the_wire
 from auv_msgs_py.values.types import NO_CURRENT, Command, Current, SpatialNavigation
 from auv_path_following.vehicle import Vehicle
 from auv_sim.own_vehicle.manoeuvres.legs import manoeuvres_of
+from auv_sim.own_vehicle.manoeuvres.manoeuvre_run import DEPTH, in_space
 from auv_sim.own_vehicle.manoeuvres.manoeuvring import manoeuvre, manoeuvring_begins
 from auv_sim.own_vehicle.manoeuvres.program_file import Program
 from auv_sim.vehicle.diving.simulated_diver import simulated_vehicle
@@ -21,8 +22,6 @@ from auv_sim.vehicle.remus import PlantState
 from auv_sim.vehicle.sea import Sea
 
 Column = NDArray[np.float64]
-#: Depth that a vehicle which dives holds, m.
-DEPTH = 10.0
 
 
 class Manoeuvred(NamedTuple):
@@ -121,10 +120,7 @@ def _in_space(vector: tuple[float, ...]) -> tuple[float, ...]:
 
 def _reported(navigation: Any) -> SpatialNavigation:
     """Return navigation as it arrives over the wire, with an attitude in [-pi, pi)."""
-    if not isinstance(navigation, SpatialNavigation):
-        x, y, psi, r = navigation
-        navigation = SpatialNavigation(x, y, 0.0, 0.0, 0.0, psi, 0.0, r)
-    x, y, z, phi, theta, psi, q, r = navigation
+    x, y, z, phi, theta, psi, q, r = in_space(navigation)
     return SpatialNavigation(x, y, z, *attitude_over_the_wire(phi, theta, psi), q, r)
 
 

@@ -1,0 +1,1 @@
+"""The node that flies manoeuvres for identification."""

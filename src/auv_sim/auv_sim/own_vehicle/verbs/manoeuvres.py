@@ -1,0 +1,51 @@
+"""Fly zig-zags, circles and steps within bounds, and record them: on the simulator, or on your vehicle.
+
+On the simulator it is a rehearsal. With --no-sim the vehicle's driver has to run; the command then asks
+before anything moves. Rudder and planes go to neutral and thrust to 0 when a bound is left, navigation is
+lost, another node sends commands, or on Ctrl-C.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from auv_sim.command_line import Parser, finite, not_negative, positive, ros_namespace, whole
+
+_BOX, _DEPTH, _SPEED = 200.0, 10.0, 10.0
+
+
+def add_arguments(parser: Parser) -> None:
+    """Add the options."""
+    parser.add_argument("--vehicle", required=True, metavar="FILE", help="vehicle file, or a shipped name")
+    parser.add_argument(
+        "--program", default="two_minutes", metavar="FILE",
+        help="two_minutes (default), eight_minutes, two_minutes_dive, eight_minutes_dive, or a file",
+    )  # fmt: skip
+    parser.add_argument("--depth", type=not_negative, default=_DEPTH, metavar="M",
+                        help=f"to hold, of a vehicle that dives (default {_DEPTH:g})")  # fmt: skip
+    parser.add_argument("--box", type=positive, default=_BOX, metavar="M",
+                        help=f"largest distance from the start to north and east (default {_BOX:g})")  # fmt: skip
+    parser.add_argument(
+        "--out", type=Path, metavar="DIR", help="run directory (default: runs/manoeuvres-...)"
+    )
+    parser.add_argument("--namespace", type=ros_namespace, default="/auv", help="of the vehicle's topics")
+    parser.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
+    rehearsal = parser.add_argument_group("on the simulator")
+    rehearsal.add_argument("--sea", metavar="FILE", help="sea file, or a shipped name")
+    rehearsal.add_argument("--seed", type=whole, default=0, help="of the sea")
+    rehearsal.add_argument("--current", type=finite, nargs=2, default=(0.0, 0.0), metavar=("VX", "VY"),
+                           help="constant, towards north and east, m/s")  # fmt: skip
+    rehearsal.add_argument("--speed", type=positive, default=_SPEED, metavar="N",
+                           help=f"times real time (default {_SPEED:g})")  # fmt: skip
+    real = parser.add_argument_group("on your vehicle")
+    real.add_argument("--no-sim", action="store_true", help="fly the vehicle whose driver runs")
+    real.add_argument("--yes-the-vehicle-may-move", action="store_true", dest="consent",
+                      help="the answer to the question that --no-sim asks")  # fmt: skip
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Fly; return 0 all flown, 1 ended early."""
+    from auv_sim.nodes.manoeuvres.manoeuvre_session import fly
+
+    return fly(arguments)
