@@ -20,12 +20,16 @@ def add_arguments(parser: Parser) -> None:
     parser.add_argument("--vehicle", required=True, metavar="FILE", help="vehicle file, or a shipped name")
     parser.add_argument(
         "--program", default="two_minutes", metavar="FILE",
-        help="two_minutes (default), eight_minutes, two_minutes_dive, eight_minutes_dive, or a file",
+        help="two_minutes (default), eight_minutes, the same with _dive, or a file",
     )  # fmt: skip
-    parser.add_argument("--depth", type=not_negative, default=_DEPTH, metavar="M",
-                        help=f"to hold, of a vehicle that dives (default {_DEPTH:g})")  # fmt: skip
-    parser.add_argument("--box", type=positive, default=_BOX, metavar="M",
-                        help=f"largest distance from the start to north and east (default {_BOX:g})")  # fmt: skip
+    parser.add_argument(
+        "--depth", type=not_negative, default=_DEPTH, metavar="M",
+        help=f"to hold, of a vehicle that dives (default {_DEPTH:g})",
+    )  # fmt: skip
+    parser.add_argument(
+        "--box", type=positive, default=_BOX, metavar="M",
+        help=f"largest distance from the start to north and east (default {_BOX:g})",
+    )  # fmt: skip
     parser.add_argument(
         "--out", type=Path, metavar="DIR", help="run directory (default: runs/manoeuvres-...)"
     )
