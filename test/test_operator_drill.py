@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+import os
+import signal
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 from geometry_msgs.msg import PoseStamped
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParametersAtomically
@@ -16,6 +19,7 @@ from rcl_interfaces.srv import SetParametersAtomically
 from auv_msgs_py.contract import qos, topics
 from auv_sim.bags.reading.load import load_messages
 from auv_sim.bags.verbs.rerun import rerun
+from console_browser import ConsoleBrowser, address_of
 from node_bench import Bench
 
 OTHER = """\
@@ -72,25 +76,56 @@ class Operator:
         return str(future.result().result.reason)
 
 
+def check_rows(browser: ConsoleBrowser, run: Path) -> None:
+    """The console's rows and the lines about its browser are those of the recording."""
+    stamps, values = [], []
+    for _, message in load_messages(run / "bag", "odom"):
+        stamps.append(message.header.stamp.sec + message.header.stamp.nanosec * 1e-9)
+        place, twist = message.pose.pose.position, message.twist.twist.linear
+        values.append((place.x, place.y, place.z, math.hypot(twist.x, twist.y)))
+    recorded = np.array(values, np.float32)
+    t = browser.column("t")
+    at = np.searchsorted(stamps, t - 0.01)
+    assert len(t) > 20
+    assert np.array(stamps)[at] == pytest.approx(t, abs=1e-3)
+    for k, name in enumerate("xyz"):
+        assert np.array_equal(recorded[at, k], browser.column(name).astype(np.float32)), name
+    ground = np.hypot(browser.column("ve"), browser.column("vn"))
+    assert ground == pytest.approx(recorded[at, 3], abs=1e-5)
+    errors = {np.float32(message.vector.y) for _, message in load_messages(run / "bag", "path_error")}
+    seen = browser.column("ye").astype(np.float32)
+    assert set(seen[np.isfinite(seen)]) <= errors
+    said = [log.msg for _, log in load_messages(run / "bag", "rosout") if log.name == topics.CONSOLE]
+    assert said[0].endswith("set heading_autopilot autopilot.nism.k1 1")
+    assert said[-1] == "/auv: browser 4: abort"
+
+
 def test_a_drill_is_recorded_and_flown_again_by_a_rerun(
     bench: Bench,
     domain: int,
     tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
     command_line: Callable[..., list[str]],
     spawn: Callable[..., subprocess.Popen[str]],
 ) -> None:
     run = tmp_path / "run"
     operator = Operator(bench)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    console = spawn(command_line("auv_sim.cli.console", "--domain", domain, "--port", 0))
+    browser = ConsoleBrowser(address_of(console))
     flight = spawn(
         command_line("auv_sim.cli.mission", "--composed", "--domain", domain, "--out", run, "--quiet")
     )
     operator.flies(0.05)
+    browser.until(lambda: len(browser.rows) > 5)
+    before = browser.column("t")
     assert operator.set(topics.GUIDANCE, mission_text="version: 1").startswith("mission_text: ")
     assert operator.call("hold").success
     assert operator.set(topics.AUTOPILOT, autopilot__nism__k1=0.55) == ""
     assert "out of range" in operator.set(topics.AUTOPILOT, autopilot__nism__k1=-1.0)
     assert operator.call("resume").success
     operator.flies(0.1)
+    os.kill(console.pid, signal.SIGSTOP)  # no node waits for it
     assert operator.call("hold").success
     tight = OTHER.format(course=90, more="geofence: [[0, 0], [1, 0], [1, 1]]")
     assert "geofence" in operator.set(topics.GUIDANCE, mission_text=tight)
@@ -98,6 +133,14 @@ def test_a_drill_is_recorded_and_flown_again_by_a_rerun(
     assert operator.call("resume").success
     operator.flies(51.0 / 3000.0)
     assert operator.call("hold").success
+    console.kill()
+    port = browser.address.rpartition(":")[2].partition("/")[0]
+    console = spawn(command_line("auv_sim.cli.console", "--domain", domain, "--port", port))
+    address_of(console)
+    browser.until(lambda: browser.texts["tick"]["fresh"] and browser.texts["tick"]["state"] == "holding")
+    assert browser.ask("set", node=topics.AUTOPILOT, name="autopilot.nism.k1", value=1)["message"] == ""
+    refused = browser.ask("set", node=topics.AUTOPILOT, name="autopilot.nism.k1", value="much")
+    assert refused["message"] == "autopilot.nism.k1: found 'much', expected a value of type double"
     assert operator.set(topics.GUIDANCE, accept_goal=True, start_at="") == ""
     goal = PoseStamped()
     goal.header.frame_id = "map"
@@ -108,8 +151,15 @@ def test_a_drill_is_recorded_and_flown_again_by_a_rerun(
     bench.spin(0.5)
     assert operator.call("resume").success
     operator.flies(0.5)
-    assert operator.call("abort").success
+    assert browser.ask("abort")["message"] == "abort was called"
     assert flight.wait(60) == 1
+    browser.until(lambda: not browser.texts["tick"]["fresh"])
+    assert set(before) <= set(browser.column("t")), "the track of the console that was killed"
+    assert browser.ask("abort") == {
+        "kind": "answer", "id": 1, "ok": False, "message": "no node offers /auv/abort",
+    }  # fmt: skip
+    assert "ailos_guidance is silent" in [alarm["text"] for alarm in browser.texts["alarms"]["alarms"]]
+    check_rows(browser, run)
 
     statuses = [
         {pair.key: pair.value for pair in message.values}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import signal
 import subprocess
 import time
@@ -18,6 +19,7 @@ from rcl_interfaces.srv import SetParameters
 from std_srvs.srv import Trigger
 
 from auv_msgs_py.contract import qos, topics
+from console_browser import ConsoleBrowser
 
 OTHER = """\
 version: 1
@@ -81,20 +83,29 @@ def test_missions_follow_each_other_until_ctrl_c(
     tmp_path: Path,
     command_line: Callable[..., list[str]],
     spawn: Callable[..., subprocess.Popen[str]],
+    node_processes: Callable[[int], dict[str, int]],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     run = tmp_path / "run"
-    asked = ["--mission", short_mission, "--wait", "--start-at", "subpath 3", "--initial", 35, -10, 90]
+    asked = ["--mission", short_mission, "--console", "--start-at", "subpath 3", "--initial", 35, -10, 90]
     asked += ["--composed", "--domain", domain, "--out", run]
     launcher = spawn(command_line("auv_sim.cli.mission", *asked))
     assert launcher.stdout is not None
     before = list(iter(launcher.stdout.readline, "Ctrl-C ends the nodes\n"))
     line = f"ROS_DOMAIN_ID={domain} ros2 service call /auv/start std_srvs/srv/Trigger\n"
     assert before[-1] == f"start the mission: {line}"
+    browser = ConsoleBrowser(before[-3].removeprefix("console: ").strip())
+    assert before[-2].startswith("to look only: http://127.0.0.1:")
     operator.until(lambda: operator.is_it("short", "idle"))
     assert operator.set("start_at", "") == ""
-    assert operator.set("mission_text", OTHER) == ""
-    assert operator.trigger("start")
+    assert browser.ask("check", text=OTHER)["lines"] == ["other: 1 subpaths, 15.0 m, 8 s: no fault found"]
+    assert "colour" in browser.ask("load", text=OTHER + "colour: red\n")["message"]
+    assert browser.ask("load", text=OTHER)["ok"]
+    browser.until(lambda: browser.texts["tick"]["can"]["start"])
+    assert browser.ask("start")["ok"]
     operator.until(lambda: operator.is_it("other", "complete"))
+    os.kill(node_processes(launcher.pid)["console"], signal.SIGKILL)  # a mission does without it
     assert operator.set("mission", str(run / "config" / "mission.yaml")) == ""
     assert operator.set("start_at", "subpath 3") == ""
     operator.until(lambda: operator.is_it("short", "complete") and not operator.status["begun at [s]"])

@@ -24,6 +24,7 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.node.run import StopRequest
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.command_line import EXIT_DONE, say
+from auv_sim.launch.processes import discovery
 from auv_sim.nodes.console.graph_feed import GraphFeed
 from auv_sim.nodes.console.operator_deeds import OperatorDeeds
 from auv_sim.nodes.console.vehicle_calls import CallFailed, ServiceCaller
@@ -144,6 +145,7 @@ def serve(options: ConsoleOptions) -> int:
     """
     if options.domain is not None:
         os.environ["ROS_DOMAIN_ID"] = str(options.domain)
+    os.environ.update(discovery.variables())
     listening = _listen(options)
     port = listening.getsockname()[1]
     cache = _cache() if options.keep else None

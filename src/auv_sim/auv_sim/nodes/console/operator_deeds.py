@@ -23,6 +23,8 @@ from auv_sim.views.console.record.vehicle_record import VehicleRecord
 from auv_sim.views.console.web.operator_desk import Answer, Deed, number_in, text_in
 
 Request = Mapping[str, Any]
+#: Most looks for a match of a new publisher, and their period, s.
+_MATCHING, _MATCH = 25, 0.2
 
 
 class OperatorDeeds:
@@ -37,7 +39,6 @@ class OperatorDeeds:
     def __init__(self, node: Node, caller: ServiceCaller, shelf: MissionShelf) -> None:
         self._node, self._caller, self._shelf = node, caller, shelf
         self._desks: dict[str, ParameterDesk] = {}
-        self._goals: dict[str, Any] = {}
 
     @property
     def looks(self) -> dict[str, Deed]:
@@ -127,22 +128,34 @@ class OperatorDeeds:
         position, q = message.pose.position, message.pose.orientation
         position.x, position.y, position.z = x, y, z
         q.z, q.w = quaternion_of_yaw(yaw)
-        self._goal_publisher(record.namespace).publish(message)
+        if not await self._published(record.namespace, message):
+            self._log(record, viewer, what, "guidance does not listen")
+            return Answer(False, "guidance does not listen to goal_pose")
         self._log(record, viewer, what)
         return Answer(True, "the goal is sent; guidance checks it, and its events have the result")
 
-    def _goal_publisher(self, namespace: str) -> Any:
-        if namespace not in self._goals:
-            name = topics.full_name(namespace, topics.GOAL_POSE.name)
-            self._goals[namespace] = self._node.create_publisher(
-                PoseStamped, name, qos.offered(topics.GOAL_POSE)
-            )
-        return self._goals[namespace]
+    async def _published(self, namespace: str, goal: PoseStamped) -> bool:
+        """Publish a goal; return whether guidance listens.
+
+        The publisher exists for this goal alone: guidance warns where several nodes could send one.
+        """
+        name = topics.full_name(namespace, topics.GOAL_POSE.name)
+        publisher = self._node.create_publisher(PoseStamped, name, qos.offered(topics.GOAL_POSE))
+        try:
+            for _ in range(_MATCHING):
+                if publisher.get_subscription_count():
+                    publisher.publish(goal)
+                    await asyncio.sleep(_MATCH)  # until it has left
+                    return True
+                await asyncio.sleep(_MATCH)
+            return False
+        finally:
+            self._node.destroy_publisher(publisher)
 
     def prepare(self, namespace: str) -> None:
         """Make what a vehicle's requests need: an endpoint that is made for one is not discovered yet."""
         self._caller.prepare(namespace)
-        self._goal_publisher(namespace)
+        self.desk(namespace).prepare()
 
     async def _acknowledge(self, record: VehicleRecord, viewer: int, request: Request) -> Answer:
         number = int(number_in(request, "alarm"))

@@ -31,6 +31,12 @@ _GAINS = ("guidance.", "autopilot.", "pitch.", "observer.")
 _NOT_SHOWN = ("mission", "mission_text", "start_at", *BUILT_IN)
 #: Not written into a parameter file: the launcher sets them.
 _NOT_KEPT = ("vehicle", "lockstep", "recorded")
+_SERVICES = {
+    ListParameters: "list_parameters",
+    DescribeParameters: "describe_parameters",
+    GetParameters: "get_parameters",
+    SetParametersAtomically: "set_parameters_atomically",
+}
 #: A bound beyond this stands for none.
 _UNBOUNDED = 1e300
 _TYPES = {
@@ -54,6 +60,15 @@ class ParameterDesk:
         self._caller, self._namespace = caller, namespace
         self._types: dict[tuple[str, str], int] = {}
 
+    def prepare(self) -> None:
+        """Make the clients early: a new client has to be discovered first."""
+        for node in NODES:
+            for kind, service in _SERVICES.items():
+                self._caller.client(kind, self._full(node, service))
+
+    def _full(self, node: str, service: str) -> str:
+        return topics.full_name(self._namespace, f"{node}/{service}")
+
     async def form(self) -> list[dict[str, Any]]:
         """Return the parameters of every node that answers, live ones first.
 
@@ -76,7 +91,7 @@ class ParameterDesk:
         Raises:
             CallFailed: the node does not answer.
         """
-        response = await self._call(node, GetParameters, "get_parameters", names=list(names))
+        response = await self._call(node, GetParameters, names=list(names))
         return [parameter_value_to_python(value) for value in response.values]
 
     async def set(self, node: str, values: Mapping[str, Any]) -> str:
@@ -94,8 +109,7 @@ class ParameterDesk:
             Parameter(name=name, value=_converted(name, value, self._types.get((node, name), 0)))
             for name, value in values.items()
         ]
-        call = SetParametersAtomically, "set_parameters_atomically"
-        response = await self._call(node, *call, parameters=parameters)
+        response = await self._call(node, SetParametersAtomically, parameters=parameters)
         return "" if response.result.successful else str(response.result.reason)
 
     async def file(self) -> str:
@@ -113,7 +127,7 @@ class ParameterDesk:
         return yaml_file.text_of(blocks) if blocks else "# every parameter has its default\n"
 
     async def _rows(self, node: str) -> list[dict[str, Any]]:
-        response = await self._call(node, ListParameters, "list_parameters")
+        response = await self._call(node, ListParameters)
         names = [name for name in response.result.names if not name.startswith(_NOT_SHOWN)]
         described = await self._described(node, names)
         values = await self.value(node, *names)
@@ -125,14 +139,14 @@ class ParameterDesk:
         return sorted(rows, key=lambda row: (row["read_only"], row["safety"], row["name"]))
 
     async def _described(self, node: str, names: list[str]) -> list[ParameterDescriptor]:
-        response = await self._call(node, DescribeParameters, "describe_parameters", names=names)
+        response = await self._call(node, DescribeParameters, names=names)
         for name, one in zip(names, response.descriptors, strict=False):
             self._types[node, name] = one.type
         return list(response.descriptors)
 
-    async def _call(self, node: str, kind: Any, service: str, **fields: Any) -> Any:
-        full = topics.full_name(self._namespace, f"{node}/{service}")
-        return await self._caller.call(kind, full, kind.Request(**fields))
+    async def _call(self, node: str, kind: Any, **fields: Any) -> Any:
+        name = self._full(node, _SERVICES[kind])
+        return await self._caller.call(kind, name, kind.Request(**fields))
 
 
 def _row(name: str, one: ParameterDescriptor, value: Any, default: Any) -> dict[str, Any]:

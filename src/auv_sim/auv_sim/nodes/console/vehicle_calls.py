@@ -49,9 +49,10 @@ class ServiceCaller:
             CallFailed: no node offers it, or it does not answer within `patience`, s.
         """
         client, loop = self.client(kind, name), asyncio.get_running_loop()
-        deadline = loop.time() + _DISCOVERY
+        begin = loop.time()
         while not client.service_is_ready():
-            if loop.time() > deadline:
+            passed = loop.time() - begin
+            if passed > patience or (passed > _DISCOVERY and not self._is_offered(name)):
                 raise CallFailed(f"no node offers {name}")
             await asyncio.sleep(_EAGER)
         future, deadline = client.call_async(request), loop.time() + patience
@@ -62,6 +63,10 @@ class ServiceCaller:
                 raise CallFailed(f"{name} did not answer within {patience:g} s")
             await asyncio.sleep(_EAGER * (not future.done()))
         return future.result()
+
+    def _is_offered(self, name: str) -> bool:
+        """Return whether the graph has a service, be its node matched with this one yet or not."""
+        return any(found == name for found, _ in self._node.get_service_names_and_types())
 
     async def trigger(self, namespace: str, service: str) -> tuple[bool, str]:
         """Call a service of guidance; return whether it was done, and its message.
