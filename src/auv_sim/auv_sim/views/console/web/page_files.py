@@ -24,11 +24,10 @@ class PageFile(NamedTuple):
 
 
 def page_files() -> dict[str, PageFile]:
-    """Return the files by their name below `/page/`; those shared with the report are below `shared/`."""
-    suite = Path(str(resources.files("auv_sim")))
-    own, shared = suite / "views" / "console" / "page", suite / "bags" / "showing" / "page"
-    found = {path.relative_to(own).as_posix(): path for path in sorted(own.rglob("*"))}
-    found |= {f"shared/{path.name}": path for path in sorted(shared.glob("*.js"))}
+    """Return the files by their name below `/page/`."""
+    folder = Path(str(resources.files("auv_sim"))) / "views" / "console" / "page"
     return {
-        name: PageFile(path, _TYPES[path.suffix]) for name, path in found.items() if path.suffix in _TYPES
+        path.relative_to(folder).as_posix(): PageFile(path, _TYPES[path.suffix])
+        for path in sorted(folder.rglob("*"))
+        if path.suffix in _TYPES
     }
