@@ -3,7 +3,7 @@
 
 import _bootstrap
 
-_bootstrap.ensure_environment(extra=("batch",))
+_bootstrap.ensure_environment(extra=("batch", "console"))
 
 from auv_sim.cli.benchmark import main  # noqa: E402 - only there once the environment is
 

@@ -19,6 +19,8 @@ from rcl_interfaces.srv import SetParameters
 from std_srvs.srv import Trigger
 
 from auv_msgs_py.contract import qos, topics
+from auv_msgs_py.settings import params_file
+from auv_sim.sim_parameters import SUITE
 from console_browser import ConsoleBrowser
 
 OTHER = """\
@@ -76,6 +78,23 @@ def operator(domain: int) -> Iterator[Operator]:
     rclpy.try_shutdown()
 
 
+def check_gains(browser: ConsoleBrowser, directory: Path) -> None:
+    """The page's form has the parameters of the nodes; its file can be flown with."""
+    form = browser.ask("parameters")["nodes"]
+    rows = {(node["node"], row["name"]): row for node in form for row in node["parameters"]}
+    k1 = rows[topics.AUTOPILOT, "autopilot.nism.k1"]
+    assert (k1["type"], k1["value"], k1["default"], k1["unit"]) == ("double", 0.4, 0.8, "rad/s")
+    assert (k1["minimum"], k1["maximum"], k1["read_only"], k1["safety"]) == (0.0, 10.0, False, False)
+    assert k1["doc"]
+    assert rows[topics.GUIDANCE, "holding.abort_after"]["safety"]
+    assert {row["safety"] for (_, name), row in rows.items() if name.startswith("gate.")} == {True}
+    assert rows[topics.AUTOPILOT, "vehicle"]["read_only"]
+    assert (topics.GUIDANCE, "mission_text") not in rows
+    file = directory / "changed.yaml"
+    file.write_text(browser.ask("parameter_file")["text"])
+    assert params_file.load(file, SUITE)[topics.AUTOPILOT].autopilot.nism.k1 == 0.4
+
+
 def test_missions_follow_each_other_until_ctrl_c(
     operator: Operator,
     domain: int,
@@ -99,6 +118,7 @@ def test_missions_follow_each_other_until_ctrl_c(
     assert before[-2].startswith("to look only: http://127.0.0.1:")
     operator.until(lambda: operator.is_it("short", "idle"))
     assert operator.set("start_at", "") == ""
+    check_gains(browser, tmp_path)
     assert browser.ask("check", text=OTHER)["lines"] == ["other: 1 subpaths, 15.0 m, 8 s: no fault found"]
     assert "colour" in browser.ask("load", text=OTHER + "colour: red\n")["message"]
     assert browser.ask("load", text=OTHER)["ok"]

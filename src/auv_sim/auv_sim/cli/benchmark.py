@@ -14,6 +14,7 @@ SECTIONS = (
     "dimensions",
     "latency",
     "operation",
+    "console",
     "simulation",
     "start_up",
     "subpaths",

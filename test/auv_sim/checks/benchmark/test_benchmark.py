@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 from auv_msgs_py.contract import topics
-from auv_sim.checks.benchmark import against, contender, figures_page, sheets
+from auv_sim.checks.benchmark import against, console_cost, contender, figures_page, sheets
 from auv_sim.checks.benchmark.measures import dimensions, graph_speed, law_speed, operation, start_up
 from auv_sim.checks.benchmark.measures.children import BenchmarkFailed
 from auv_sim.checks.benchmark.measures.rig import LockstepTiming, Setup, free_running, lockstep
@@ -131,11 +131,29 @@ def test_aborts_are_timed_from_the_call_to_the_stop(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Without nodes: the middle and the largest of the times are shown."""
-    monkeypatch.setattr(operation, "_start_nodes", lambda *_: {"ailos_guidance"})
+    monkeypatch.setattr(operation, "start_nodes", lambda *_: {"ailos_guidance"})
     monkeypatch.setattr(operation, "_aborts", lambda *_: [0.010, 0.090, 0.030])
     assert main(["--quick", "--only", "operation"]) == 0
     rows = [[cell.strip() for cell in line.split("│")[1:-1]] for line in capsys.readouterr().out.splitlines()]
     assert ["3", "30.0", "90.0"] in rows
+
+
+def test_the_console_is_measured_with_a_browser(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Without a mission: the console is started, and what was measured is shown."""
+    figures = {"cpu_percent": 2.54, "rss": 120 * 2**20, "aborts": 3, "p50_ms": 39.31, "largest_ms": 94.0}
+
+    async def measured(children: Any, names: set[str], _: Any) -> dict[str, Any]:
+        assert names == {"ailos_guidance"}
+        assert set(children.ids) == {"console"}
+        return figures
+
+    monkeypatch.setattr(console_cost, "start_nodes", lambda *_: {"ailos_guidance"})
+    monkeypatch.setattr(console_cost, "_measured", measured)
+    assert main(["--quick", "--only", "console"]) == 0
+    line = next(line for line in capsys.readouterr().out.splitlines() if "39.3" in line)
+    assert [part.strip() for part in line.strip("│ ").split("│")] == ["2.5", "120", "3", "39.3", "94.0"]
 
 
 def test_what_a_flight_takes_once_is_told_apart_from_its_steps(monkeypatch: pytest.MonkeyPatch) -> None:

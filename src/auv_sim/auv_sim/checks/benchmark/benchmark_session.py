@@ -12,7 +12,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.checks.benchmark import against, figures_page, machine, sheets
+from auv_sim.checks.benchmark import against, console_cost, figures_page, machine, sheets
 from auv_sim.checks.benchmark.measures import dimensions, graph_speed, law_speed, operation, recorder_cost
 from auv_sim.checks.benchmark.scale import FULL, QUICK, Scale
 from auv_sim.command_line import EXIT_DONE, make_directory, to_type
@@ -35,6 +35,7 @@ _SECTIONS: dict[str, tuple[Callable[[Scale, Tick], dict[str, Any]], Callable[[Sc
     "dimensions": (dimensions.dimension_figures, lambda scale: 4 * scale.rounds + 2),
     "latency": (graph_speed.latency_figures, lambda _: 3),
     "operation": (operation.abort_figures, lambda _: 1),
+    "console": (console_cost.console_figures, lambda _: 1),
     "simulation": (_simulation, lambda scale: 1 + len(law_speed.vehicles(scale))),
     "start_up": (graph_speed.start_up_figures, lambda scale: scale.rounds),
     "subpaths": (law_speed.subpath_figures, lambda scale: len(scale.subpaths)),

@@ -36,7 +36,7 @@ def sheets(figures: dict[str, Any]) -> list[Sheet]:
     """Return the tables of everything that was measured."""
     makers = {
         "lockstep": _lockstep, "dimensions": _dimensions, "latency": _latency,
-        "operation": _operation, "simulation": _simulation,
+        "operation": _operation, "console": _console, "simulation": _simulation,
         "start_up": _start_up, "subpaths": _subpaths, "recording": _recording, "against": _against,
     }  # fmt: skip
     found: list[Sheet] = []
@@ -130,6 +130,15 @@ def _operation(figures: dict[str, Any]) -> list[Sheet]:
     row = (str(figures["aborts"]), f"{figures['p50_ms']:.1f}", f"{figures['largest_ms']:.1f}")
     heads = ("aborts", "p50 ms", "largest ms")
     return [Sheet("Free running at 20 Hz: from the call of abort to thrust 0", heads, (row,))]
+
+
+def _console(figures: dict[str, Any]) -> list[Sheet]:
+    row = (
+        f"{figures['cpu_percent']:.1f}", f"{figures['rss'] / 2**20:.0f}", str(figures["aborts"]),
+        f"{figures['p50_ms']:.1f}", f"{figures['largest_ms']:.1f}",
+    )  # fmt: skip
+    heads = ("% of one core", "RSS MiB", "aborts", "request to thrust 0, p50 ms", "largest ms")
+    return [Sheet("Console with one browser, free running at 20 Hz", heads, (row,))]
 
 
 def _simulation(figures: dict[str, Any]) -> list[Sheet]:

@@ -27,7 +27,7 @@ def abort_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
     """Measure the time from calling `abort` to a thrust command of 0, ms, free running at 20 Hz."""
     tick("abort")
     with tempfile.TemporaryDirectory(prefix="auv-benchmark-") as name, processes(Path(name)) as children:
-        names = _start_nodes(children, Path(name))
+        names = start_nodes(children, Path(name))
         took = _aborts(children, names, 6 * scale.rounds)
     return {
         "aborts": len(took),
@@ -36,7 +36,7 @@ def abort_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
     }
 
 
-def _start_nodes(children: MeasuredProcesses, directory: Path) -> set[str]:
+def start_nodes(children: MeasuredProcesses, directory: Path) -> set[str]:
     """Start the paper's mission against the wall clock; return the names of its nodes."""
     resolved = mission_plan.make(Options(speed=1.0, quiet=True), directory)
     ros = ["-r", f"__ns:={NAMESPACE}", "--params-file", str(resolved.write(directory / "config"))]
