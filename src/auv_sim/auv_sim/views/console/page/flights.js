@@ -31,8 +31,10 @@ const TAKES = {
     const anew = !flights.hello || flights.hello.started !== m.started;
     flights.hello = m;
     const names = m.columns.map(column => column.name);
-    if (anew || flights.vehicles.length !== m.vehicles.length) flights.vehicles = m.vehicles.map((about, k) => vehicle(about, names, k));
-    flights.chosen = Math.min(flights.chosen, flights.vehicles.length - 1);
+    /* Another vehicle may have been discovered: what is there of the others stays. */
+    const there = anew ? [] : flights.vehicles;
+    flights.vehicles = m.vehicles.map((about, k) => there.find(v => v.namespace === about.namespace) || vehicle(about, names, k));
+    flights.chosen = Math.max(0, Math.min(flights.chosen, flights.vehicles.length - 1));
   },
   course(m, v) {
     const of = k => Float64Array.from(m.path, p => p[k] ?? NaN);
@@ -58,6 +60,6 @@ export function take(m) {
 
 /* Whether guidance is heard: without it the state is not known. */
 export function guided(v) {
-  const guidance = v.tick && v.tick.health.find(one => one.node === "guidance");
+  const guidance = v.tick && v.tick.health.find(one => one.node.endsWith("guidance"));
   return Boolean(v.tick && v.tick.fresh !== false && flights.link === "open" && !(guidance && (guidance.level === 3 || guidance.age === null)));
 }

@@ -3,7 +3,7 @@ import { $, el, write } from "./dom.js";
 import { flights } from "./flights.js";
 import { answered } from "./commands.js";
 
-let ask = null, nodes = [], of = -1;
+let ask = null, nodes = [], of = -1, asking = false;
 
 /* ask: the link's. */
 export function gains(asks) { ask = asks; }
@@ -15,8 +15,10 @@ const KINDS = { double: Number, integer: Number, bool: v => v === "true", string
 
 /* Ask for the parameters of the vehicle that is shown; nodes may come later than the page. */
 export async function listGains(again = false) {
-  if (!again && of === flights.chosen && nodes.length) return;
+  if (asking || !again && of === flights.chosen && nodes.length) return;
+  asking = true;
   const answer = await ask("parameters", fields(), 10);
+  asking = false;
   if (!answer.ok) { write($("gains-note"), answer.message); return; }
   nodes = answer.nodes; of = flights.chosen;
   write($("gains-note"), nodes.length ? "" : "No node answers yet.");

@@ -16,6 +16,7 @@ function hear(message) {
   const v = take(message);
   if (message.kind === "course" && v) fitAll();
   if (message.kind === "parameters_changed") parameterChanged(message);
+  if (message.kind === "hello") { document.dispatchEvent(new Event("vehicle")); again(); }
   repaint();
 }
 
@@ -34,6 +35,13 @@ function open(tab) {
   if (tab.id === "open-mission") listMissions();
   if (tab.id === "open-gains") listGains();
 }
+/* Fill the open tab, if it could not be filled before: nodes may come later than the page. */
+function again() {
+  if (document.hidden || flights.link !== "open" || !flights.vehicles.length) return;
+  if (!$("tab-mission").hidden) listMissions();
+  if (!$("tab-gains").hidden) listGains();
+}
+setInterval(again, 3000);
 tabs.forEach((tab, k) => {
   tab.addEventListener("click", () => open(tab));
   tab.addEventListener("keydown", e => {

@@ -5,7 +5,7 @@ import { showDraft } from "./chart.js";
 import { answered } from "./commands.js";
 import { paints } from "./painting.js";
 
-let ask = null, checked = null, list = null, busy = false;
+let ask = null, checked = null, list = null, asking = false, busy = false;
 const text = $("mission-text"), choice = $("mission-choice"), lines = $("check-lines");
 
 /* ask: the link's. */
@@ -15,8 +15,10 @@ const fields = more => ({ vehicle: flights.chosen, ...more });
 
 /* Ask for the missions once the tab is open; a server that is not ready is asked again. */
 export async function listMissions() {
-  if (list) return;
+  if (list || asking) return;
+  asking = true;
   const answer = await ask("missions", fields());
+  asking = false;
   if (!answer.ok) { answered("Missions", answer); return; }
   list = answer.missions;
   choice.replaceChildren(el("option", { value: "", text: "choose a mission …" }),

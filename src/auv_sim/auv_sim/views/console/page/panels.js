@@ -14,7 +14,7 @@ function health(v) {
   renew($("health"), nodes.map(one => ({ ...one, age: one.age === null ? null : Math.round(one.age * 10) / 10, silent })), one => {
     const level = one.age === null ? "never" : silent ? "silent" : LEVELS[one.level] || "silent";
     const age = one.age === null ? "not heard" : one.age < 1 ? "now" : `${one.age < 10 ? one.age.toFixed(1) : clock(one.age)} s ago`;
-    return el("tr", { class: level }, el("td", {}, el("i", { title: level }), one.node), el("td", { text: one.message || level }),
+    return el("tr", { class: level }, el("td", {}, el("i", { title: level }), one.node), el("td", {}, el("div", { class: "brief", title: one.message || level, text: one.message || level })),
       el("td", { text: one.age >= 10 ? `${clock(one.age)} ago` : age }));
   });
 }
@@ -27,19 +27,24 @@ function events(v) {
   $("no-events").hidden = some.length > 0;
 }
 
+const acknowledge = a => ask("acknowledge", { vehicle: a.k, alarm: a.id });
+
 /* All alarms of all vehicles that are not yet acknowledged, or still active. */
 const alarms = () => flights.vehicles.flatMap((v, k) => v.alarms.map(a => ({ ...a, k, of: v.name || v.namespace })));
 
 function alarmBar() {
   const all = alarms(), several = flights.vehicles.length > 1, may = Boolean(flights.hello && flights.hello.may_command);
+  const open = all.filter(a => !a.acknowledged), most = { all: true, open };
   $("alarms").hidden = !all.length;
-  renew($("alarms"), all.map(a => ({ ...a, may })), a => {
+  renew($("alarms"), [...(may && open.length > 2 ? [most] : []), ...all.map(a => ({ ...a, may }))], a => {
+    if (a.all) return el("div", { class: "alarm all" }, `${open.length} alarms`,
+      el("button", { type: "button", text: "Acknowledge all", onclick: () => open.forEach(acknowledge) }));
     const state = a.active ? "" : " (over)";
     const row = el("div", { class: a.acknowledged ? "alarm seen" : "alarm" }, el("strong", { text: "Alarm" }),
       el("span", { text: `${several ? a.of + ": " : ""}${a.text}${state}` }),
       el("small", { text: Number.isFinite(a.since) ? `at ${clock(a.since)} of the mission` : "" }));
     if (!a.acknowledged && may) row.append(el("button", { type: "button", text: "Acknowledge", "aria-label": `Acknowledge: ${a.text}`,
-      onclick: () => ask("acknowledge", { vehicle: a.k, alarm: a.id }) }));
+      onclick: () => acknowledge(a) }));
     else if (a.acknowledged) row.append(el("small", { text: "acknowledged" }));
     return row;
   });

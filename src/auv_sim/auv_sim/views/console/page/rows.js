@@ -51,7 +51,8 @@ export class Table {
 
   put(name, at, value) {
     this.columns[name][at] = value;
-    if (Number.isFinite(value)) this.seen.add(name);
+    /* A vehicle that cannot dive reports a depth of 0 throughout. */
+    if (Number.isFinite(value) && (name !== "depth" || Math.abs(value) > 0.02)) this.seen.add(name);
   }
 
   grow() {

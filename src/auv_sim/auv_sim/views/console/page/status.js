@@ -86,7 +86,7 @@ function draw() {
   write($("viewer"), hello ? `browser ${hello.viewer}` : "");
   $("view-only").hidden = !hello || hello.may_command;
   vehicles();
-  if (!v) return;
+  if (!v) { write($("state-reason"), hello ? "no vehicle is heard in this ROS domain" : "not heard yet"); return; }
   badge(v); progress(v); figures(v); preflight(v);
   document.title = `${v.tick ? v.tick.state : "console"} · ${v.name || v.namespace}`;
 }

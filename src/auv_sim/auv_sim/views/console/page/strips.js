@@ -87,7 +87,7 @@ function drawStrip(strip, v, last) {
   const X = across(view, w), a = Math.max(0, rowOf(C.t, n, view[0]) - 1), b = Math.min(n - 1, rowOf(C.t, n, view[1]) + 1);
   const there = strip.series.filter(s => table.seen.has(s.name)), c = colours();
   const bounds = roomy(extent(there.map(s => C[s.name]), a, b, strip.marks), strip.least);
-  const Y = valueAxis(g, w, h, bounds, bottom, strip.down, Math.max(2, Math.round((h - bottom) / 24)));
+  const Y = valueAxis(g, w, h, bounds, bottom, strip.down, Math.max(3, Math.round((h - bottom) / 20)));
   timeAxis(g, w, h, view, bottom, " s", [], w < 420 ? 5 : 8);
   g.save(); g.beginPath(); g.rect(LEFT, 2, w - LEFT - RIGHT, h - bottom - 4); g.clip();
   levels(g, w, Y, strip.marks || [], c.line);
