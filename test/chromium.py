@@ -162,11 +162,25 @@ class Chromium:
             await asyncio.sleep(0.05)
         raise AssertionError("Chromium does not listen")
 
-    async def tab(self) -> Tab:
-        """Open a page."""
-        async with self._session.put(f"{self._address}/json/new?about:blank") as answer:
+    async def _browser(self, method: str, **params: Any) -> Any:
+        """Send a command to the browser itself."""
+        async with self._session.get(f"{self._address}/json/version") as answer:
             about = await answer.json()
-        tab = Tab(await self._session.ws_connect(about["webSocketDebuggerUrl"], max_msg_size=0))
+        async with self._session.ws_connect(about["webSocketDebuggerUrl"]) as socket:
+            await socket.send_str(json.dumps({"id": 1, "method": method, "params": params}))
+            return json.loads((await socket.receive()).data)["result"]
+
+    async def context(self) -> str:
+        """Return a new place for tabs that share no cookies with the others."""
+        made = await self._browser("Target.createBrowserContext")
+        return str(made["browserContextId"])
+
+    async def tab(self, context: str | None = None) -> Tab:
+        """Open a page."""
+        where = {"browserContextId": context} if context is not None else {}
+        made = await self._browser("Target.createTarget", url="about:blank", **where)
+        address = f"{self._address.replace('http', 'ws', 1)}/devtools/page/{made['targetId']}"
+        tab = Tab(await self._session.ws_connect(address, max_msg_size=0))
         for domain in ("Page", "Runtime", "Network", "Log"):
             await tab.call(f"{domain}.enable")
         return tab

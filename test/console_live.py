@@ -8,47 +8,72 @@ import re
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from chromium import Chromium, Tab
 
 SIZE = (1440, 900)
 
 
-def _module(name: str, *words: object) -> list[str]:
-    return [sys.executable, "-m", f"auv_sim.cli.{name}", *map(str, words)]
+class Live:
+    """A waiting mission and a console on one domain, in processes that end with it.
 
+    Args:
+        domain: ROS domain.
+        place: for the log, and for what the console keeps.
+        words: options of the mission.
+    """
 
-@contextmanager
-def graph(domain: int, log: Path, *words: object) -> Iterator[tuple[str, str, int]]:
-    """Run a waiting mission and a console; yield its two addresses and the mission's process id."""
-    environment = {**os.environ, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", "ROS_DOMAIN_ID": str(domain)}
-    mission = _module("mission", "--wait", "--domain", domain, "--quiet", *words)
-    console = _module("console", "--domain", domain, "--port", 0, "--forget")
-    with log.open("w") as output:
-        processes = [
-            subprocess.Popen(command, stdout=stream, stderr=subprocess.STDOUT, text=True, env=environment)
-            for command, stream in ((mission, output), (console, subprocess.PIPE))
-        ]
+    def __init__(self, domain: int, place: Path, *words: object) -> None:
+        self._domain, self._place, self._port = domain, place, 0
+        self._environment = {
+            **os.environ, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", "ROS_DOMAIN_ID": str(domain),
+            "XDG_CACHE_HOME": str(place),
+        }  # fmt: skip
+        self._log = (place / "log").open("w")
+        self.mission = self._start("mission", "--wait", "--quiet", *words, output=self._log)
+        self.serve()
+
+    def _start(self, name: str, *words: object, output: Any) -> subprocess.Popen[str]:
+        command = [sys.executable, "-m", f"auv_sim.cli.{name}", "--domain", self._domain, *words]
+        return subprocess.Popen(
+            [str(word) for word in command], stdout=output, stderr=subprocess.STDOUT, text=True,
+            env=self._environment,
+        )  # fmt: skip
+
+    def serve(self) -> None:
+        """Start the console, on the same port as before."""
+        self._console = self._start("console", "--port", self._port, output=subprocess.PIPE)
+        assert self._console.stdout is not None
+        lines = [self._console.stdout.readline() for _ in range(2)]
+        addresses = [found[0] for line in lines if (found := re.search(r"http://\S+", line))]
+        assert len(addresses) == 2, lines
+        self.address, self.to_look = addresses
+        self._port = int(self.address.partition("127.0.0.1:")[2].partition("/")[0])
+
+    def stop_console(self) -> None:
+        """End the console alone."""
+        self._end(self._console)
+        assert self._console.stdout is not None
+        self._console.stdout.close()
+
+    @staticmethod
+    def _end(process: subprocess.Popen[str]) -> None:
+        process.send_signal(signal.SIGINT)
         try:
-            assert processes[1].stdout is not None
-            lines = [processes[1].stdout.readline() for _ in range(2)]
-            addresses = [found[0] for line in lines if (found := re.search(r"http://\S+", line))]
-            assert len(addresses) == 2, lines
-            yield addresses[0], addresses[1], processes[0].pid
-        finally:
-            for process in processes:
-                process.send_signal(signal.SIGINT)
-            for process in processes:
-                try:
-                    process.wait(20)
-                except subprocess.TimeoutExpired:
-                    process.kill()
-                    process.wait()
-            assert processes[1].stdout is not None
-            processes[1].stdout.close()
+            process.wait(20)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+    def __enter__(self) -> Live:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.stop_console()
+        self._end(self.mission)
+        self._log.close()
 
 
 def node_pid(launcher: int, module: str) -> int:

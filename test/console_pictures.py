@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 
 from chromium import Background, Chromium, Tab
-from console_live import SIZE, flown, graph, load_gains, node_pid, opened, start, state
+from console_live import SIZE, Live, flown, load_gains, node_pid, opened, start, state
 
 IMAGES = Path(__file__).resolve().parents[1] / "docs" / "images"
 
@@ -91,11 +91,11 @@ def main() -> None:
         try:
             run(browser.begin())
             words = ("--mission", "survey_wgs84", "--sea", "moderate", *current)
-            with graph(domain, work / "log", *words, "--out", work / "survey") as (address, _, _):
-                run(survey(browser, address), 900.0)
+            with Live(domain, work, *words, "--out", work / "survey") as live:
+                run(survey(browser, live.address), 900.0)
             words = ("--mission", "helix", "--vehicle", "remus100_6dof", "--speed", 3, *current)
-            with graph(domain + 1, work / "log", *words, "--out", work / "dive") as (address, _, launcher):
-                run(dive(browser, address, launcher), 900.0)
+            with Live(domain + 1, work, *words, "--out", work / "dive") as live:
+                run(dive(browser, live.address, live.mission.pid), 900.0)
         finally:
             print((work / "log").read_text())
             run(browser.end())
