@@ -12,6 +12,8 @@ import signal
 import tempfile
 from pathlib import Path
 
+from PIL import Image
+
 from chromium import Background, Chromium, Tab
 from console_live import SIZE, Live, flown, load_gains, node_pid, opened, start, state
 
@@ -21,7 +23,11 @@ IMAGES = Path(__file__).resolve().parents[1] / "docs" / "images"
 async def picture(tab: Tab, name: str) -> None:
     """Write docs/images/console_<name>.png once the page has painted."""
     await asyncio.sleep(0.6)
-    await tab.screenshot(IMAGES / f"console_{name}.png")
+    file = IMAGES / f"console_{name}.png"
+    await tab.screenshot(file)
+    with Image.open(file) as found:
+        small = found.convert("RGB").quantize(192, dither=Image.Dither.NONE)
+    small.save(file, optimize=True)
     print(f"docs/images/console_{name}.png")
 
 

@@ -37,10 +37,13 @@ def test_load_refuse_correct_start_hold_gain_resume_abort(stage: Stage, domain: 
     run = tmp_path / "run"
     with Live(domain, tmp_path, "--composed", "--speed", 4, "--out", run) as live:
         stage.run(_drill(stage.browser, live))
-    logged = [message.msg for _, message in load_messages(run / "bag", "/rosout")]
-    deeds = [text for text in logged if text.startswith("browser ")]
-    for what in ("mission", "start", "hold", "k1", "resume", "abort"):
-        assert any(what in text for text in deeds), (what, deeds)
+    logged = [message.msg for _, message in load_messages(run / "bag", "rosout")]
+    deeds = [text.removeprefix("/auv: browser 1: ") for text in logged if "browser" in text]
+    refused = [text.partition(": refused: ")[0] for text in deeds if ": refused: " in text]
+    assert refused == ["load a mission", "set heading_autopilot autopilot.nism.k1 -1"]
+    assert [text for text in deeds if ": refused: " not in text] == [
+        "load a mission", "start", "hold", "set heading_autopilot autopilot.nism.k1 0.55", "resume", "abort",
+    ]  # fmt: skip
     thrust = [message.data for _, message in load_messages(run / "bag", "thrust_cmd")]
     assert max(thrust) == pytest.approx(6.0, abs=1e-6)
     assert thrust[-1] == 0.0
@@ -53,7 +56,7 @@ async def text(tab: Tab, name: str) -> str:
 
 async def said(tab: Tab, word: str) -> None:
     """Wait until the last answer contains a word."""
-    await tab.until(f"document.getElementById('answer').textContent.includes({word!r})", 20.0)
+    await tab.until(f"document.getElementById('answer').textContent.includes({word!r})", 60.0)
 
 
 async def _drill(browser: Chromium, live: Live) -> None:
@@ -61,9 +64,11 @@ async def _drill(browser: Chromium, live: Live) -> None:
     await _load(tab)
     await start(tab)
     await tab.until("document.getElementById('mission-name').textContent.startsWith('drill')")
-    await tab.until("parseFloat(document.getElementById('lengths').textContent) > 20", 30.0)
+    await tab.until("parseFloat(document.getElementById('lengths').textContent) > 20", 60.0)
+    await _check(tab, MISSION.format(thrust=5.0))
     await tab.click("#load")
-    await tab.until("document.getElementById('check-lines').className === 'bad'", 20.0)
+    await tab.until("document.getElementById('check-lines').className === 'bad'", 60.0)
+    assert "running" in await text(tab, "check-lines")
     await tab.click("#hold")
     await state(tab, "holding")
     await load_gains(tab)
@@ -81,9 +86,11 @@ async def _drill(browser: Chromium, live: Live) -> None:
     live.stop_console()
     await tab.until("!document.getElementById('banner').hidden")
     await asyncio.to_thread(live.serve)
-    await state(tab, "running", 40.0)
-    await tab.until(f"{rows}.then(n => n >= {before})", 20.0)
+    await state(tab, "running", 60.0)
+    await tab.until(f"{rows}.then(n => n >= {before})", 60.0)
     await tab.click("#abort")
+    await tab.until("/^Abort: .*[^…]$/.test(document.getElementById('answer').textContent)")
+    assert await text(tab, "answer") == "Abort: abort was called"
     await state(tab, "aborted")
     assert "abort was called" in await text(tab, "state-reason")
     own = live.address.partition("?")[0]
@@ -99,18 +106,23 @@ async def _load(tab: Tab) -> None:
     await tab.click("#open-mission")
     await tab.type("#mission-text", MISSION.format(thrust=-6.0))
     await tab.click("#check")
-    await tab.until("document.getElementById('check-lines').className === 'bad'", 20.0)
+    await tab.until("document.getElementById('check-lines').className === 'bad'", 60.0)
     assert "thrust" in await text(tab, "check-lines")
     assert await tab.value("document.getElementById('load').disabled")
-    await tab.type("#mission-text", MISSION.format(thrust=6.0))
-    await tab.click("#check")
-    await tab.until("!document.getElementById('load').disabled", 20.0)
+    await _check(tab, MISSION.format(thrust=6.0))
     await tab.click("#load")
-    await tab.until("document.getElementById('mission-name').textContent.startsWith('drill')", 20.0)
+    await tab.until("document.getElementById('mission-name').textContent.startsWith('drill')", 60.0)
+
+
+async def _check(tab: Tab, mission: str) -> None:
+    """Write a mission and check it until it may be sent."""
+    await tab.type("#mission-text", mission)
+    await tab.click("#check")
+    await tab.until("!document.getElementById('load').disabled", 60.0)
 
 
 async def _refuse_a_foreign_page(browser: Chromium, live: Live) -> None:
-    """A page of another origin in the same browser, with its cookie, cannot open the socket nor read a page."""
+    """Try a page of another origin in the same browser: it reads nothing and opens no socket."""
     own = live.address.partition("?")[0]
 
     async def page(_: web.Request) -> web.Response:

@@ -72,13 +72,20 @@ export function joint(g, [x, y], text, colour) {
   g.fillStyle = colour; g.textAlign = "left"; g.textBaseline = "bottom"; g.fillText(text, x + 7, y - 5);
 }
 
-/* The arrow of the current (m/s) with its speed, about (x, y); `up` is the bearing that is up. */
-export function currentArrow(g, x, y, north, east, up = 0) {
+/* The arrow of the current (m/s) with its speed, about (x, y); `up` is the bearing that is up. A halo keeps it
+   legible on a path. */
+export function currentArrow(g, x, y, north, east, up = 0, halo = false) {
   const speed = Math.hypot(north, east), c = colours();
   if (!(speed > 5e-3)) return;
   g.save(); g.translate(x, y); g.font = FONT; g.fillStyle = g.strokeStyle = c.green;
-  g.textAlign = "center"; g.textBaseline = "top"; g.fillText(`current ${speed.toFixed(2)} m/s`, 0, 30);
-  g.rotate(Math.atan2(east, north) - up); g.lineWidth = 2.5;
+  g.textAlign = "center"; g.textBaseline = "top";
+  const text = `current ${speed.toFixed(2)} m/s`, turn = Math.atan2(east, north) - up;
+  if (halo) {
+    g.strokeStyle = c.card; g.lineWidth = 5; g.lineJoin = "round"; g.strokeText(text, 0, 30);
+    g.save(); g.rotate(turn); g.lineWidth = 9; g.beginPath(); g.moveTo(0, 26); g.lineTo(0, -22); g.stroke(); g.restore();
+    g.strokeStyle = c.green;
+  }
+  g.fillText(text, 0, 30); g.rotate(turn); g.lineWidth = 2.5;
   g.beginPath(); g.moveTo(0, 24); g.lineTo(0, -16); g.stroke();
   g.beginPath(); g.moveTo(0, -26); g.lineTo(7, -11); g.lineTo(-7, -11); g.fill();
   g.restore();
