@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rclpy.serialization import serialize_message
 
 from auv_sim.nodes.held_commands import orders_of
 from auv_sim.nodes.lockstep import Lockstep
@@ -21,7 +22,7 @@ class Simulator:
     mission_running = True
     steps, stamp, fault = 7, 1_350_000_000, ""
 
-    def listen(self, *_: Any) -> None: ...
+    def listen(self, *_: Any, **__: Any) -> None: ...
 
     def create_timer(self, *_: Any, **__: Any) -> None: ...
 
@@ -71,8 +72,8 @@ def test_a_refused_message_is_named_with_its_value_and_not_its_sender(
     simulator: Any = Simulator()
     lockstep = Lockstep(simulator, orders_of(REMUS))
     lockstep.on_mission_state()
-    lockstep._on_diagnostics(refusal(node, text))
-    lockstep._on_diagnostics(reports(**{node: waits}))
+    lockstep._on_diagnostics(serialize_message(refusal(node, text)))
+    lockstep._on_diagnostics(serialize_message(reports(**{node: waits})))
     lockstep._check()
     assert simulator.fault == f"step 7 (t = 1.35 s) got no answer within 0 s: {named}"
 
@@ -104,7 +105,8 @@ def test_the_node_that_owes_something_is_named(waiting: dict[str, str], named: s
     simulator: Any = Simulator()
     lockstep = Lockstep(simulator, orders_of(REMUS))
     lockstep.on_mission_state()
-    lockstep._on_diagnostics(reports(**waiting))
+    lockstep._on_diagnostics(b"no report")
+    lockstep._on_diagnostics(serialize_message(reports(**waiting)))
     lockstep._check()
     assert simulator.fault == f"step 7 (t = 1.35 s) got no answer within 0 s: {named}"
 
@@ -167,3 +169,20 @@ def test_a_node_of_another_vehicle_is_no_culprit() -> None:
         array.status[0].name = f"{namespace}/heading_autopilot"
         kept.take_in(array, 1.0)
     assert kept.culprit(("rudder_cmd",), 0.0) == "ailos_guidance did not send desired_yaw"
+
+
+def test_only_reports_of_the_own_nodes_are_kept_and_none_is_read_before_it_is_needed() -> None:
+    simulator: Any = Simulator()
+    simulator.parameters = SimpleNamespace(recorded=False, shared_clock=True, answer_timeout=0.0)
+    simulator.get_namespace = lambda: "/auv1"
+    simulator.advertise = lambda _: SimpleNamespace(publish=lambda _: None)
+    lockstep = Lockstep(simulator, orders_of(REMUS))
+    lockstep.on_mission_state()
+    for namespace, waits in (("/auv1", "desired_yaw"), ("/auv2", "odom")):
+        array = reports(heading_autopilot=waits)
+        array.status[0].name = f"{namespace}/heading_autopilot"
+        lockstep._on_diagnostics(serialize_message(array))
+    assert len(lockstep._unread) == 1
+    lockstep._check()
+    assert simulator.fault.endswith("ailos_guidance did not send desired_yaw")
+    assert not lockstep._unread

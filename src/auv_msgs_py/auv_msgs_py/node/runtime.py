@@ -89,12 +89,13 @@ class SuiteNode(Node):  # type: ignore[misc]
         self.publishers_by_topic[topic] = publisher
         return publisher
 
-    def listen(self, topic: Topic, callback: Callable[[Any], None]) -> None:
+    def listen(self, topic: Topic, callback: Callable[[Any], None], raw: bool = False) -> None:
         """Create the contract's subscription to a topic; a refused message is counted and reported.
 
         A message of a type in `wire` arrives as its light class, the same object each time: do not keep it.
+        With `raw` the callback gets the bytes of the message.
         """
-        decode = decoder(topic)
+        decode = bytes if raw else decoder(topic)
         if topic is not topics.DIAGNOSTICS:  # every node publishes that
             self._heard.append(topic.name)
         sets_time = topic is topics.ODOM and self.parameters.lockstep

@@ -12,6 +12,7 @@ from auv_sim.command_line import Parser, command, target
 SECTIONS = (
     "lockstep",
     "dimensions",
+    "fleet",
     "latency",
     "operation",
     "console",

@@ -29,8 +29,10 @@ from auv_sim.sim_parameters import RecorderParameters
 _PRIORITY = -10
 #: Period of fetching all messages unless the simulator requests it, s.
 _POLL = 0.02
-#: Period of looking for new topics and publishers, s.
-_LOOK_AROUND = 0.25
+#: The same once the simulator requests it: what comes after its last request waits for this long, s.
+_POLL_BESIDE = 0.1
+#: Period of looking for new topics and publishers, s; in lockstep no contract topic needs it to be short.
+_LOOK_AROUND, _LOOK_AROUND_LOCKSTEP = 0.25, 1.0
 #: Silence after a requested stop from which on no message is under way, s.
 _QUIET = 0.2
 #: With simulated time: most messages kept until the first /clock.
@@ -75,11 +77,14 @@ class RecorderNode(SuiteNode):
         per_step = {self.resolve_topic_name(topic.name) for topic in (*topics.PER_STEP, *spatial)}
         self._per_step = [topic.channel for topic in self.selection.topics if topic.name in per_step]
         if p.lockstep:
-            self.listen(topics.RECORD_REQUEST, lambda _: self._poll())
+            self.listen(topics.RECORD_REQUEST, self._on_request)
         # In lockstep too: for what comes after the last request, and for a simulator that sends none.
         steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self.create_timer(_POLL, self._poll_unless_asked, clock=steady)
-        self.create_timer(_LOOK_AROUND, self._look_around, clock=steady)
+        self._timer = self.create_timer(_POLL, self._poll_unless_asked, clock=steady)
+        if p.lockstep:
+            self.create_timer(_POLL_BESIDE, self._poll_unless_asked, clock=steady)
+        seldom = p.lockstep and not self.selection.seeks
+        self.create_timer(_LOOK_AROUND_LOCKSTEP if seldom else _LOOK_AROUND, self._look_around, clock=steady)
 
     @property
     def lost(self) -> dict[str, int]:
@@ -101,6 +106,10 @@ class RecorderNode(SuiteNode):
         lost = self.lost
         text = ", ".join(f"{number} of {name}" for name, number in lost.items())
         self.health.warn("lost", f"messages lost: {text}" if lost else "")
+
+    def _on_request(self, _: UInt64) -> None:
+        self._timer.cancel()
+        self._poll()
 
     def _poll_unless_asked(self) -> None:
         """Fetch, unless the simulator has just asked for it."""

@@ -42,7 +42,8 @@ class Selection:
         self._writer = writer
         self._refused: set[str] = set()
         self._listed = {node.resolve_topic_name(name) for name in parameters.topics.split()}
-        self._seeks = bool(self._listed or parameters.regex or parameters.all_topics)
+        #: Whether further topics are looked for.
+        self.seeks = bool(self._listed or parameters.regex or parameters.all_topics)
         self._promised: dict[str, QoSProfile] = {}
         self._has_own_clock = parameters.lockstep and parameters.shared_clock
         clock = topics.VEHICLE_CLOCK if self._has_own_clock else topics.CLOCK
@@ -53,7 +54,7 @@ class Selection:
             own_clock = (topics.VEHICLE_CLOCK,) if self._has_own_clock else ()
             for topic in (*own_clock, *topics.CONTRACT, *spatial, *ROS_OWN):
                 self._follow_contract(topic)
-        elif not self._seeks:
+        elif not self.seeks:
             raise ConfigurationError(
                 f"{node.get_name()}: parameters",
                 "no topics to record",
@@ -90,7 +91,7 @@ class Selection:
                 topic.publishers = self._node.count_publishers(topic.name)
                 if topic.channel.latched:
                     topic.channel.latched = max(1, topic.publishers)
-        if not self._seeks:
+        if not self.seeks:
             return []
         followed = {topic.name for topic in self.topics}
         troubles = []

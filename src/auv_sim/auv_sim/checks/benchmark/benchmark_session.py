@@ -13,7 +13,14 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.checks.benchmark import against, console_cost, figures_page, machine, sheets
-from auv_sim.checks.benchmark.measures import dimensions, graph_speed, law_speed, operation, recorder_cost
+from auv_sim.checks.benchmark.measures import (
+    dimensions,
+    fleet_cost,
+    graph_speed,
+    law_speed,
+    operation,
+    recorder_cost,
+)
 from auv_sim.checks.benchmark.scale import FULL, QUICK, Scale
 from auv_sim.command_line import EXIT_DONE, make_directory, to_type
 from auv_sim.terminal import console, go_on, wrote
@@ -33,6 +40,7 @@ def _simulation(scale: Scale, tick: Tick) -> dict[str, Any]:
 _SECTIONS: dict[str, tuple[Callable[[Scale, Tick], dict[str, Any]], Callable[[Scale], int]]] = {
     "lockstep": (graph_speed.lockstep_figures, lambda scale: 10 * scale.rounds),
     "dimensions": (dimensions.dimension_figures, lambda scale: 4 * scale.rounds + 2),
+    "fleet": (fleet_cost.fleet_figures, lambda scale: 4 * scale.rounds),
     "latency": (graph_speed.latency_figures, lambda _: 3),
     "operation": (operation.abort_figures, lambda _: 1),
     "console": (console_cost.console_figures, lambda _: 1),

@@ -35,7 +35,7 @@ class Sheet:
 def sheets(figures: dict[str, Any]) -> list[Sheet]:
     """Return the tables of everything that was measured."""
     makers = {
-        "lockstep": _lockstep, "dimensions": _dimensions, "latency": _latency,
+        "lockstep": _lockstep, "dimensions": _dimensions, "fleet": _fleet, "latency": _latency,
         "operation": _operation, "console": _console, "simulation": _simulation,
         "start_up": _start_up, "subpaths": _subpaths, "recording": _recording, "against": _against,
     }  # fmt: skip
@@ -108,6 +108,23 @@ def _dimensions(figures: dict[str, Any]) -> list[Sheet]:
     return [
         Sheet("Three dimensions against the plane", heads, tuple(rows)),
         Sheet("Engines, in the plane and in three dimensions", columns, tuple(engines)),
+    ]
+
+
+def _fleet(figures: dict[str, Any]) -> list[Sheet]:
+    places = {"separate": "one process for each node", "composed": "one process for each vehicle"}
+    rows, kinds = [], []
+    for place, text in places.items():
+        one, four = figures[place]["1"], figures[place]["4"]
+        ratio = f"{four['cpu_us'] / one['cpu_us']:.2f}"
+        rows.append((text, ratio, f"{one['cpu_us']:.0f}", f"{four['cpu_us']:.0f}"))
+        for name, cost in four["cpu_by_process_us"].items():
+            alone = one["cpu_by_process_us"].get(name)
+            kinds.append((name, "-" if alone is None else f"{alone:.0f}", f"{cost:.0f}"))
+    heads = ("lockstep", "of four / alone", "processor us a vehicle's step, alone", "of four")
+    return [
+        Sheet("A vehicle of a fleet of four against one alone", heads, tuple(rows)),
+        Sheet("The same, by process", ("process", "us, alone", "of four"), tuple(kinds)),
     ]
 
 

@@ -13,6 +13,7 @@ from auv_msgs_py.node.run import StopRequest
 from auv_sim.launch import launcher
 from auv_sim.launch.fleet.fleet_plan import FleetPlan
 from auv_sim.launch.fleet.fleet_progress import FleetProgress
+from auv_sim.launch.mission_plan import Plan
 from auv_sim.launch.outcome import MissionFailed, Outcome
 from auv_sim.launch.processes import discovery
 from auv_sim.launch.processes.placement import Processor
@@ -38,7 +39,7 @@ def fly(plan: FleetPlan, domain: int, progress: FleetProgress, loader: Starter) 
     interrupt = StopRequest()
     children = Children(plan.directory / "log", environment)
     try:
-        children.fork(loader, _commands(plan))
+        children.fork(loader, commands_of(plan))
         # Imported after the fork: the nodes load meanwhile, and a process with DDS threads must not fork.
         from auv_sim.launch.monitor import Monitor
 
@@ -59,7 +60,7 @@ def fly(plan: FleetPlan, domain: int, progress: FleetProgress, loader: Starter) 
         interrupt.withdraw()
 
 
-def _commands(plan: FleetPlan) -> dict[str, tuple[str, list[str]]]:
+def commands_of(plan: FleetPlan) -> dict[str, tuple[str, list[str]]]:
     """Write the configuration; return module and arguments of each process, by name."""
     files = plan.write()
     clock = ["--ros-args", "--params-file", str(files[topics.FLEET_CLOCK])]
@@ -68,6 +69,30 @@ def _commands(plan: FleetPlan) -> dict[str, tuple[str, list[str]]]:
         for name, command in launcher.commands_of(member, files[label]).items():
             commands[f"{label}.{name}"] = command
     return commands
+
+
+def place(members: Mapping[str, Plan], ids: Mapping[str, int], held: contextlib.ExitStack) -> None:
+    """Put the nodes of each vehicle in lockstep on one processor, the vehicles in turn.
+
+    Args:
+        members: vehicle -> plan of its mission.
+        ids: process -> its number; a vehicle's begin with its name and a dot.
+        held: releases the processors at its end.
+    """
+    first = next(iter(members.values()))
+    if not first.lockstep or first.options.composed or first.options.any_processor:
+        return
+    processors = []
+    for _ in members:
+        processor = Processor()
+        held.callback(processor.release)
+        if processor.number is not None:
+            processors.append(processor)
+    for k, label in enumerate(members if processors else ()):
+        own = {
+            name.removeprefix(f"{label}."): pid for name, pid in ids.items() if name.startswith(f"{label}.")
+        }
+        processors[k % len(processors)].place(own)
 
 
 class _FleetFlight:
@@ -93,7 +118,7 @@ class _FleetFlight:
             ended = Outcome("interrupted", "stopped before the missions began", time.monotonic() - begin, 0.0)
             return dict.fromkeys(self._plan.members, ended)
         with contextlib.ExitStack() as held:
-            self._place(held)
+            place(self._plan.members, self._children.ids, held)
             for label, monitor in self._monitors.items():
                 if refused := monitor.start():
                     raise MissionFailed(f"{label}: the mission could not be started: {refused}")
@@ -132,25 +157,6 @@ class _FleetFlight:
                 raise MissionFailed(f"no sign of {', '.join(missing)} within {launcher.DISCOVERY_BOUND:g} s")
             self._spin(0.05)
         return False
-
-    def _place(self, held: contextlib.ExitStack) -> None:
-        """Put the nodes of each vehicle in lockstep on one processor, the vehicles in turn."""
-        options = next(iter(self._plan.members.values())).options
-        if not self._plan.lockstep or options.composed or options.any_processor:
-            return
-        processors = []
-        for _ in self._plan.members:
-            processor = Processor()
-            held.callback(processor.release)
-            if processor.number is not None:
-                processors.append(processor)
-        for k, label in enumerate(self._plan.members if processors else ()):
-            ids = {
-                name.removeprefix(f"{label}."): pid
-                for name, pid in self._children.ids.items()
-                if name.startswith(f"{label}.")
-            }
-            processors[k % len(processors)].place(ids)
 
     def _until_over(self, begin: float) -> None:
         """Watch until every mission is over; abort all on a signal."""
