@@ -7,9 +7,16 @@ import json
 from pathlib import Path
 
 import numpy as np
+import pytest
 from rosbags.highlevel import AnyReader
 
+from auv_sim.bags import line_owner
+from auv_sim.bags.content.recorded_mission import mission_in
+from auv_sim.bags.content.vehicle_parts import read_vehicles
+from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.load import load
+from auv_sim.bags.reading.recording import Bag
+from auv_sim.cli.bag import main as bag_command
 from auv_sim.cli.mission import main
 from auv_sim.flight import closed_loop
 from auv_sim.flight.run_record import SpatialRun
@@ -58,6 +65,54 @@ def test_each_vehicle_of_a_fleet_flies_as_it_does_alone(dive: Path, tmp_path: Pa
     assert abs(closest["distance_m"] - apart.min()) < 1e-3
     assert (run / "fleet.png").stat().st_size > 10_000
     _check_clock(run, first)
+    _check_lines(run)
+
+
+def test_one_bag_has_all_vehicles_and_the_verbs_take_them_apart(
+    dive: Path, tmp_path: Path, domain: int, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file, run = tmp_path / "pair.yaml", tmp_path / "run"
+    file.write_text(f"{FLEET}bags: one\n", encoding="utf-8")
+    words = ["--fleet", str(file), "--composed", "--quiet", "--domain", str(domain)]
+    assert main([*words, "--out", str(run)]) == 0
+    assert sorted(path.name for path in run.glob("**/*.mcap")) == ["bag_0.mcap"]
+
+    alone, first = load(dive / "bag"), load(run / "bag", "/auv1")
+    for field in dataclasses.fields(SpatialRun):
+        np.testing.assert_array_equal(getattr(alone, field.name), getattr(first, field.name), field.name)
+
+    assert bag_command(["rerun", str(run)]) == 0  # both vehicles', each with its own configuration
+    assert capsys.readouterr().out.count("bit for bit") == 2
+    with pytest.raises(SystemExit) as refused:
+        bag_command(["export", str(run)])
+    assert refused.value.code == 2
+    assert "2 vehicles, expected --namespace with one of auv1, auv2" in capsys.readouterr().err
+
+    bags = read_vehicles(run)
+    assert list(bags) == ["auv1", "auv2"]
+    for label, bag in bags.items():
+        assert mission_in(bag).summary.completed  # type: ignore[union-attr]
+        assert owners(bag, "/diagnostics") == {f"/{label}", "/"}
+        assert f"/{label}" in owners(bag, "/rosout")
+    assert "/auv2/odom" not in bags["auv1"].topics
+    assert bags["auv2"].texts["mission.yaml"] == (run / "auv2" / "config" / "mission.yaml").read_text()
+    whole = read_bag(run)
+    assert owners(whole, "/diagnostics") == {"/auv1", "/auv2", "/"}
+    clock = whole.topics["/clock"]
+    assert len(set(clock.sequence)) == clock.count  # one of the two recorders recorded it
+
+
+def owners(bag: Bag, topic: str) -> set[str]:
+    """Return the namespaces of the nodes whose lines a topic has."""
+    found = [line_owner.node_of(topic, data or b"") for data in bag.topics[topic].messages]
+    return {name.rpartition("/")[0] or "/" for name in found}
+
+
+def _check_lines(run: Path) -> None:
+    """Check that each vehicle's bag has its own lines, and those of nodes that are of no vehicle."""
+    for label, bag in read_vehicles(run).items():
+        for topic in line_owner.SHARED:
+            assert owners(bag, topic) - {"/"} == {f"/{label}"}, topic
 
 
 def _check_clock(run: Path, first: SpatialRun) -> None:

@@ -133,6 +133,10 @@ class RecorderParameters(NodeParameters):
     shared_clock: bool = setting(
         False, "lockstep: take the time from the vehicle_clock of a simulator with shared_clock"
     )
+    vehicles: str = setting(
+        "", "namespaces of a fleet's vehicles: lines of the others in /diagnostics, /rosout and"
+        " /parameter_events are not recorded",
+    )  # fmt: skip
     topics: str = setting("", "further topics: names, separated by spaces")
     regex: str = setting("", "further topics: regular expression for their full names")
     exclude: str = setting("", "regular expression for full names not to record, unless named elsewhere")

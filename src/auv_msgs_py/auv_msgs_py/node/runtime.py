@@ -95,7 +95,7 @@ class SuiteNode(Node):  # type: ignore[misc]
         A message of a type in `wire` arrives as its light class, the same object each time: do not keep it.
         With `raw` the callback gets the bytes of the message.
         """
-        decode = bytes if raw else decoder(topic)
+        decode: Callable[[bytes], Any] = bytes if raw else decoder(topic)
         if topic is not topics.DIAGNOSTICS:  # every node publishes that
             self._heard.append(topic.name)
         sets_time = topic is topics.ODOM and self.parameters.lockstep

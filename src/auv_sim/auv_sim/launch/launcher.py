@@ -125,18 +125,23 @@ def start_nodes(plan: Plan, children: Children, loader: Starter, parameters: Pat
     children.fork(loader, commands_of(plan, parameters))
 
 
-def commands_of(plan: Plan, parameters: Path) -> dict[str, tuple[str, list[str]]]:
-    """Return module and arguments of each process of a mission's nodes, by name."""
+def ros_arguments(plan: Plan, parameters: Path) -> list[str]:
+    """Return the ROS arguments of all nodes of a mission."""
     sim_time = "true" if plan.use_sim_time else "false"
-    ros = [
-        "-r",
-        f"__ns:={plan.options.namespace}",
-        "--params-file",
-        str(parameters),
-        "-p",
-        f"use_sim_time:={sim_time}",
-    ]
-    names = [name for name in NODES if name in plan.parameters]
+    words = ["-r", f"__ns:={plan.options.namespace}", "--params-file", str(parameters)]
+    return [*words, "-p", f"use_sim_time:={sim_time}"]
+
+
+def commands_of(plan: Plan, parameters: Path, recorded: bool = True) -> dict[str, tuple[str, list[str]]]:
+    """Return module and arguments of each process of a mission's nodes, by name.
+
+    Args:
+        plan: of the mission.
+        parameters: file that `Plan.write` has written.
+        recorded: whether its recorder is among the nodes.
+    """
+    ros = ros_arguments(plan, parameters)
+    names = [name for name in NODES if name in plan.parameters and (recorded or name != topics.RECORDER)]
     nodes = {name: (NODES[name].split(":")[0], ["--ros-args", *ros]) for name in names}
     if plan.options.composed:
         together = json.dumps(dict.fromkeys((name for name in names if name != topics.DISPLAY), ros))

@@ -66,20 +66,23 @@ _FILES = (
 )
 
 
-def conclude(plan: Plan, directory: Path, outcome: Outcome) -> tuple[Outcome, MissionSummary | None]:
+def conclude(
+    plan: Plan, directory: Path, outcome: Outcome, bag: Path | None = None
+) -> tuple[Outcome, MissionSummary | None]:
     """Load the bag, judge the mission, write `summary.json` and the pictures.
 
     Args:
         plan: of the mission flown.
         directory: the run directory.
         outcome: how the mission ended on the graph.
+        bag: the recording of this and other vehicles; by default the run directory's own.
 
     Returns:
         The outcome, incomplete where too little of the path was flown or its end was not reached; and the
         figures, None without a readable bag.
     """
     try:
-        run = load(directory / "bag")
+        run = load(directory / "bag") if bag is None else load(bag, plan.options.namespace)
     except ConfigurationError:
         return outcome, None
     run = run.select(run.t > outcome.since - _SAME_STAMP)

@@ -24,7 +24,6 @@ from auv_sim.nodes.fleet.member import FleetMember
 from auv_sim.nodes.held_commands import Orders
 from auv_sim.nodes.wait_reports import WaitReports
 
-
 #: Reports of the nodes that are kept until a step has no answer; five nodes send ten a second.
 _KEPT = 500
 

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import os
-import re
-import shlex
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,11 +15,12 @@ from std_msgs.msg import UInt64
 from auv_msgs_py.contract import topics
 from auv_msgs_py.node.run import run_nodes
 from auv_msgs_py.node.runtime import SuiteNode
-from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.bags import line_owner
 from auv_sim.bags.texts import texts_below
 from auv_sim.bags.writing.bag_writer import BagWriter
-from auv_sim.bags.writing.disk_room import RoomWatch, room_lacking
+from auv_sim.bags.writing.disk_room import RoomWatch
 from auv_sim.bags.writing.intake import ReceivedMessage, Timestamps, drain
+from auv_sim.bags.writing.opened_bag import check_patterns, closed, open_bag
 from auv_sim.bags.writing.selection import Selection
 from auv_sim.sim_parameters import RecorderParameters
 
@@ -46,24 +45,8 @@ class RecorderNode(SuiteNode):
         super().__init__(topics.RECORDER, RecorderParameters, **arguments)
         p: RecorderParameters = self.parameters
         directory = Path(p.directory or time.strftime("bag-%Y%m%d-%H%M%S"))
-        if os.path.lexists(directory):
-            raise ConfigurationError(
-                f"{self.get_name()}: parameter directory", f"{directory}, which exists", "a new one"
-            )
-        for name in ("regex", "exclude"):
-            try:
-                re.compile(getattr(p, name))
-            except re.error as error:
-                raise ConfigurationError(
-                    f"{self.get_name()}: parameter {name}", str(error), "a regular expression"
-                ) from None
-        if short := room_lacking(directory, p.min_free_space):
-            raise ConfigurationError(f"{self.get_name()}: parameter min_free_space", *short)
-        size, duration = p.max_size * 1_000_000, round(p.max_duration * 1e9)
-        texts = texts_below(directory.parent / "config")  # so that the bag needs no other file
-        self.writer = BagWriter(
-            directory, p.compression, max_size=size, max_duration_ns=duration, texts=texts
-        )
+        check_patterns(p, self.get_name())
+        self.writer = self.new_writer(directory)
         self._room = RoomWatch(directory)
         self._times = Timestamps(bool(self.get_parameter("use_sim_time").value))
         self._early: list[ReceivedMessage] = []
@@ -72,7 +55,7 @@ class RecorderNode(SuiteNode):
         self._progress = self.advertise(topics.RECORDED_STEPS) if p.lockstep else None
         self._reported = 0
         self.close_gate()
-        self.selection = Selection(self, p, self.writer)
+        self.selection = Selection(self, p, self.writer, self.keeps)
         spatial = topics.SPATIAL_PER_STEP if p.sternplanes else ()
         per_step = {self.resolve_topic_name(topic.name) for topic in (*topics.PER_STEP, *spatial)}
         self._per_step = [topic.channel for topic in self.selection.topics if topic.name in per_step]
@@ -85,6 +68,19 @@ class RecorderNode(SuiteNode):
             self.create_timer(_POLL_BESIDE, self._poll_unless_asked, clock=steady)
         seldom = p.lockstep and not self.selection.seeks
         self.create_timer(_LOOK_AROUND_LOCKSTEP if seldom else _LOOK_AROUND, self._look_around, clock=steady)
+
+    def new_writer(self, directory: Path) -> BagWriter:
+        """Return the writer of the bag, which has the configuration and needs no other file.
+
+        Raises:
+            ConfigurationError: the directory exists, or the disk has too little room.
+        """
+        return open_bag(self.parameters, directory, texts_below(directory.parent / "config"), self.get_name())
+
+    def keeps(self, topic: str) -> Callable[[bytes], bool] | None:
+        """Return which messages of a topic to record; None: all."""
+        others = set(self.parameters.vehicles.split()) - {self.get_namespace()}
+        return line_owner.without(topic, sorted(others))
 
     @property
     def lost(self) -> dict[str, int]:
@@ -145,6 +141,8 @@ class RecorderNode(SuiteNode):
             topic.watch.note(sequence, topic.publishers)
             if topic.is_clock:
                 times.tick(sent_ns, data)
+            if topic.keeps is not None and not topic.keeps(data):
+                continue
             log_ns, publish_ns = times.of(sent_ns, received_ns)
             write(topic.channel, log_ns, publish_ns, data, sequence)
         if self._progress is not None:
@@ -179,19 +177,15 @@ class RecorderNode(SuiteNode):
     def busy(self) -> bool:
         return time.monotonic() - self._last < _QUIET
 
-    def close(self) -> None:
+    def finish(self) -> None:
+        """Write what has arrived and end all subscriptions."""
         self._take_in(drain(self.selection.topics), last=True)
         self.selection.close()
-        whole = self.writer.close()
-        counts, lost = self.writer.counts, self.lost
-        missing = sum(lost.values()) + self.writer.given_up
-        total = sum(counts.values())
-        print(f"{self.writer.directory}: {total} messages of {len(counts)} topics, {missing} dropped")
-        for name, number in lost.items():
-            print(f"{self.writer.directory}: {number} messages of {name} never came")
-        if not whole:
-            advice = f"python3 scripts/bag.py repair {shlex.quote(str(self.writer.directory))} makes it whole"
-            print(f"{self.writer.directory}: left unfinished ({self.writer.trouble}); {advice}")
+
+    def close(self) -> None:
+        self.finish()
+        for line in closed(self.writer, self.lost):
+            print(line)
 
 
 def main(args: Sequence[str] | None = None) -> int:

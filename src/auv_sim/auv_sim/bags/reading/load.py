@@ -16,6 +16,7 @@ from auv_msgs_py.contract.frames import (
 )
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
+from auv_sim.bags import line_owner
 from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.columns import Columns, decode
 from auv_sim.bags.reading.deserialize import deserializer
@@ -63,7 +64,11 @@ def load(bag: Path, namespace: str | None = None, frame_ids: FrameIds | None = N
         ConfigurationError: not a readable recording, no odometry, topics of several vehicles, a topic
             of another type, or frame ids that are unknown or change.
     """
-    return run_of(read_bag(bag, is_used), namespace, frame_ids)
+
+    def keeps(name: str, type_name: str) -> bool:
+        return is_used(name, type_name) and (namespace is None or line_owner.is_within(name, namespace))
+
+    return run_of(read_bag(bag, keeps), namespace, frame_ids)
 
 
 def is_used(name: str, type_name: str) -> bool:

@@ -65,6 +65,7 @@ class Bag:
         texts: the flown configuration that the recorder stored, by file name.
         records: further metadata and attachments of MCAP files, from other recorders.
         profile: of MCAP files.
+        vehicle: namespace of the one vehicle whose part of a recording of several this is.
         repeated: messages at the begin of a file that an earlier one has; they are left out.
         order: (topic, number of the message in it) for every message, in the order of the files.
     """
@@ -79,6 +80,7 @@ class Bag:
     profile: str = "ros2"
     order: list[tuple[RecordedTopic, int]] = field(default_factory=list)
     odometry: str | None = None
+    vehicle: str | None = None
     repeated: int = 0
 
     @property
@@ -91,6 +93,15 @@ class Bag:
         """First and last log time; zeros for an empty bag."""
         held = [topic.log_ns for topic in self.topics.values() if topic.count]
         return (min(map(min, held)), max(map(max, held))) if held else (0, 0)
+
+    @property
+    def vehicles(self) -> list[str]:
+        """The namespaces in which a vehicle's odometry and its mission's state were recorded."""
+        return sorted(
+            space or "/"
+            for space, _, last in (name.rpartition("/") for name in self.topics)
+            if last == topics.ODOM.name and f"{space}/{topics.MISSION_STATE.name}" in self.topics
+        )
 
     def find(self, name: str, namespace: str | None = None) -> RecordedTopic | None:
         """Return the topic whose name ends in `name`, of one vehicle; for odometry see `_find_odometry`.

@@ -35,7 +35,8 @@ def show(flight: RecordedMission, facts: list[TopicFacts], events: list[Event], 
     bag = flight.bag
     first, last = bag.span_ns
     files = next(iter(bag.files)).name if len(bag.files) == 1 else f"{len(bag.files)} files"
-    console.print(f"[bold]{escape(str(bag.path))}[/bold]", soft_wrap=True)
+    of = f" {bag.vehicle}" if bag.vehicle is not None else ""
+    console.print(f"[bold]{escape(str(bag.path))}[/bold]{escape(of)}", soft_wrap=True)
     seconds = (last - first) * 1e-9
     console.print(
         f"{seconds:.2f} s, {bag.count} messages of {len(facts)} topics, {size(bag.size)} in {files}"
@@ -178,8 +179,9 @@ def show_many(rows: list[tuple[Path, RecordedMission | None, str]], console: Con
             values = (summary.rms_distance, summary.largest_distance, summary.rudder_travel_per_metre)
             figures = [_number(value, 3) for value in values]
             state = f"{summary.outcome()}, {percent(summary.flown_share)} flown"
+        name = f"{path} {flight.bag.vehicle or ''}".strip()
         table.add_row(
-            escape(str(path)), f"{(last - first) * 1e-9:.1f}", str(flight.bag.count), size(flight.bag.size),
+            escape(name), f"{(last - first) * 1e-9:.1f}", str(flight.bag.count), size(flight.bag.size),
             *figures, state, escape(note),
         )  # fmt: skip
     console.print(table)

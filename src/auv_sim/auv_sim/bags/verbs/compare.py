@@ -15,7 +15,7 @@ from rich.table import Table
 from auv_msgs_py.values.errors import ConfigurationError, printable
 from auv_sim.bags.content.flown_settings import differences
 from auv_sim.bags.content.recorded_mission import RecordedMission, mission_in
-from auv_sim.bags.reading.bag_reader import read_bag
+from auv_sim.bags.content.vehicle_parts import read_vehicles
 from auv_sim.bags.showing.compare_picture import draw
 from auv_sim.bags.verbs.arguments import add_choice
 from auv_sim.command_line import target, to_type
@@ -61,10 +61,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Compare with the first run."""
-    if len(arguments.bag) < 2:
+    found = [_flights(path, arguments) for path in arguments.bag]
+    flights = [flight for each in found for flight in each.values()]
+    if len(flights) < 2:
         raise ConfigurationError("compare", "one recording", "two or more")
-    flights = [_flight(path, arguments) for path in arguments.bag]
-    labels = _labels(arguments.bag)
+    labels = [
+        f"{label} {name}".strip()
+        for label, each in zip(_labels(arguments.bag), found, strict=True)
+        for name in each
+    ]
     summaries = [flight.summary for flight in flights if flight.summary is not None]
     opinions = [flight.by_odometry for flight in flights]
     settings = differences([flight.bag for flight in flights])
@@ -89,17 +94,20 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _flight(path: Path, arguments: argparse.Namespace) -> RecordedMission:
-    """Read a recording.
+def _flights(path: Path, arguments: argparse.Namespace) -> dict[str, RecordedMission]:
+    """Read a recording: vehicle -> its mission; of one vehicle, under an empty name.
 
     Raises:
-        ConfigurationError: it has no mission with figures.
+        ConfigurationError: one has no mission with figures.
     """
-    flight = mission_in(read_bag(path, odometry=arguments.odometry), arguments.mission, arguments.namespace)
-    if flight.summary is None:
-        found = flight.notes[0] if flight.notes else "no mission"
-        raise ConfigurationError(str(path), found, "a flown mission")
-    return flight
+    found = {}
+    bags = read_vehicles(path, odometry=arguments.odometry, namespace=arguments.namespace)
+    for name, bag in bags.items():
+        flight = found[name] = mission_in(bag, arguments.mission, arguments.namespace)
+        if flight.summary is None:
+            why = flight.notes[0] if flight.notes else "no mission"
+            raise ConfigurationError(f"{path} {name}".strip(), why, "a flown mission")
+    return found
 
 
 def _data(

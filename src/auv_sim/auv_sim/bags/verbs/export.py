@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from auv_msgs_py.settings.result_files import replacing
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.bags.reading.bag_reader import read_bag
+from auv_sim.bags.content.vehicle_parts import read_vehicles
 from auv_sim.bags.reading.load import run_of
 from auv_sim.bags.verbs.arguments import add_choice
 from auv_sim.command_line import say, target
@@ -31,7 +31,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Write the table and print its place."""
-    bag = read_bag(arguments.bag, odometry=arguments.odometry)
+    bags = read_vehicles(arguments.bag, odometry=arguments.odometry, namespace=arguments.namespace)
+    if len(bags) > 1:
+        expected = f"--namespace with one of {', '.join(bags)}"
+        raise ConfigurationError(str(arguments.bag), f"{len(bags)} vehicles", expected)
+    bag = next(iter(bags.values()))
     for note in bag.notes:
         say(f"damaged: {note}")
     flown = run_of(bag, arguments.namespace)

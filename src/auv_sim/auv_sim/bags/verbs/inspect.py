@@ -17,9 +17,9 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.content.events import Event, events_of
 from auv_sim.bags.content.recorded_mission import RecordedMission, mission_in
 from auv_sim.bags.content.topic_facts import TopicFacts, facts_of
+from auv_sim.bags.content.vehicle_parts import read_vehicles
 from auv_sim.bags.metadata import METADATA_FILE
 from auv_sim.bags.reading.bag_files import storage_of
-from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.recording import Bag
 from auv_sim.bags.showing import inspect_tables
 from auv_sim.bags.verbs.arguments import add_choice
@@ -47,7 +47,10 @@ def run(arguments: argparse.Namespace) -> int:
     console = terminal()
     if len(bags) > 1:
         return _many(bags, arguments, console)
-    bag = read_bag(bags[0], _is_light, arguments.odometry)
+    vehicles = read_vehicles(bags[0], _is_light, arguments.odometry, arguments.namespace)
+    if len(vehicles) > 1:
+        return _many(bags, arguments, console)
+    bag = next(iter(vehicles.values()))
     flight = mission_in(bag, arguments.mission, arguments.namespace)
     facts, events = facts_of(bag), events_of(flight)
     if arguments.json:
@@ -63,8 +66,13 @@ def _next(flight: RecordedMission, path: Path) -> tuple[str, str]:
     if flight.bag.notes:
         return "Make it whole", to_type("bag.py", "repair", path)
     if flight.run is not None:
-        return "Look further", to_type("bag.py", "report", path)
+        return "Look further", to_type("bag.py", "report", path, **_vehicle(flight.bag))
     return "Play it into a live graph", to_type("bag.py", "replay", path)
+
+
+def _vehicle(bag: Bag) -> dict[str, str]:
+    """Return the option that chooses a vehicle of several; none where there is one."""
+    return {"namespace": bag.vehicle} if bag.vehicle is not None else {}
 
 
 def _is_light(_: str, type_name: str) -> bool:
@@ -94,9 +102,9 @@ def _many(bags: list[Path], arguments: argparse.Namespace, console: Console) -> 
     rows: list[tuple[Path, RecordedMission | None, str]] = []
     for path in bags:
         try:
-            bag = read_bag(path, _is_light, arguments.odometry)
-            flight = mission_in(bag, arguments.mission, arguments.namespace)
-            rows.append((path, flight, "; ".join(flight.bag.notes)))
+            for bag in read_vehicles(path, _is_light, arguments.odometry, arguments.namespace).values():
+                flight = mission_in(bag, arguments.mission, arguments.namespace)
+                rows.append((path, flight, "; ".join(flight.bag.notes)))
         except ConfigurationError as error:
             rows.append((path, None, f"found {error.found}, expected {error.expected}"))
     if arguments.json:
@@ -109,9 +117,10 @@ def _many(bags: list[Path], arguments: argparse.Namespace, console: Console) -> 
         print(json.dumps(data, indent=2, allow_nan=False))
     else:
         inspect_tables.show_many(rows, console)
-        readable = [path for path, flight, _ in rows if flight is not None]
+        readable = [(path, flight.bag) for path, flight, _ in rows if flight is not None]
         if readable:
-            go_on(console, "Look into one of them", to_type("bag.py", "inspect", readable[-1]))
+            path, bag = readable[-1]
+            go_on(console, "Look into one of them", to_type("bag.py", "inspect", path, **_vehicle(bag)))
     if all(flight is None for _, flight, _ in rows):
         say("none of them can be read", error=True)
         return 2
@@ -125,6 +134,7 @@ def as_data(flight: RecordedMission, facts: list[TopicFacts], events: list[Event
     summary, own = flight.summary, flight.by_odometry
     return {
         "path": str(bag.path),
+        "namespace": bag.vehicle,
         "files": [file.name for file in bag.files],
         "bytes": bag.size,
         "start_s": first * 1e-9,

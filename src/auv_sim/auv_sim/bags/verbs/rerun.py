@@ -28,11 +28,12 @@ from auv_sim.bags.content.flown_settings import dotted
 from auv_sim.bags.content.parameter_changes import PARAMETER_EVENTS, changes_in, chosen
 from auv_sim.bags.content.recorded_mission import MISSION, PARAMS, configuration, controller_model
 from auv_sim.bags.content.rerun_pilot import Answers, answers
+from auv_sim.bags.content.vehicle_parts import read_vehicles
 from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.load import is_used
 from auv_sim.bags.reading.recording import Bag
 from auv_sim.bags.verbs.arguments import add_choice
-from auv_sim.command_line import target
+from auv_sim.command_line import say, target
 from auv_sim.sim_parameters import SUITE
 from auv_sim.terminal import console as terminal
 
@@ -67,8 +68,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Return 0 if all commands are bit-identical, else 1; with --params, --mission or --vehicle always 0."""
+    bags = read_vehicles(arguments.bag, _is_needed, arguments.odometry, arguments.namespace)
+    if len(bags) > 1 and (arguments.csv or arguments.png or arguments.json):
+        found = f"{len(bags)} vehicles and --csv, --png or --json"
+        raise ConfigurationError(str(arguments.bag), found, "--namespace with one of them")
+    codes = []
+    for label, bag in bags.items():
+        if len(bags) > 1:
+            say(f"{label}:")
+        codes.append(_run_one(bag, arguments))
+    return max(codes)
+
+
+def _run_one(bag: Bag, arguments: argparse.Namespace) -> int:
+    """Rerun one vehicle's recording; return the exit code."""
     found = rerun(
-        arguments.bag, arguments.params, arguments.mission, arguments.vehicle, arguments.namespace,
+        bag, arguments.params, arguments.mission, arguments.vehicle, arguments.namespace,
         arguments.odometry,
     )  # fmt: skip
     if not np.isfinite(found.recorded[topics.RUDDER_CMD.name]).any():
@@ -89,7 +104,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def rerun(
-    path: Path,
+    path: Path | Bag,
     params: str | None = None,
     mission: str | None = None,
     hull: str | None = None,
@@ -99,7 +114,7 @@ def rerun(
     """Return what the pilot would have commanded.
 
     Args:
-        path: the recording; its configuration is in it or beside it.
+        path: the recording, or what was read of it; its configuration is in it or beside it.
         params, mission, hull: files that replace the recorded configuration.
         namespace: of the vehicle.
         odometry: the topic, where its name differs from the contract's.
@@ -107,7 +122,7 @@ def rerun(
     Raises:
         ConfigurationError: a file cannot be used, or the recording lacks something.
     """
-    bag = read_bag(path, _is_needed, odometry)
+    bag = path if isinstance(path, Bag) else read_bag(path, _is_needed, odometry)
     with configuration(bag) as directory:
         parameters = _parameters(directory / PARAMS, params)
         known = vehicle.load(str(_file(bag, "vehicles", controller_model(directory), hull)))

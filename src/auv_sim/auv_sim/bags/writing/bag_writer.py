@@ -130,6 +130,10 @@ class BagWriter:
         """
         return self._topics.add(name, type_name, qos)
 
+    def find(self, name: str) -> Channel | None:
+        """Return a topic that was added before, by its full name; None without one."""
+        return self._topics.find(name)
+
     def copy_topic(
         self, channel: records.Channel, schema: records.Schema | None, qos: Sequence[Qos]
     ) -> Channel:

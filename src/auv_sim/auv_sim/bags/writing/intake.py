@@ -9,6 +9,7 @@ and receipt are the middleware's, not those of a clock that is read afterwards.
 from __future__ import annotations
 
 from bisect import bisect_right
+from collections.abc import Callable
 from operator import itemgetter
 
 from rclpy.node import Node
@@ -52,6 +53,8 @@ class PolledTopic:
         self.name = name
         self.channel = channel
         self.fixed = fixed
+        #: Which messages are recorded, by their bytes; None: all.
+        self.keeps: Callable[[bytes], bool] | None = None
         #: Whether a message has arrived; number of publishers.
         self.known = False
         self.publishers = 1

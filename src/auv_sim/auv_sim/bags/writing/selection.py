@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from typing import Any
 
 from rclpy.node import Node
@@ -31,13 +32,18 @@ class Selection:
         node: the recorder.
         parameters: of the recorder.
         writer: receives a channel for each topic.
+        keeps: returns which messages of a topic to record, None for all.
 
     Raises:
         ConfigurationError: no topics are selected.
     """
 
-    def __init__(self, node: Node, parameters: RecorderParameters, writer: BagWriter) -> None:
+    def __init__(
+        self, node: Node, parameters: RecorderParameters, writer: BagWriter,
+        keeps: Callable[[str], Callable[[bytes], bool] | None],
+    ) -> None:  # fmt: skip
         self._node = node
+        self._keeps = keeps
         self._p = parameters
         self._writer = writer
         self._refused: set[str] = set()
@@ -70,10 +76,13 @@ class Selection:
         self.topics[-1].channel.latched = int(topic.latched and topic is not LOG)
 
     def _follow(self, name: str, type_name: str, offers: list[Any], requested: Any, fixed: bool) -> None:
-        channel = self._writer.add_topic(name, type_name, [qos_record(offer) for offer in offers])
+        channel = self._writer.find(name)  # another recorder's, where several share a bag
+        if channel is None:
+            channel = self._writer.add_topic(name, type_name, [qos_record(offer) for offer in offers])
         self.topics.append(
             PolledTopic(self._node, name, type_name, requested, channel, fixed, name == self._clock)
         )
+        self.topics[-1].keeps = self._keeps(name)
 
     def look_around(self) -> list[str]:
         """Subscribe to selected topics that have appeared, and adapt the QoS of those that are still silent.

@@ -43,6 +43,10 @@ class TopicTable:
         channel = self._channels[name] = Channel(name, type_name, list(dump_qos_v9(list(qos))))
         return channel
 
+    def find(self, name: str) -> Channel | None:
+        """Return a topic that was added before."""
+        return self._channels.get(name)
+
     def copy(self, channel: records.Channel, schema: records.Schema | None, qos: Sequence[Qos]) -> Channel:
         """Add a topic of another file with its description there."""
         type_name = schema.name if schema else ""

@@ -16,6 +16,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_path_following import vehicle as vehicle_file
 from auv_path_following.curves.switching_modes import LISTED, SwitchingMode
+from auv_sim.bags.texts import label_of
 from auv_sim.command_line import ros_namespace
 from auv_sim.launch.options import DEFAULT_VEHICLE, Options
 
@@ -57,6 +58,7 @@ class Fleet:
     upwelling: float | None = setting(None, "constant current upwards, for those that dive", unit="m/s")
     sea: str | None = setting(None, "sea file of all, or the name of a shipped one")
     seed: int = setting(0, "of all that is random in the sea", ge=0)
+    bags: Literal["each", "one"] = setting("each", "each: a bag for each vehicle; one: one bag for all")
     vehicles: tuple[FleetVehicle, ...] = setting(doc="the vehicles")
 
 
@@ -95,11 +97,6 @@ def load(name_or_path: str) -> tuple[Path, Fleet]:
 def places(file: Path, fleet: Fleet) -> list[tuple[str, FleetVehicle]]:
     """Return each vehicle with its place in the file, for messages."""
     return [(f"{file}: vehicles[{k}]", vehicle) for k, vehicle in enumerate(fleet.vehicles)]
-
-
-def label_of(namespace: str) -> str:
-    """Return the name of a vehicle's directory: `/auv1` -> ``auv1``."""
-    return namespace.strip("/").replace("/", "_")
 
 
 def options_of(file: Path, fleet: Fleet, common: Options) -> list[Options]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import os
 import time
 from collections.abc import Mapping
@@ -19,6 +20,7 @@ from auv_sim.launch.processes import discovery
 from auv_sim.launch.processes.placement import Processor
 from auv_sim.launch.processes.process_group import Children, Starter
 
+_RECORDER_MODULE = "auv_sim.nodes.fleet.fleet_recorder"
 _CLOCK_MODULE = "auv_sim.nodes.fleet.fleet_clock_node"
 
 
@@ -65,8 +67,12 @@ def commands_of(plan: FleetPlan) -> dict[str, tuple[str, list[str]]]:
     files = plan.write()
     clock = ["--ros-args", "--params-file", str(files[topics.FLEET_CLOCK])]
     commands = {topics.FLEET_CLOCK: (_CLOCK_MODULE, clock)}
+    each = plan.one_bag is None
+    if not each:
+        words = [launcher.ros_arguments(member, files[label]) for label, member in plan.members.items()]
+        commands[topics.RECORDER] = _RECORDER_MODULE, [json.dumps(words)]
     for label, member in plan.members.items():
-        for name, command in launcher.commands_of(member, files[label]).items():
+        for name, command in launcher.commands_of(member, files[label], recorded=each).items():
             commands[f"{label}.{name}"] = command
     return commands
 

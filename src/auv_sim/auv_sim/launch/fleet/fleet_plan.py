@@ -10,12 +10,16 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.claim import Claim
 from auv_msgs_py.settings import params_file, result_files, yaml_file
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.launch import mission_plan
+from auv_sim.bags.texts import label_of
+from auv_sim.launch import mission_plan, node_settings
 from auv_sim.launch.fleet import fleet_file
 from auv_sim.launch.fleet.fleet_file import Fleet
 from auv_sim.launch.mission_plan import Plan
 from auv_sim.launch.options import Options
 from auv_sim.sim_parameters import FleetClockParameters
+
+#: Name of the one bag below the run directory, where there is one for all.
+BAG = "bag"
 
 
 @dataclass(frozen=True)
@@ -39,6 +43,11 @@ class FleetPlan:
     def lockstep(self) -> bool:
         """Whether each simulator waits for its nodes."""
         return self.clock.lockstep
+
+    @property
+    def one_bag(self) -> Path | None:
+        """The bag of all vehicles; None where each has its own."""
+        return self.directory / BAG if self.fleet.bags == "one" else None
 
     def claims(self) -> dict[str, Claim]:
         """Return what each vehicle claims in the graph; the first one claims /clock for the fleet."""
@@ -76,10 +85,11 @@ def make(name: str, common: Options, directory: Path) -> FleetPlan:
     """
     source, fleet = fleet_file.load(name)
     members = {}
+    vehicles = " ".join(vehicle.namespace for vehicle in fleet.vehicles)
     for (place, vehicle), options in zip(
         fleet_file.places(source, fleet), fleet_file.options_of(source, fleet, common), strict=True
     ):
-        label = fleet_file.label_of(vehicle.namespace)
+        label = label_of(vehicle.namespace)
         try:
             plan = mission_plan.make(options, directory / label)
             if not plan.vehicle.dives:
@@ -87,15 +97,16 @@ def make(name: str, common: Options, directory: Path) -> FleetPlan:
         except ConfigurationError as error:
             where = f"{place}: {error.where.removeprefix('--')}"
             raise ConfigurationError(where, error.found, error.expected) from None
-        for node in (topics.PLANT, topics.RECORDER):
-            changed = dataclasses.replace(plan.parameters[node], shared_clock=True)
-            plan.parameters[node] = changed
+        node_settings.change(plan.parameters, topics.PLANT, shared_clock=True)
+        node_settings.change(plan.parameters, topics.RECORDER, shared_clock=True, vehicles=vehicles)
+        if fleet.bags == "one":
+            node_settings.change(plan.parameters, topics.RECORDER, directory=str(directory / BAG))
         members[label] = plan
     steps = [plan.parameters[topics.PLANT].step for plan in members.values()]
     lockstep = common.speed is None
     clock = FleetClockParameters(
         lockstep=lockstep,
-        vehicles=" ".join(vehicle.namespace for vehicle in fleet.vehicles),
+        vehicles=vehicles,
         step=min(steps),
         speed=common.speed or 1.0,
     )

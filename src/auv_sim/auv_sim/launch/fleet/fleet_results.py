@@ -60,10 +60,11 @@ def conclude(plan: FleetPlan, outcomes: dict[str, Outcome]) -> FleetResults:
     """
     judged, summaries, runs = {}, {}, {}
     for label, member in plan.members.items():
-        folder = plan.directory / label
-        judged[label], summary = mission_results.conclude(member, folder, outcomes[label])
+        folder, bag = plan.directory / label, plan.one_bag
+        judged[label], summary = mission_results.conclude(member, folder, outcomes[label], bag)
         if summary is not None:
-            summaries[label], runs[label] = summary, load(folder / "bag")
+            summaries[label] = summary
+            runs[label] = load(bag or folder / "bag", member.options.namespace)
     results = FleetResults(judged, summaries, separations(runs))
     _write_summary(plan, results)
     _draw(plan, runs, results)

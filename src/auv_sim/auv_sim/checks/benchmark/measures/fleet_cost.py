@@ -1,0 +1,134 @@
+"""Measures what a vehicle of a fleet costs against one that flies alone, in processor time."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import tempfile
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from auv_msgs_py.node.start_gate import GATE, PASSED
+from auv_sim.checks.benchmark.measures.children import BenchmarkFailed, MeasuredProcesses, processes
+from auv_sim.checks.benchmark.scale import Scale
+from auv_sim.launch import launcher, mission_plan
+from auv_sim.launch.fleet import fleet_launcher, fleet_plan
+from auv_sim.launch.mission_plan import Plan
+from auv_sim.launch.options import Options
+
+Tick = Callable[[str], None]
+_MICRO = 1e6
+#: Numbers of vehicles that are compared.
+NUMBERS = (1, 4)
+#: Time of the mission that is not measured, s: discovery and the first steps.
+_BEFORE = 5.0
+#: Wall time for the nodes to find each other, and for a measurement that is expected to take no time, s.
+_PATIENCE = 180.0
+#: Simulated seconds of a step, the simulator's default.
+_STEP = 0.05
+
+
+def fleet_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
+    """Measure one vehicle and four in turns, all on the paper's mission in lockstep; best of the rounds.
+
+    Returns:
+        place -> number of vehicles -> processor time of a vehicle's step, us: of all processes ("cpu_us") and
+        of each kind of process ("cpu_by_process_us").
+    """
+    runs: dict[str, dict[str, list[dict[str, float]]]] = {"separate": {}, "composed": {}}
+    for _ in range(scale.rounds):
+        for place, found in runs.items():
+            for number in NUMBERS:
+                tick(f"fleet, {place}, {number}")
+                cost = vehicle_cost(number, place == "composed", scale.steps)
+                found.setdefault(str(number), []).append(cost)
+    figures: dict[str, Any] = {}
+    for place, found in runs.items():
+        for count, costs in found.items():
+            best = min(costs, key=lambda cost: sum(cost.values()))
+            figures.setdefault(place, {})[count] = {
+                "cpu_us": sum(best.values()) * _MICRO,
+                "cpu_by_process_us": {name: seconds * _MICRO for name, seconds in best.items()},
+            }
+    return figures
+
+
+def vehicle_cost(number: int, composed: bool, steps: int) -> dict[str, float]:
+    """Fly `number` vehicles for `steps` steps each; return the processor time of a vehicle's step.
+
+    Returns:
+        kind of process -> s, over all vehicles.
+
+    Raises:
+        BenchmarkFailed: they did not fly.
+    """
+    with tempfile.TemporaryDirectory(prefix="auv-benchmark-") as name, processes(Path(name)) as children:
+        directory = Path(name)
+        options = Options(quiet=True, composed=composed)
+        members, commands = _alone(options, directory) if number == 1 else _fleet(number, options, directory)
+        os.environ[GATE] = PASSED  # the graph is new, and the simulators share one clock
+        for process, (module, words) in commands.items():
+            children.start(process, module, words)
+        from auv_sim.launch.monitor import Monitor  # only now: a process with DDS threads must not fork
+
+        monitors = {label: Monitor(plan.options.namespace) for label, plan in members.items()}
+        try:
+            return _measured(children, members, monitors, steps)
+        finally:
+            *others, last = monitors.values()
+            for monitor in others:
+                monitor.leave()
+            last.close()
+
+
+def _alone(options: Options, directory: Path) -> tuple[dict[str, Plan], Any]:
+    """Return the plan of a lone mission, and module and arguments of its processes."""
+    plan = mission_plan.make(options, directory)
+    commands = launcher.commands_of(plan, plan.write(directory / "config"))
+    return {"auv": plan}, {f"auv.{name}": command for name, command in commands.items()}
+
+
+def _fleet(number: int, options: Options, directory: Path) -> tuple[dict[str, Plan], Any]:
+    """Return the plans of a fleet's missions, and module and arguments of all processes."""
+    file = directory / "fleet.yaml"
+    rows = [f"  - {{namespace: /auv{k}, mission: {options.mission}}}\n" for k in range(number)]
+    file.write_text("version: 1\nname: benchmark\nvehicles:\n" + "".join(rows), encoding="utf-8")
+    plan = fleet_plan.make(str(file), options, directory / "run")
+    return plan.members, fleet_launcher.commands_of(plan)
+
+
+def _measured(
+    children: MeasuredProcesses, members: Mapping[str, Plan], monitors: Mapping[str, Any], steps: int
+) -> dict[str, float]:
+    """Start all missions and measure `steps` steps of each vehicle."""
+
+    def look() -> None:
+        for monitor in monitors.values():
+            monitor.look(0.02)
+
+    def missing() -> bool:
+        return any(
+            monitor.missing_nodes(set(members[label].parameters), True) for label, monitor in monitors.items()
+        )
+
+    def all_beyond(seconds: float) -> Callable[[], bool]:
+        return lambda: min(monitor.mission_time for monitor in monitors.values()) >= seconds
+
+    children.until(lambda: not missing(), look, _PATIENCE)
+    with contextlib.ExitStack() as held:
+        fleet_launcher.place(members, children.ids, held)
+        for label, monitor in monitors.items():
+            if refused := monitor.start():
+                raise BenchmarkFailed(f"{label} did not start: {refused}")
+        children.until(all_beyond(_BEFORE), look, _PATIENCE)
+        stamps = sum(monitor.stamp for monitor in monitors.values())
+        before = children.usage()
+        children.until(all_beyond(_BEFORE + steps * _STEP), look, _PATIENCE)
+        flown = (sum(monitor.stamp for monitor in monitors.values()) - stamps) * 1e-9 / _STEP
+        after = children.usage()
+    cost: dict[str, float] = {}
+    for name, used in after.items():
+        kind = name.rsplit(".", 1)[-1]
+        cost[kind] = cost.get(kind, 0.0) + (used.cpu - before[name].cpu) / flown
+    return cost
