@@ -99,7 +99,7 @@ def no_answer(_: Path) -> str:
     heard: list[tuple[Any, Callable[[Any], None]]] = []
     timers: list[Callable[[], None]] = []
     simulator: Any = SimpleNamespace(
-        parameters=SimpleNamespace(recorded=False, answer_timeout=0.0, shared_clock=False),
+        parameters=SimpleNamespace(recorded=False, answer_timeout=0.0, shared_clock=False, recorded_vehicles=1),
         mission_running=True, steps=7, stamp=1_350_000_000, fault="",
         gate_waits_for=lambda: "", publish_step=lambda: None,
         advance=lambda _: None, listen=lambda topic, callback: heard.append((topic, callback)),

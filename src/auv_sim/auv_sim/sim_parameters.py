@@ -6,6 +6,7 @@ from typing import Any, Literal
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.frames import FrameIds, FrameTable
+from auv_msgs_py.contract.topics import MOST_RECORDED
 from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
 from auv_msgs_py.values.types import Current, SpatialCurrent
@@ -101,6 +102,9 @@ class PlantParameters(NodeParameters):
     )
     shared_clock: bool = setting(
         False, "one of several simulated vehicles, for which fleet_clock publishes /clock"
+    )
+    recorded_vehicles: int = setting(
+        1, "lockstep: number of vehicles that the same recorder records", ge=1, le=MOST_RECORDED
     )
     world_frame: str = setting(
         "map", "frame id of the odometry; map and odom are ENU, map_ned and odom_ned NED"

@@ -18,7 +18,7 @@ from hulls import REMUS
 class Simulator:
     """The part of the simulator that lockstep uses."""
 
-    parameters = SimpleNamespace(recorded=False, shared_clock=False, answer_timeout=0.0)
+    parameters = SimpleNamespace(recorded=False, shared_clock=False, answer_timeout=0.0, recorded_vehicles=1)
     mission_running = True
     steps, stamp, fault = 7, 1_350_000_000, ""
 
@@ -173,7 +173,9 @@ def test_a_node_of_another_vehicle_is_no_culprit() -> None:
 
 def test_only_reports_of_the_own_nodes_are_kept_and_none_is_read_before_it_is_needed() -> None:
     simulator: Any = Simulator()
-    simulator.parameters = SimpleNamespace(recorded=False, shared_clock=True, answer_timeout=0.0)
+    simulator.parameters = SimpleNamespace(
+        recorded=False, shared_clock=True, answer_timeout=0.0, recorded_vehicles=1
+    )
     simulator.get_namespace = lambda: "/auv1"
     simulator.advertise = lambda _: SimpleNamespace(publish=lambda _: None)
     lockstep = Lockstep(simulator, orders_of(REMUS))

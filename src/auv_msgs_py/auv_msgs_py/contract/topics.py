@@ -135,8 +135,16 @@ RECORDING_REPORT = 8
 #: Interval between the simulator's requests to the recorder, steps: a third of the lead, or half of it with
 #: stern planes, so that the report is back before the lead is used up.
 RECORDING_REQUEST = 10
+#: Most vehicles that one recorder can record. All share its transport queue, so `shared` divides the numbers
+#: above; for more of them a request and its report would no longer fit into the lead.
+MOST_RECORDED = 10
 
 #: Lockstep of a fleet: a vehicle reports its time when at least this much has passed, ns, and waits when it
 #: is `FLEET_LEAD_NS` ahead of /clock. The lead is at least one report and one step, so the last vehicle waits
 #: for nothing but its own report.
 FLEET_REPORT_NS, FLEET_LEAD_NS = 500_000_000, 1_000_000_000
+
+
+def shared(steps: int, vehicles: int) -> int:
+    """Return a lead or an interval of the recording, steps, where one recorder has several vehicles."""
+    return max(1, steps // vehicles)

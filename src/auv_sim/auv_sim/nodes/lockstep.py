@@ -61,7 +61,10 @@ class Lockstep:
         self._node = node
         self._orders = orders
         self._pairing = Pairing(tuple(orders.limits), strict=True)
-        self._lead = topics.RECORDING_LEAD if orders.stop == STOP else topics.SPATIAL_RECORDING_LEAD
+        lead = topics.RECORDING_LEAD if orders.stop == STOP else topics.SPATIAL_RECORDING_LEAD
+        recorded = node.parameters.recorded_vehicles
+        self._lead = topics.shared(lead, recorded)
+        self._ask_every = topics.shared(topics.RECORDING_REQUEST, recorded)
         self._open_since: float | None = None
         self._left_running = False
         self._awaits_state = False
@@ -136,7 +139,7 @@ class Lockstep:
             self._recorded_at = time.monotonic()
         self._open_since = time.monotonic()
         self._node.publish_step()
-        if self._request is not None and self._published % topics.RECORDING_REQUEST == 0:
+        if self._request is not None and self._published % self._ask_every == 0:
             self._request.publish(UInt64(data=self._published))
 
     def _on_diagnostics(self, data: bytes) -> None:

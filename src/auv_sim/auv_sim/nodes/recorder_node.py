@@ -31,7 +31,7 @@ _POLL = 0.02
 #: The same once the simulator requests it: what comes after its last request waits for this long, s.
 _POLL_BESIDE = 0.1
 #: Period of looking for new topics and publishers, s; in lockstep no contract topic needs it to be short.
-_LOOK_AROUND, _LOOK_AROUND_LOCKSTEP = 0.25, 1.0
+_LOOK_AROUND, _SELDOM = 0.25, 1.0
 #: Silence after a requested stop from which on no message is under way, s.
 _QUIET = 0.2
 #: With simulated time: most messages kept until the first /clock.
@@ -40,6 +40,8 @@ _EARLY_LIMIT = 10_000
 
 class RecorderNode(SuiteNode):
     """Writes messages in the order of their arrival."""
+
+    report_every = topics.RECORDING_REPORT
 
     def __init__(self, **arguments: Any) -> None:
         super().__init__(topics.RECORDER, RecorderParameters, **arguments)
@@ -67,7 +69,7 @@ class RecorderNode(SuiteNode):
         if p.lockstep:
             self.create_timer(_POLL_BESIDE, self._poll_unless_asked, clock=steady)
         seldom = p.lockstep and not self.selection.seeks
-        self.create_timer(_LOOK_AROUND_LOCKSTEP if seldom else _LOOK_AROUND, self._look_around, clock=steady)
+        self.create_timer(_SELDOM if seldom else _LOOK_AROUND, self._look_around, clock=steady)
 
     def new_writer(self, directory: Path) -> BagWriter:
         """Return the writer of the bag, which has the configuration and needs no other file.
@@ -153,7 +155,7 @@ class RecorderNode(SuiteNode):
         if self._progress is None:
             return
         steps = min((channel.count for channel in self._per_step), default=0)
-        if steps - self._reported >= topics.RECORDING_REPORT and not self.gate_waits_for():
+        if steps - self._reported >= self.report_every and not self.gate_waits_for():
             self._reported = steps
             self._progress.publish(UInt64(data=steps))
 

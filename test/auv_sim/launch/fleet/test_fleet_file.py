@@ -52,6 +52,39 @@ def test_each_vehicle_has_a_mission_of_its_own_and_one_has_the_clock(tmp_path: P
     assert second.parameters[topics.RECORDER].directory == str(tmp_path / "run" / "auv2" / "bag")
 
 
+def test_vehicles_that_share_a_bag_share_the_lead_over_its_recorder(tmp_path: Path) -> None:
+    each, one = plan_of(tmp_path, TWO), plan_of(tmp_path, f"{TWO}bags: one\n")
+    assert each.one_bag is None
+    assert one.one_bag == tmp_path / "run" / "bag"
+    for plan, number in ((each, 1), (one, 2)):
+        for member in plan.members.values():
+            assert member.parameters[topics.PLANT].recorded_vehicles == number
+            assert member.parameters[topics.RECORDER].vehicles == "/auv1 /auv2"
+    assert {member.parameters[topics.RECORDER].directory for member in one.members.values()} == {
+        str(one.one_bag)
+    }
+
+
+@pytest.mark.parametrize("vehicles", range(1, topics.MOST_RECORDED + 1))
+def test_a_request_and_its_report_fit_into_the_lead(vehicles: int) -> None:
+    """Else a step would wait for the recorder's timer; and the messages of all fit into one queue of 512."""
+    asked = topics.shared(topics.RECORDING_REQUEST, vehicles)
+    reported = topics.shared(topics.RECORDING_REPORT, vehicles)
+    for lead, messages in ((topics.RECORDING_LEAD, 16), (topics.SPATIAL_RECORDING_LEAD, 23)):
+        assert asked + reported <= topics.shared(lead, vehicles)
+        assert topics.shared(lead, vehicles) * messages * vehicles < 512
+
+
+def test_more_vehicles_than_one_recorder_can_record_are_refused(tmp_path: Path) -> None:
+    vehicles = "".join(f"  - {{namespace: auv{k}, mission: loiter}}\n" for k in range(11))
+    file = written(tmp_path, f"version: 1\nname: many\nbags: one\nvehicles:\n{vehicles}")
+    with pytest.raises(ConfigurationError) as refused:
+        fleet_file.load(str(file))
+    assert str(refused.value) == (
+        f"{file}: bags: found one, with 11 vehicles, expected each: one bag has at most 10 vehicles"
+    )
+
+
 def test_the_water_is_the_same_for_all_and_the_noise_is_not(tmp_path: Path) -> None:
     plan = plan_of(tmp_path, f"{TWO}current: [0.1, 0.2]\nupwelling: 0.05\nsea: calm\nseed: 7\n")
     plants = [member.parameters[topics.PLANT] for member in plan.members.values()]

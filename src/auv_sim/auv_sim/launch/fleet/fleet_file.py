@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 
 import pydantic
 
+from auv_msgs_py.contract.topics import MOST_RECORDED
 from auv_msgs_py.settings import user_files, yaml_file
 from auv_msgs_py.settings.schema import Pair, setting, settings
 from auv_msgs_py.settings.validators import no_boolean
@@ -78,6 +79,9 @@ def load(name_or_path: str) -> tuple[Path, Fleet]:
     fleet = yaml_file.load(file, Fleet)
     if len(fleet.vehicles) < 2:
         raise ConfigurationError(f"{file}: vehicles", f"{len(fleet.vehicles)} of them", "two or more")
+    if fleet.bags == "one" and len(fleet.vehicles) > MOST_RECORDED:
+        expected = f"each: one bag has at most {MOST_RECORDED} vehicles"
+        raise ConfigurationError(f"{file}: bags", f"one, with {len(fleet.vehicles)} vehicles", expected)
     vehicles: list[FleetVehicle] = []
     for place, vehicle in places(file, fleet):
         try:

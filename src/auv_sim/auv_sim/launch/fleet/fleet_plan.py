@@ -100,6 +100,7 @@ def make(name: str, common: Options, directory: Path) -> FleetPlan:
         node_settings.change(plan.parameters, topics.PLANT, shared_clock=True)
         node_settings.change(plan.parameters, topics.RECORDER, shared_clock=True, vehicles=vehicles)
         if fleet.bags == "one":
+            node_settings.change(plan.parameters, topics.PLANT, recorded_vehicles=len(fleet.vehicles))
             node_settings.change(plan.parameters, topics.RECORDER, directory=str(directory / BAG))
         members[label] = plan
     steps = [plan.parameters[topics.PLANT].step for plan in members.values()]

@@ -33,6 +33,7 @@ class FleetRecorderNode(RecorderNode):
         self._recorders = recorders
         super().__init__(**arguments)
         recorders.append(self)
+        self.report_every = topics.shared(topics.RECORDING_REPORT, len(self.parameters.vehicles.split()))
 
     @property
     def _owner(self) -> FleetRecorderNode:
