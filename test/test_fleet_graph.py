@@ -83,10 +83,15 @@ def test_one_bag_has_all_vehicles_and_the_verbs_take_them_apart(
 
     assert bag_command(["rerun", str(run)]) == 0  # both vehicles', each with its own configuration
     assert capsys.readouterr().out.count("bit for bit") == 2
-    with pytest.raises(SystemExit) as refused:
-        bag_command(["export", str(run)])
-    assert refused.value.code == 2
+    assert bag_command(["export", str(run)]) == 2
     assert "2 vehicles, expected --namespace with one of auv1, auv2" in capsys.readouterr().err
+
+    assert bag_command(["report", str(run)]) == 0
+    page = (run / "report" / "report.html").read_text(encoding="utf-8")
+    assert json.loads(page.split('type="application/json">')[1].split("</script>")[0])["closest"] == (
+        "Closest: auv1 and auv2, 3.00 m at 0.0 s."
+    )
+    assert (run / "report" / "auv1" / "dive.png").exists()
 
     bags = read_vehicles(run)
     assert list(bags) == ["auv1", "auv2"]

@@ -14,6 +14,7 @@ from typing import Any
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rclpy.serialization import serialize_message
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.frames import FrameIds, FrameTable
@@ -99,10 +100,12 @@ def no_answer(_: Path) -> str:
     heard: list[tuple[Any, Callable[[Any], None]]] = []
     timers: list[Callable[[], None]] = []
     simulator: Any = SimpleNamespace(
-        parameters=SimpleNamespace(recorded=False, answer_timeout=0.0, shared_clock=False, recorded_vehicles=1),
+        parameters=SimpleNamespace(
+            recorded=False, answer_timeout=0.0, shared_clock=False, recorded_vehicles=1
+        ),
         mission_running=True, steps=7, stamp=1_350_000_000, fault="",
         gate_waits_for=lambda: "", publish_step=lambda: None,
-        advance=lambda _: None, listen=lambda topic, callback: heard.append((topic, callback)),
+        advance=lambda _: None, listen=lambda topic, callback, **_: heard.append((topic, callback)),
         create_timer=lambda _, callback, **__: timers.append(callback),
     )  # fmt: skip
     simulator.fail = lambda text: setattr(simulator, "fault", text)
@@ -111,7 +114,7 @@ def no_answer(_: Path) -> str:
     status = DiagnosticStatus(hardware_id="heading_autopilot", values=waits)
     for topic, callback in heard:
         if topic is topics.DIAGNOSTICS:
-            callback(DiagnosticArray(status=[status]))
+            callback(serialize_message(DiagnosticArray(status=[status])))
     for callback in timers:
         callback()
     return str(simulator.fault)

@@ -130,6 +130,8 @@ FIRST_STAMP_NS = 1_000_000_000
 #: processor time. (A reliable writer would not help: it keeps only its last 10 messages.) A step of a vehicle
 #: with stern planes has at most 23.
 RECORDING_LEAD, SPATIAL_RECORDING_LEAD = 30, 20
+#: Messages that a publisher keeps (`contract.qos`).
+KEPT = 10
 #: Interval between the recorder's reports, steps.
 RECORDING_REPORT = 8
 #: Interval between the simulator's requests to the recorder, steps: a third of the lead, or half of it with
@@ -146,5 +148,14 @@ FLEET_REPORT_NS, FLEET_LEAD_NS = 500_000_000, 1_000_000_000
 
 
 def shared(steps: int, vehicles: int) -> int:
-    """Return a lead or an interval of the recording, steps, where one recorder has several vehicles."""
+    """Return an interval of the recording, steps, where one recorder has several vehicles."""
     return max(1, steps // vehicles)
+
+
+def shared_lead(lead: int, vehicles: int) -> int:
+    """Return the largest lead over a recorder of several vehicles, steps.
+
+    Of several, it is no more than the messages that a publisher keeps: one that did not arrive, because the
+    queue was full or the recorder had not yet matched the publisher, is still there to be sent again.
+    """
+    return lead if vehicles == 1 else min(shared(lead, vehicles), KEPT)

@@ -12,6 +12,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from auv_msgs_py.contract import topics
 from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
@@ -24,7 +25,7 @@ from auv_sim.flight.metrics import (
     farthest,
     summarise,
 )
-from auv_sim.flight.run_record import SpatialRun
+from auv_sim.flight.run_record import Run, SpatialRun
 from auv_sim.launch.mission_plan import Plan
 from auv_sim.launch.outcome import Outcome
 from auv_sim.terminal import go_on, wrote
@@ -66,23 +67,20 @@ _FILES = (
 )
 
 
-def conclude(
-    plan: Plan, directory: Path, outcome: Outcome, bag: Path | None = None
-) -> tuple[Outcome, MissionSummary | None]:
+def conclude(plan: Plan, directory: Path, outcome: Outcome) -> tuple[Outcome, MissionSummary | None]:
     """Load the bag, judge the mission, write `summary.json` and the pictures.
 
     Args:
         plan: of the mission flown.
         directory: the run directory.
         outcome: how the mission ended on the graph.
-        bag: the recording of this and other vehicles; by default the run directory's own.
 
     Returns:
         The outcome, incomplete where too little of the path was flown or its end was not reached; and the
         figures, None without a readable bag.
     """
     try:
-        run = load(directory / "bag") if bag is None else load(bag, plan.options.namespace)
+        run = _recorded(plan, directory)
     except ConfigurationError:
         return outcome, None
     run = run.select(run.t > outcome.since - _SAME_STAMP)
@@ -109,6 +107,18 @@ def conclude(
         spatial = plan.path if isinstance(plan.path, SpatialPath) else None
         dive_picture.draw(run, plan.mission.path, spatial, directory / "dive.png", title)
     return outcome, summary
+
+
+def _recorded(plan: Plan, directory: Path) -> Run:
+    """Return the run that was recorded: in the run directory, or of a fleet perhaps in one bag for all.
+
+    Raises:
+        ConfigurationError: there is no readable bag.
+    """
+    recorder = plan.parameters.get(topics.RECORDER)
+    if recorder is not None and recorder.vehicles:
+        return load(Path(recorder.directory), plan.options.namespace)
+    return load(directory / "bag")
 
 
 def _write_summary(plan: Plan, directory: Path, outcome: Outcome, summary: MissionSummary) -> None:

@@ -63,7 +63,7 @@ class Lockstep:
         self._pairing = Pairing(tuple(orders.limits), strict=True)
         lead = topics.RECORDING_LEAD if orders.stop == STOP else topics.SPATIAL_RECORDING_LEAD
         recorded = node.parameters.recorded_vehicles
-        self._lead = topics.shared(lead, recorded)
+        self._lead = topics.shared_lead(lead, recorded)
         self._ask_every = topics.shared(topics.RECORDING_REQUEST, recorded)
         self._open_since: float | None = None
         self._left_running = False

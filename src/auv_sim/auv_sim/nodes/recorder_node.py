@@ -20,7 +20,7 @@ from auv_sim.bags.texts import texts_below
 from auv_sim.bags.writing.bag_writer import BagWriter
 from auv_sim.bags.writing.disk_room import RoomWatch
 from auv_sim.bags.writing.intake import ReceivedMessage, Timestamps, drain
-from auv_sim.bags.writing.opened_bag import check_patterns, closed, open_bag
+from auv_sim.bags.writing.opened_bag import closed, open_bag
 from auv_sim.bags.writing.selection import Selection
 from auv_sim.sim_parameters import RecorderParameters
 
@@ -47,7 +47,6 @@ class RecorderNode(SuiteNode):
         super().__init__(topics.RECORDER, RecorderParameters, **arguments)
         p: RecorderParameters = self.parameters
         directory = Path(p.directory or time.strftime("bag-%Y%m%d-%H%M%S"))
-        check_patterns(p, self.get_name())
         self.writer = self.new_writer(directory)
         self._room = RoomWatch(directory)
         self._times = Timestamps(bool(self.get_parameter("use_sim_time").value))
@@ -61,12 +60,11 @@ class RecorderNode(SuiteNode):
         spatial = topics.SPATIAL_PER_STEP if p.sternplanes else ()
         per_step = {self.resolve_topic_name(topic.name) for topic in (*topics.PER_STEP, *spatial)}
         self._per_step = [topic.channel for topic in self.selection.topics if topic.name in per_step]
-        if p.lockstep:
-            self.listen(topics.RECORD_REQUEST, self._on_request)
         # In lockstep too: for what comes after the last request, and for a simulator that sends none.
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = self.create_timer(_POLL, self._poll_unless_asked, clock=steady)
         if p.lockstep:
+            self.listen(topics.RECORD_REQUEST, self._on_request)
             self.create_timer(_POLL_BESIDE, self._poll_unless_asked, clock=steady)
         seldom = p.lockstep and not self.selection.seeks
         self.create_timer(_SELDOM if seldom else _LOOK_AROUND, self._look_around, clock=steady)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from auv_msgs_py.contract import topics
+from auv_msgs_py.contract import qos, topics
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_sim.cli.mission import main
@@ -71,8 +71,9 @@ def test_a_request_and_its_report_fit_into_the_lead(vehicles: int) -> None:
     asked = topics.shared(topics.RECORDING_REQUEST, vehicles)
     reported = topics.shared(topics.RECORDING_REPORT, vehicles)
     for lead, messages in ((topics.RECORDING_LEAD, 16), (topics.SPATIAL_RECORDING_LEAD, 23)):
-        assert asked + reported <= topics.shared(lead, vehicles)
-        assert topics.shared(lead, vehicles) * messages * vehicles < 512
+        assert asked + reported <= topics.shared_lead(lead, vehicles)
+        assert topics.shared_lead(lead, vehicles) * messages * vehicles < 512
+        assert vehicles == 1 or topics.shared_lead(lead, vehicles) <= qos.DEPTH == topics.KEPT
 
 
 def test_more_vehicles_than_one_recorder_can_record_are_refused(tmp_path: Path) -> None:

@@ -6,15 +6,20 @@ import argparse
 import html
 import json
 import re
+from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
+from typing import Any
+
+from rich.console import Console
 
 from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.content.events import events_of
 from auv_sim.bags.content.recorded_mission import RecordedMission, mission_in
-from auv_sim.bags.reading.bag_reader import read_bag
+from auv_sim.bags.content.vehicle_parts import read_vehicles
 from auv_sim.bags.reading.recording import Bag
+from auv_sim.bags.showing.fleet_data import fleet_data
 from auv_sim.bags.showing.report_data import page_data
 from auv_sim.bags.showing.report_pictures import pictures
 from auv_sim.bags.verbs.arguments import add_choice
@@ -28,6 +33,8 @@ PAGE = "report.html"
 _PAGE, _IN_SPACE = "report.html", ("geometry.js", "space.js")
 #: What the report shares with the console: colours, and the drawing of axes, lines and maps.
 _COLOURS, _DRAWING = "colours.css", ("drawing.js", "map_drawing.js")
+#: The page of a fleet.
+_OF_FLEET = "fleet.html"
 #: What each file is for.
 _WHAT = {
     PAGE: "everything, for a browser",
@@ -49,21 +56,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Write the page and the pictures."""
-    bag = read_bag(arguments.bag, odometry=arguments.odometry)
-    for note in bag.notes:
-        say(f"damaged: {note}")
-    flight = mission_in(bag, arguments.mission, arguments.namespace)
-    directory = arguments.out or _beside(bag)
-    try:
-        directory.mkdir(parents=True, exist_ok=True)
-        page = directory / PAGE
-        write_text(page, page_of(flight))
-        written = [page, *pictures(flight, directory, _title(flight))]
-    except OSError as error:
-        raise ConfigurationError(str(directory), f"{error.strerror}", "a place to write to") from None
+    """Write the page and the pictures; of a fleet, a page for all and one for each vehicle below it."""
+    bags = read_vehicles(arguments.bag, odometry=arguments.odometry, namespace=arguments.namespace)
+    flights = {}
+    for name, bag in bags.items():
+        for note in bag.notes:
+            say(f"damaged: {note}")
+        flights[name] = mission_in(bag, arguments.mission, arguments.namespace)
     console = terminal()
-    for file in written:
+    if len(flights) > 1:
+        return _report_fleet(flights, arguments, console)
+    flight = next(iter(flights.values()))
+    for file in _write(flight, arguments.out or _beside(flight.bag)):
         wrote(console, file, _WHAT[file.name])
     if flight.summary is not None:
         go_on(console, "Try other gains on it", to_type("bag.py", "rerun", arguments.bag, params="NEW.yaml"))
@@ -72,17 +76,55 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _report_fleet(
+    flights: Mapping[str, RecordedMission], arguments: argparse.Namespace, console: Console
+) -> int:
+    """Write the fleet's page and those of the vehicles."""
+    place = arguments.bag.parent if arguments.bag.name == "bag" else arguments.bag
+    directory = arguments.out or place / "report"
+    for name, flight in flights.items():
+        _write(flight, directory / name)
+    pages = {name: f"{name}/{PAGE}" for name in flights}
+    page = directory / PAGE
+    write_text(page, _filled(_OF_FLEET, fleet_data(flights, pages, place.resolve().name)))
+    wrote(console, page, "all vehicles, for a browser")
+    for name in flights:
+        wrote(console, directory / name, f"the page and the pictures of {name}")
+    go_on(console, "Lay them over each other", to_type("bag.py", "compare", arguments.bag))
+    return 0
+
+
+def _write(flight: RecordedMission, directory: Path) -> list[Path]:
+    """Write one vehicle's page and pictures; return the files.
+
+    Raises:
+        ConfigurationError: the directory cannot be written to.
+    """
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        page = directory / PAGE
+        write_text(page, page_of(flight))
+        return [page, *pictures(flight, directory, _title(flight))]
+    except OSError as error:
+        raise ConfigurationError(str(directory), f"{error.strerror}", "a place to write to") from None
+
+
 def page_of(flight: RecordedMission) -> str:
     """Return the self-contained page as text."""
     title = _title(flight)
     content = page_data(flight, events_of(flight), title)
+    more = "".join(f"<script>\n{_part(name)}</script>\n" for name in _IN_SPACE if content["space"])
+    return _filled(_PAGE, content, more)
+
+
+def _filled(part: str, content: dict[str, Any], more: str = "") -> str:
+    """Return a page with its content, its title and further scripts."""
     data = json.dumps(without_nan(content), allow_nan=False)
     # The data must not end the element that contains it.
     data = data.replace("<", "\\u003c")
-    more = "".join(f"<script>\n{_part(name)}</script>\n" for name in _IN_SPACE if content["space"])
-    page = _part(_PAGE).replace("{{MORE}}", more).replace("{{COLOURS}}", _shared(_COLOURS))
+    page = _part(part).replace("{{MORE}}", more).replace("{{COLOURS}}", _shared(_COLOURS))
     page = page.replace("{{DRAWING}}", "".join(_as_script(_shared(name)) for name in _DRAWING))
-    return page.replace("{{TITLE}}", html.escape(title)).replace("{{DATA}}", data)
+    return page.replace("{{TITLE}}", html.escape(content["title"])).replace("{{DATA}}", data)
 
 
 def _part(name: str) -> str:
@@ -103,6 +145,7 @@ def _as_script(module: str) -> str:
 def _title(flight: RecordedMission) -> str:
     path = flight.bag.path
     name = path.parent.name if path.name == "bag" else path.stem
+    name = f"{name} {flight.bag.vehicle}" if flight.bag.vehicle is not None else name
     return f"{flight.mission.name}: {name}" if flight.mission is not None else name
 
 

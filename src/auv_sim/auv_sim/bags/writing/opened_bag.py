@@ -14,7 +14,7 @@ from auv_sim.bags.writing.disk_room import room_lacking
 from auv_sim.sim_parameters import RecorderParameters
 
 
-def check_patterns(parameters: RecorderParameters, node: str) -> None:
+def _check_patterns(parameters: RecorderParameters, node: str) -> None:
     """Check the patterns for topics.
 
     Raises:
@@ -40,9 +40,10 @@ def open_bag(
         node: name of the recorder, for messages.
 
     Raises:
-        ConfigurationError: the directory exists, or the disk has too little room.
+        ConfigurationError: a pattern is none, the directory exists, or the disk has too little room.
     """
     p = parameters
+    _check_patterns(p, node)
     if os.path.lexists(directory):
         raise ConfigurationError(f"{node}: parameter directory", f"{directory}, which exists", "a new one")
     if short := room_lacking(directory, p.min_free_space):

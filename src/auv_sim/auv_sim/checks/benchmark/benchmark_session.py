@@ -12,10 +12,9 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.checks.benchmark import against, console_cost, figures_page, machine, sheets
+from auv_sim.checks.benchmark import against, console_cost, figures_page, fleet_cost, machine, sheets
 from auv_sim.checks.benchmark.measures import (
     dimensions,
-    fleet_cost,
     graph_speed,
     law_speed,
     operation,

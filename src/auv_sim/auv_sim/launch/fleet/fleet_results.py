@@ -61,7 +61,7 @@ def conclude(plan: FleetPlan, outcomes: dict[str, Outcome]) -> FleetResults:
     judged, summaries, runs = {}, {}, {}
     for label, member in plan.members.items():
         folder, bag = plan.directory / label, plan.one_bag
-        judged[label], summary = mission_results.conclude(member, folder, outcomes[label], bag)
+        judged[label], summary = mission_results.conclude(member, folder, outcomes[label])
         if summary is not None:
             summaries[label] = summary
             runs[label] = load(bag or folder / "bag", member.options.namespace)
@@ -131,8 +131,7 @@ def show(plan: FleetPlan, results: FleetResults, console: Console) -> None:
             wrote(console, plan.directory / name, what)
     for label in plan.members:
         wrote(console, plan.directory / label, f"the run directory of {label}")
-    first = plan.directory / next(iter(plan.members))
-    go_on(console, "Look further", to_type("bag.py", "report", first))
+    go_on(console, "Look further", to_type("bag.py", "report", plan.directory))
 
 
 def _cell(value: float, digits: int) -> str:
