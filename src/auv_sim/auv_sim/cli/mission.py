@@ -160,7 +160,7 @@ def _add_run(p: argparse.ArgumentParser) -> None:
     p.add_argument(
         "--force", action="store_true", help="fly what the check of the plan refuses, in flight too"
     )
-    p.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
+    p.add_argument("--quiet", action="store_true", help="print failures only, and the addresses of --console")
 
 
 @command("mission", interrupted="mission interrupted")

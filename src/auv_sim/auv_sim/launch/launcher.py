@@ -175,7 +175,8 @@ class _Flight:
         self._look.check()
         if self._plan.options.waits:
             if self._plan.options.console:
-                self._progress.say(console_child.addresses(self._children, self._monitor.look))
+                lines = console_child.addresses(self._children, self._monitor.look)
+                self._progress.say(lines, needed=True)
             m = self._monitor
             return StandBy(self._plan, m, self._progress, self._interrupt, self._check_progress).run()
         refused = self._monitor.start()

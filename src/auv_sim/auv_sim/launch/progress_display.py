@@ -55,8 +55,16 @@ class ProgressDisplay(Bars):
         """Show what the mission waits for."""
         self._bar.update(self._task, description=f"waiting for {what}")
 
-    def say(self, text: str) -> None:
-        """Print lines above the bar."""
+    def say(self, text: str, needed: bool = False) -> None:
+        """Print lines above the bar.
+
+        Args:
+            text: to print.
+            needed: print them with `--quiet` too.
+        """
+        if needed and self._bar.console.quiet:
+            print(text, flush=True)
+            return
         self._bar.console.print(escape(text), highlight=False, soft_wrap=True)
 
     def update_other(self, name: str, length: float, to_go: float, ye: float, mission_time: float) -> None:
