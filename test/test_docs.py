@@ -195,7 +195,7 @@ def shortened(line: Line, directory: Path) -> list[str]:
 
 def flown_here() -> list[Line]:
     """Each command for the simulator once; others are flown by the tests of their own."""
-    elsewhere = {"--fleet", "--no-sim", "--vehicle-driver", "--help", "MISSION", "--wait"}
+    elsewhere = {"--fleet", "--no-sim", "--vehicle-driver", "--help", "MISSION", "--wait", "--console"}
     pages = ("README.md", "docs/flying.md")
     flown = {line.text: line for line in chosen("mission") if line.page in pages}
     return [line for text, line in flown.items() if not elsewhere & set(shlex.split(text))]

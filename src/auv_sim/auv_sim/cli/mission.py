@@ -27,7 +27,7 @@ from auv_sim.launch.options import BY_RULE, DEFAULT_MISSION, DEFAULT_VEHICLE, DR
 from auv_sim.launch.processes.adopted import Loader
 
 #: Options that concern a fleet as a whole.
-_OF_FLEET = ("speed", "out", "composed", "any_processor", "domain", "flown", "force", "quiet")
+_OF_FLEET = ("speed", "out", "composed", "any_processor", "domain", "flown", "force", "quiet", "console")
 
 
 def parser() -> Parser:
@@ -189,6 +189,7 @@ def _fly_fleet(fleet: str, given: dict[str, Any]) -> int:
             raise ConfigurationError(
                 option, "together with --fleet", "it in the fleet's file, where it has it"
             )
+    _require_console(given["console"])
     with Loader() as loader:
         from auv_sim.launch.fleet.fleet_flight import fly
 
@@ -207,10 +208,7 @@ def checked(given: dict[str, Any]) -> Options:
     for name in ("current", "initial"):
         given[name] = tuple(given[name]) if given[name] is not None else None
     options = Options(**given)
-    if options.console:
-        from auv_sim.launch.operation.console_child import require_library
-
-        require_library()
+    _require_console(options.console)
     if options.vehicle_address is not None:
         if options.vehicle_driver is None:
             raise ConfigurationError("--vehicle-address", "no --vehicle-driver", "both")
@@ -225,6 +223,14 @@ def checked(given: dict[str, Any]) -> Options:
             "--use-sim-time", "without --no-sim", "both (the simulator always has its own clock)"
         )
     return options
+
+
+def _require_console(is_asked: bool) -> None:
+    """Refuse a console without its library, before anything starts."""
+    if is_asked:
+        from auv_sim.launch.operation.console_child import require_library
+
+        require_library()
 
 
 def _check_simulated(options: Options) -> None:

@@ -31,6 +31,18 @@ class Bars:
         self._bar.__enter__()
         return self
 
+    def say(self, text: str, needed: bool = False) -> None:
+        """Print lines above the bars.
+
+        Args:
+            text: to print.
+            needed: print them with `--quiet` too.
+        """
+        if needed and self._bar.console.quiet:
+            print(text, flush=True)
+            return
+        self._bar.console.print(escape(text), highlight=False, soft_wrap=True)
+
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
@@ -54,18 +66,6 @@ class ProgressDisplay(Bars):
     def waiting_for(self, what: str) -> None:
         """Show what the mission waits for."""
         self._bar.update(self._task, description=f"waiting for {what}")
-
-    def say(self, text: str, needed: bool = False) -> None:
-        """Print lines above the bar.
-
-        Args:
-            text: to print.
-            needed: print them with `--quiet` too.
-        """
-        if needed and self._bar.console.quiet:
-            print(text, flush=True)
-            return
-        self._bar.console.print(escape(text), highlight=False, soft_wrap=True)
 
     def update_other(self, name: str, length: float, to_go: float, ye: float, mission_time: float) -> None:
         """Show a mission that was set in flight, of which only name and length of path (m) are known."""

@@ -10,8 +10,10 @@ from auv_msgs_py.node.graph_look import GraphTaken
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, EXIT_INTERRUPTED, make_directory, say
 from auv_sim.launch import launcher, mission_flight
 from auv_sim.launch.fleet import fleet_launcher, fleet_plan
+from auv_sim.launch.fleet.fleet_plan import FleetPlan
 from auv_sim.launch.fleet.fleet_progress import FleetProgress
 from auv_sim.launch.options import Options
+from auv_sim.launch.outcome import Outcome
 from auv_sim.launch.processes.process_group import Starter
 from auv_sim.terminal import console as terminal
 
@@ -44,14 +46,31 @@ def fly(fleet: str, options: Options, loader: Starter) -> int:
     except GraphTaken:
         shutil.rmtree(directory)  # nothing was flown: the same command must work again
         raise
+    plan, outcomes = _flown(plan, outcomes)
+    if not outcomes:
+        console.print("no planned mission was flown")
+        return EXIT_DONE
     from auv_sim.launch.fleet import fleet_results  # after the flight: it imports plotting libraries
 
     results = fleet_results.conclude(plan, outcomes)
     fleet_results.show(plan, results, console)
-    for label, outcome in results.outcomes.items():
+    return _reported(results.outcomes)
+
+
+def _reported(outcomes: dict[str, Outcome]) -> int:
+    """Print the missions that are not complete; return the exit code."""
+    for label, outcome in outcomes.items():
         if outcome.state != "complete":
             say(f"{label}: mission {outcome.state}: {outcome.reason}", error=True)
-    states = {outcome.state for outcome in results.outcomes.values()}
+    states = {outcome.state for outcome in outcomes.values()}
     if "interrupted" in states:
         return EXIT_INTERRUPTED
     return EXIT_DONE if states == {"complete"} else EXIT_FAILED
+
+
+def _flown(plan: FleetPlan, outcomes: dict[str, Outcome]) -> tuple[FleetPlan, dict[str, Outcome]]:
+    """Return the vehicles that flew their planned missions last: the others have no figures."""
+    flown = {
+        label: outcome for label, outcome in outcomes.items() if outcome.state != "idle" and not outcome.other
+    }
+    return dataclasses.replace(plan, members={label: plan.members[label] for label in flown}), flown

@@ -14,7 +14,9 @@ from auv_msgs_py.node.run import StopRequest
 from auv_sim.launch import launcher
 from auv_sim.launch.fleet.fleet_plan import FleetPlan
 from auv_sim.launch.fleet.fleet_progress import FleetProgress
+from auv_sim.launch.fleet.fleet_stand_by import FleetStandBy
 from auv_sim.launch.mission_plan import Plan
+from auv_sim.launch.operation import console_child
 from auv_sim.launch.outcome import MissionFailed, Outcome
 from auv_sim.launch.processes import discovery
 from auv_sim.launch.processes.placement import Processor
@@ -42,10 +44,12 @@ def fly(plan: FleetPlan, domain: int, progress: FleetProgress, loader: Starter) 
     children = Children(plan.directory / "log", environment)
     try:
         children.fork(loader, commands_of(plan))
-        # Imported after the fork: the nodes load meanwhile, and a process with DDS threads must not fork.
+        look = discovery.look_for(domain)
+        if plan.has_console:
+            console_child.start(children, domain)
+        # Imported after the forks: the nodes load meanwhile, and a process with DDS threads must not fork.
         from auv_sim.launch.monitor import Monitor
 
-        look = discovery.look_for(domain)
         monitors = {label: Monitor(member.options.namespace) for label, member in plan.members.items()}
         try:
             return _FleetFlight(plan, children, loader, monitors, progress, interrupt).run(look)
@@ -125,6 +129,10 @@ class _FleetFlight:
             return dict.fromkeys(self._plan.members, ended)
         with contextlib.ExitStack() as held:
             place(self._plan.members, self._children.ids, held)
+            if self._plan.has_console:
+                self._progress.say(console_child.addresses(self._children, self._spin), needed=True)
+                everyone = self._monitors, self._progress, self._interrupt
+                return FleetStandBy(self._plan, *everyone, self._spin).run()
             for label, monitor in self._monitors.items():
                 if refused := monitor.start():
                     raise MissionFailed(f"{label}: the mission could not be started: {refused}")

@@ -49,6 +49,11 @@ class FleetPlan:
         """The bag of all vehicles; None where each has its own."""
         return self.directory / BAG if self.fleet.bags == "one" else None
 
+    @property
+    def has_console(self) -> bool:
+        """Whether operators start the missions in the console, and the nodes stay after their ends."""
+        return any(plan.options.console for plan in self.members.values())
+
     def claims(self) -> dict[str, Claim]:
         """Return what each vehicle claims in the graph; the first one claims /clock for the fleet."""
         claims = {

@@ -41,7 +41,6 @@ class StandBy:
     ) -> None:  # fmt: skip
         self._plan, self._monitor, self._progress = plan, monitor, progress
         self._interrupt, self._check = interrupt, check
-        self._missions: FlownMissions = monitor.missions
         self._digest = plan.mission.digest
 
     def run(self) -> Outcome:
@@ -54,14 +53,14 @@ class StandBy:
                 self._check(m.state == MissionState.RUNNING)
                 m.look(0.1)
                 self._show()
-            is_under_way = self._stop()
+            is_under_way = stop(m)
         finally:
-            for mission in self._missions.flown:
+            for mission in m.missions.flown:
                 self._progress.say(mission.line)
-        return self._outcome(is_under_way)
+        return outcome_of(m.missions, is_under_way, self._digest)
 
     def _show(self) -> None:
-        m, last, state = self._monitor, self._missions.last, self._monitor.state
+        m, last, state = self._monitor, self._monitor.missions.last, self._monitor.state
         if state == MissionState.HOLDING:
             self._progress.waiting_for("the service resume, or navigation: the mission holds")
         elif state != MissionState.RUNNING or last is None:
@@ -73,27 +72,40 @@ class StandBy:
             else:
                 self._progress.update_other(last.name, last.length, m.to_go, m.ye, last.duration)
 
-    def _stop(self) -> bool:
-        """Abort what is under way or could still begin; return whether a mission was under way."""
-        m, missions = self._monitor, self._missions
-        number, last = len(missions.flown), missions.last
-        was_under_way = m.state in _UNDER_WAY if last is None else last.is_under_way
-        m.abort()  # a complete mission refuses it
-        for _ in range(15):  # 0.3 s for the zero commands to reach the vehicle: no propeller may keep running
-            m.look(0.02)
-        last = missions.last
-        if last is None or last.state == MissionState.COMPLETE:
-            return was_under_way and last is None
-        is_under_way = was_under_way or len(missions.flown) > number
-        if is_under_way:
-            missions.interrupt(_INTERRUPTED)
-        return is_under_way
 
-    def _outcome(self, is_under_way: bool) -> Outcome:
-        last = self._missions.last
-        if last is None:
-            found = ("interrupted", "stopped before the mission began") if is_under_way else ("idle", "")
-            return Outcome(*found, 0.0, 0.0)
-        other = "" if last.digest == self._digest else last.name
-        reason = "" if last.state == MissionState.COMPLETE else last.reason
-        return Outcome(last.state, reason, last.wall_time, last.duration, since=last.begun, other=other)
+def stop(monitor: Any) -> bool:
+    """Abort what is under way or could still begin; return whether a mission was under way.
+
+    Args:
+        monitor: the launcher's node in the vehicle's namespace.
+    """
+    missions: FlownMissions = monitor.missions
+    number, last = len(missions.flown), missions.last
+    was_under_way = monitor.state in _UNDER_WAY if last is None else last.is_under_way
+    monitor.abort()  # a complete mission refuses it
+    for _ in range(15):  # 0.3 s for the zero commands to reach the vehicle: no propeller may keep running
+        monitor.look(0.02)
+    last = missions.last
+    if last is None or last.state == MissionState.COMPLETE:
+        return was_under_way and last is None
+    is_under_way = was_under_way or len(missions.flown) > number
+    if is_under_way:
+        missions.interrupt(_INTERRUPTED)
+    return is_under_way
+
+
+def outcome_of(missions: FlownMissions, is_under_way: bool, digest: str) -> Outcome:
+    """Return the outcome of the mission that was flown last.
+
+    Args:
+        missions: that were flown.
+        is_under_way: as `stop` returned it.
+        digest: of the planned mission.
+    """
+    last = missions.last
+    if last is None:
+        found = ("interrupted", "stopped before the mission began") if is_under_way else ("idle", "")
+        return Outcome(*found, 0.0, 0.0)
+    other = "" if last.digest == digest else last.name
+    reason = "" if last.state == MissionState.COMPLETE else last.reason
+    return Outcome(last.state, reason, last.wall_time, last.duration, since=last.begun, other=other)
