@@ -13,7 +13,8 @@ from auv_msgs_py.settings.schema import flattened
 from auv_path_following import vehicle
 from auv_path_following.control.hull_model import tightest_turn
 from auv_path_following.guidance.path_follower import PathFollowerConfig
-from auv_sim.own_vehicle.tune.gain_space import VARIABLES, GainSpace, bounds, ratios_at
+from auv_sim.own_vehicle.tune.gain_space import LAWS, VARIABLES, GainSpace, bounds, ratios_at
+from auv_sim.own_vehicle.tune.sampled_loop import loop_of, spectral_radius, yaw_plane
 from hulls import REMUS, STABLE
 
 SPACES = [GainSpace(hull, PathFollowerConfig(), 0.05, 0.05) for hull in (REMUS, STABLE)]
@@ -24,8 +25,14 @@ SPACES = [GainSpace(hull, PathFollowerConfig(), 0.05, 0.05) for hull in (REMUS, 
 )
 def test_the_first_point_is_the_rule(space: GainSpace) -> None:
     rule, first = space.rule(), space.gains(space.first)
-    assert flattened(first.guidance) == pytest.approx(flattened(rule.guidance))
-    assert flattened(first.autopilot) == pytest.approx(flattened(rule.autopilot))
+    for found, wanted in (
+        (first.guidance.ailos, rule.guidance.ailos),
+        (first.guidance.switching, rule.guidance.switching),
+        (first.autopilot.nism, rule.autopilot.nism),
+        (first.autopilot.reference, rule.autopilot.reference),
+    ):
+        assert flattened(found) == pytest.approx(flattened(wanted))
+    assert (first.guidance.law, first.autopilot.controller) == ("ailos", "nism")
     assert first.pitch == rule.pitch
 
 
@@ -61,3 +68,18 @@ def test_each_variable_moves_what_it_is_named_after() -> None:
     assert ahead.guidance.ailos.lookahead == pytest.approx(1.5 * first.guidance.ailos.lookahead)
     assert rate.guidance.switching.turn_rate == pytest.approx(1.5 * first.guidance.switching.turn_rate)
     assert lead.guidance.switching.lead == pytest.approx(1.5 * first.guidance.switching.lead)
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_every_law_has_the_same_loop_near_the_path(law: str) -> None:
+    """The linear loop of PID is that of NISM; the slope of the vector field is 1/Delta."""
+    own, other = SPACES[0], GainSpace(REMUS, PathFollowerConfig(), 0.05, 0.05, law)
+    first, gains = own.gains(own.first), other.gains(other.first)
+    assert (gains.guidance.law, gains.autopilot.controller) == LAWS[law]
+    assert gains.guidance.lookahead == pytest.approx(first.guidance.lookahead)
+    radii = [
+        spectral_radius(yaw_plane(REMUS), loop_of(flown.autopilot, REMUS, 0.05), 0.05, 0.05, factor)
+        for flown in (first, gains)
+        for factor in (1.0, 3.0)
+    ]
+    assert radii[2:] == pytest.approx(radii[:2], abs=0.02)

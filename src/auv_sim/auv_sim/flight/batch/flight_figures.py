@@ -32,6 +32,7 @@ UNITS = {
     "late_rms_distance": "m",
     "late_largest_distance": "m",
     "off_corners_rms_distance": "m",
+    "off_corners_largest_distance": "m",
     "time_to_path": "s",
     "rms_heading_error": "deg",
     "distance_covered": "m",
@@ -69,7 +70,8 @@ class Flights:
         progress: s of Eq. (1) at the end, in [0, number of subpaths].
         rms_distance, largest_distance: over the whole flight.
         late_rms_distance, late_largest_distance: from `time_to_path` on.
-        off_corners_rms_distance: farther than `path_cells.CORNER_RADIUS` from every corner.
+        off_corners_rms_distance, off_corners_largest_distance: farther than `path_cells.CORNER_RADIUS` from
+            every corner.
         time_to_path: time until the path was joined, as `tally.ARRIVED` defines it, s.
         rms_heading_error: deg.
         distance_covered: m.
@@ -93,6 +95,7 @@ class Flights:
     late_rms_distance: Column
     late_largest_distance: Column
     off_corners_rms_distance: Column
+    off_corners_largest_distance: Column
     time_to_path: Column
     rms_heading_error: Column
     distance_covered: Column
@@ -205,7 +208,7 @@ def figures_of(ends: Column, whole: Column, subpaths: Column, dt: Column) -> dic
             "largest_distance": _known(subpaths[:, :, tally.LARGEST].max(axis=1)),
             "late_rms_distance": _root(whole[:, tally.LATE_SQUARES], whole[:, tally.LATE_ROWS]),
             "late_largest_distance": _known(whole[:, tally.LATE_LARGEST]),
-            "off_corners_rms_distance": _root(whole[:, tally.FREE_SQUARES], whole[:, tally.FREE_ROWS]),
+            **_of_straights(whole),
             "time_to_path": whole[:, tally.TIME_TO_PATH],
             "rms_heading_error": np.degrees(
                 _root(subpaths[:, :, tally.HEADING_SQUARES].sum(axis=1), counted)
@@ -221,6 +224,14 @@ def figures_of(ends: Column, whole: Column, subpaths: Column, dt: Column) -> dic
             "subpath_largest_distance": np.where(rows > 0, subpaths[:, :, tally.LARGEST], np.nan),
             "subpath_duration": np.where(rows > 0, subpaths[:, :, tally.DURATION], np.nan),
         }
+
+
+def _of_straights(whole: Column) -> dict[str, Any]:
+    """Return the figures away from corners."""
+    return {
+        "off_corners_rms_distance": _root(whole[:, tally.FREE_SQUARES], whole[:, tally.FREE_ROWS]),
+        "off_corners_largest_distance": _known(whole[:, tally.FREE_LARGEST]),
+    }
 
 
 def _of_steering(whole: Column) -> dict[str, Any]:

@@ -45,9 +45,8 @@ def judged(run: Run, scenario: Scenario) -> dict[str, Any]:
         "progress": float(run.s[-1]),
         "rms_distance": summary.rms_distance,
         "largest_distance": summary.largest_distance,
-        "late_rms_distance": _rms(late),
-        "late_largest_distance": float(late.max()) if late.size else math.nan,
-        "off_corners_rms_distance": _rms(distance[rows.corners(path)[1]]),
+        **_of_distances("late", late),
+        **_of_distances("off_corners", distance[rows.corners(path)[1]]),
         "time_to_path": float(elapsed[near[0]]) if near.size else math.nan,
         "rms_heading_error": summary.rms_heading_error,
         "distance_covered": summary.distance_covered,
@@ -67,6 +66,11 @@ def judged(run: Run, scenario: Scenario) -> dict[str, Any]:
         settled = elapsed - joined >= SETTLING_TIME - 1e-6
         figures |= _in_space(run, rows, path, summary, settled)
     return figures
+
+
+def _of_distances(kind: str, distances: Any) -> dict[str, float]:
+    largest = float(distances.max()) if distances.size else math.nan
+    return {f"{kind}_rms_distance": _rms(distances), f"{kind}_largest_distance": largest}
 
 
 def _of_commands(commands: Any, stops: float, step: float) -> dict[str, float]:

@@ -23,8 +23,8 @@ SUBPATH_TALLIES = 7
 # The flight's own.
 LATE_ROWS, LATE_SQUARES, LATE_LARGEST, TIME_TO_PATH, ESTIMATE_ERROR = range(5)
 COMMANDS, RATE_SQUARES, RATE_LARGEST, SATURATED = range(5, 9)
-FREE_ROWS, FREE_SQUARES, CALM_ROWS, YAW_SQUARES = range(9, 13)
-FLIGHT_TALLIES = 13
+FREE_ROWS, FREE_SQUARES, FREE_LARGEST, CALM_ROWS, YAW_SQUARES = range(9, 14)
+FLIGHT_TALLIES = 14
 # How it ended: odometries, s of Eq. (1), whether the state stayed finite, flown share, last position (m).
 ODOMETRIES, S, FINITE, SHARE, LAST_X, LAST_Y = range(6)
 ENDS = 6
@@ -38,7 +38,7 @@ def begin(whole: Array, subpaths: Array) -> None:
     whole[:] = 0.0
     subpaths[:] = 0.0
     subpaths[:, LARGEST] = -math.inf
-    whole[LATE_LARGEST] = whole[ESTIMATE_ERROR] = -math.inf
+    whole[LATE_LARGEST] = whole[ESTIMATE_ERROR] = whole[FREE_LARGEST] = -math.inf
     whole[TIME_TO_PATH] = math.nan
 
 
@@ -77,6 +77,7 @@ def count_steadiness(whole: Array, elapsed: float, distance: float, r: float, is
     if not is_at_corner:
         whole[FREE_ROWS] += 1.0
         whole[FREE_SQUARES] += distance * distance
+        whole[FREE_LARGEST] = max(whole[FREE_LARGEST], distance)
     if elapsed >= CALM_TIME - _ROUNDING:
         whole[CALM_ROWS] += 1.0
         whole[YAW_SQUARES] += r * r

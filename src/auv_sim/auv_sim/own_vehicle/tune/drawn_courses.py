@@ -20,7 +20,9 @@ TIGHTEST, WIDEST = 1.15, 3.5
 Kind = Literal["sharp", "rounded", "survey"]
 
 
-def drawn_course(kind: Kind, turn_radius: float, legs: int, random: np.random.Generator) -> CompositePath:
+def drawn_course(
+    kind: Kind, turn_radius: float, legs: int, random: np.random.Generator, tightest: float = TIGHTEST
+) -> CompositePath:
     """Draw a course of legs.
 
     Args:
@@ -28,9 +30,10 @@ def drawn_course(kind: Kind, turn_radius: float, legs: int, random: np.random.Ge
         turn_radius: of the hull's steady turn, m.
         legs: how many.
         random: where the numbers come from.
+        tightest: radius of rounded corners and turns over that of the hull, at least.
     """
     if kind == "survey":
-        return _survey(turn_radius, legs, random)
+        return _survey(turn_radius, legs, random, tightest)
     scale = max(1.0, turn_radius / USUAL_TURN)
     point, course = (0.0, 0.0), random.uniform(-math.pi, math.pi)
     points = [point]
@@ -44,14 +47,15 @@ def drawn_course(kind: Kind, turn_radius: float, legs: int, random: np.random.Ge
         return CompositePath(smooth(points, Smoothing(kind="linear")))
     # An arc of radius R takes R tan(60 deg) of a leg at most, at both of its ends: it must fit.
     most = 0.45 * SHORTEST * scale / math.tan(math.radians(0.5 * SHARPEST))
-    radius = min(random.uniform(TIGHTEST, WIDEST) * turn_radius, most)
+    radius = min(random.uniform(tightest, WIDEST) * turn_radius, most)
     return CompositePath(smooth(points, Smoothing(kind="circular", radius=radius)))
 
 
-def _survey(turn_radius: float, legs: int, random: np.random.Generator) -> CompositePath:
+def _survey(turn_radius: float, legs: int, random: np.random.Generator, tightest: float) -> CompositePath:
     """Draw parallel legs, joined by two arcs of a quarter each."""
     scale = max(1.0, turn_radius / USUAL_TURN)
-    radius, length = random.uniform(TIGHTEST, WIDEST) * turn_radius, scale * random.uniform(SHORTEST, LONGEST)
+    radius = random.uniform(tightest, WIDEST) * turn_radius
+    length = scale * random.uniform(SHORTEST, LONGEST)
     # Between the arcs a short straight is left.
     spacing, course = 2.2 * radius, random.uniform(-math.pi, math.pi)
     side = math.copysign(1.0, random.uniform(-1.0, 1.0))

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import dataclasses
+import math
+import re
 from collections.abc import Mapping
+from pathlib import Path
 
 import numpy as np
 
@@ -44,6 +47,19 @@ def check_simulated(vehicle: Vehicle) -> None:
         raise ConfigurationError(f"{vehicle.name}: hull", "nothing", expected)
 
 
+def spread_of_file(file: Path) -> dict[str, float]:
+    """Return the uncertainty that the comments of a vehicle file give its coefficients, as shares.
+
+    `(x2)` is a factor of 2 either way, `(12 %)` a share, as `vehicle.py new` and `identify` write them.
+    """
+    found = {}
+    for line in file.read_text(encoding="utf-8").splitlines():
+        match = re.match(r"\s+(\w+): *\S+ +#.*\((?:x([0-9.]+)|([0-9.]+) %)\)", line)
+        if match and match[1] in UNCERTAIN:
+            found[match[1]] = float(match[2]) - 1.0 if match[2] else 0.01 * float(match[3])
+    return found
+
+
 def ensemble(
     vehicle: Vehicle, members: int, spread: float, random: np.random.Generator,
     own: Mapping[str, float] | None = None,
@@ -54,7 +70,7 @@ def ensemble(
         vehicle: as its file has it.
         members: how many, the vehicle included.
         spread: half width of the uncertainty of every coefficient, of the rudder's rate and of its dead time,
-            a share; drawn evenly.
+            a share: from 1/(1 + spread) to 1 + spread times, drawn evenly in its logarithm.
         random: where the numbers come from.
         own: half widths of single coefficients, shares, in place of `spread`.
 
@@ -80,8 +96,12 @@ def _drawn(
     vehicle: Vehicle, spread: float, random: np.random.Generator, own: Mapping[str, float]
 ) -> Vehicle | None:
     hull = vehicle.coefficients
-    factors = {name: 1.0 + own.get(name, spread) * random.uniform(-1.0, 1.0) for name in UNCERTAIN}
-    rate, late = (1.0 + spread * random.uniform(-1.0, 1.0) for _ in range(2))
+
+    def factor(width: float) -> float:
+        return math.exp(math.log1p(width) * random.uniform(-1.0, 1.0))
+
+    factors = {name: factor(own.get(name, spread)) for name in UNCERTAIN}
+    rate, late = factor(spread), factor(spread)
     try:
         other: Hull = dataclasses.replace(
             hull, **{name: getattr(hull, name) * factor for name, factor in factors.items()}

@@ -17,6 +17,7 @@ from auv_msgs_py.settings.schema import leaves
 from auv_path_following.control.autopilot import AutopilotConfig
 from auv_path_following.control.hull_model import tightest_turn
 from auv_path_following.control.nism import NismConfig
+from auv_path_following.control.pid import PidConfig
 from auv_path_following.control.pitch_plane import pitch_gains
 from auv_path_following.control.reference_model import ReferenceConfig, ReferenceLimits
 from auv_path_following.control.rule.fin_response import FinResponse, response_of
@@ -45,6 +46,17 @@ class GainSet(NamedTuple):
     guidance: PathFollowerConfig
     autopilot: AutopilotConfig
     pitch: AutopilotConfig
+
+
+#: Laws that are tuned alike: name -> guidance law, heading controller.
+LAWS = {
+    "AILOS, NISM": ("ailos", "nism"),
+    "AILOS, PID": ("ailos", "pid"),
+    "LOS, NISM": ("los", "nism"),
+    "ILOS, NISM": ("ilos", "nism"),
+    "vector field, NISM": ("vector_field", "nism"),
+}
+OWN_LAW = "AILOS, NISM"
 
 
 class Variable(NamedTuple):
@@ -77,6 +89,7 @@ class GainSpace:
         guidance: laws and gains; all but look-aheads and circles stay.
         delay: from a measurement to the arrival of its command, s; the dead time of the fins is added.
         step: between two odometries, s.
+        law: of `LAWS`.
 
     Attributes:
         fastest: u0/R of the steady turn, rad/s.
@@ -84,8 +97,11 @@ class GainSpace:
         first: their point, within the bounds.
     """
 
-    def __init__(self, vehicle: Vehicle, guidance: PathFollowerConfig, delay: float, step: float) -> None:
-        self.vehicle, self._guidance = vehicle, guidance
+    def __init__(
+        self, vehicle: Vehicle, guidance: PathFollowerConfig, delay: float, step: float,
+        law: str = OWN_LAW,
+    ) -> None:  # fmt: skip
+        self.vehicle, self._guidance, self._law = vehicle, guidance, LAWS[law]
         self.response: FinResponse = response_of(vehicle)
         self.delay = max(delay + vehicle.rudder.dead_time + 0.5 * step, 0.02)
         self.fastest = self.response.speed / tightest_turn(vehicle).radius
@@ -133,24 +149,29 @@ class GainSpace:
         rate = turn * self.fastest
         k1 = ruled.nism.k1 / ruled.reference.max_rate * rate
         k3 = ruled.nism.k3 / ruled.reference.max_acceleration * acceleration
-        k5 = 1.0 / (kp * abs(response.gain(w_c)))
+        steepness = 1.0 / abs(response.gain(w_c))
         nism = _allowed(
-            NismConfig, k1=k1, k2=a * w_c / k1, k3=k3, k4=c * w_c / k3, k5=k5, kp=kp, ks=0.0
-        )  # fmt: skip
+            NismConfig, k1=k1, k2=a * w_c / k1, k3=k3, k4=c * w_c / k3, k5=steepness / kp, kp=kp, ks=0.0
+        )
+        # Near the path NISM is this PID law.
+        pid = _allowed(
+            PidConfig, kp=(a + c) * w_c * steepness, ki=a * c * w_c * w_c * steepness, kd=steepness
+        )
         jerk = ruled.reference.max_jerk
         reference = _allowed(
             ReferenceConfig, enabled=True, bandwidth=w_r, max_rate=rate, max_acceleration=acceleration,
             max_jerk=jerk,
         )  # fmt: skip
         base = self.rule()
-        guidance = with_lookahead(base.guidance, ahead * response.speed / w_r)
+        law, controller = self._law
+        guidance = with_lookahead(base.guidance, ahead * response.speed / w_r, law=law)
         by_limits = cornering_within(ReferenceLimits(rate, acceleration, jerk))
         switching = dataclasses.replace(
             guidance.switching, radius=0.0, turn_rate=corner_rate * rate, lead=corner_lead * by_limits.lead
         )
         return GainSet(
             dataclasses.replace(guidance, switching=switching),
-            AutopilotConfig(nism=nism, reference=reference),
+            AutopilotConfig(controller=controller, nism=nism, pid=pid, reference=reference),
             base.pitch,
         )
 
@@ -166,14 +187,17 @@ def _allowed(cls: type[Any], **values: Any) -> Any:
     )
 
 
-def with_lookahead(config: PathFollowerConfig, lookahead: float) -> PathFollowerConfig:
-    """Return guidance with a look-ahead distance (m) for every law that has one."""
+def with_lookahead(config: PathFollowerConfig, lookahead: float, **others: Any) -> PathFollowerConfig:
+    """Return guidance with a look-ahead distance (m); the vector field gets the same slope on the path."""
     changes: dict[str, Any] = {
         name: dataclasses.replace(getattr(config, name), lookahead=lookahead)
         for name in (field.name for field in dataclasses.fields(config))
         if name != "vertical" and hasattr(getattr(config, name), "lookahead")
     }
-    return dataclasses.replace(config, **changes)
+    field = config.vector_field
+    slope = 0.5 * math.pi / (math.radians(field.entry_angle_deg) * lookahead)
+    changes["vector_field"] = dataclasses.replace(field, gain=slope)
+    return dataclasses.replace(config, **changes, **others)
 
 
 def bounds() -> tuple[Vector, Vector]:

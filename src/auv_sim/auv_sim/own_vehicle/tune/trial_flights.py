@@ -22,7 +22,7 @@ from auv_sim.flight.batch import engine
 from auv_sim.flight.batch.flight_figures import Flights
 from auv_sim.flight.batch.scenarios import Courses
 from auv_sim.flight.scenario import Scenario
-from auv_sim.own_vehicle.tune.drawn_courses import Kind, drawn_course
+from auv_sim.own_vehicle.tune.drawn_courses import TIGHTEST, Kind, drawn_course
 from auv_sim.own_vehicle.tune.gain_space import GainSet
 from auv_sim.vehicle.hulls.rigid_body import BodyState, body_at
 from auv_sim.vehicle.remus import PlantState
@@ -36,6 +36,8 @@ LATER = 0.15
 BESIDE, TURNING = 4.0, 0.75
 #: Current over the speed through the water, drawn evenly up to this.
 STRONGEST = 0.25
+#: Courses in the sea by which gains are proven: legs, and least radius of their turns over the hull's.
+PROVEN_LEGS, PROVEN_TURN = 5, 2.5
 #: A flight along a course ends at this many times the time that it takes straight ahead, and 60 s later.
 PATIENCE = 1.6
 
@@ -116,26 +118,44 @@ def _on_lines(
 def _along_courses(
     vehicle: Vehicle, conditions: Conditions, amount: Amount, random: np.random.Generator
 ) -> list[Flight]:
-    thrust, turn = thrust_of(vehicle), tightest_turn(vehicle)
-    speed, n = vehicle.speed_at(thrust), amount.courses
+    n = amount.courses
     kinds: list[tuple[Kind, float, Sea | None, int]] = [
         ("sharp", 0.0, None, n), ("sharp", STRONGEST, None, n),
         ("rounded", 0.0, None, n), ("rounded", STRONGEST, None, n), ("survey", STRONGEST, None, n),
         ("rounded", 0.0, conditions.sea, amount.at_sea if conditions.sea is not None else 0),
     ]  # fmt: skip
-    flights = []
-    for kind, strongest, sea, number in kinds:
-        for _ in range(number):
-            path = drawn_course(kind, turn.radius, amount.legs, random)
-            size, course = random.uniform(0.3, 1.0) * strongest * speed, random.uniform(-math.pi, math.pi)
-            scenario = Scenario(
-                path=path, vehicle=vehicle, thrust=thrust, initial=_on_path(vehicle, path, speed),
-                current=Current(size * math.cos(course), size * math.sin(course)), sea=sea,
-                seed=int(random.integers(2**31)), step=conditions.step, command_delay=conditions.delay,
-                time_limit=PATIENCE * path.length / speed + 60.0,
-            )  # fmt: skip
-            flights.append(Flight(scenario, False))
-    return flights
+    return [
+        _along(vehicle, conditions, kind, amount.legs, strongest, sea, random)
+        for kind, strongest, sea, number in kinds
+        for _ in range(number)
+    ]
+
+
+def draw_sea_flights(
+    vehicle: Vehicle, conditions: Conditions, number: int, random: np.random.Generator
+) -> list[Flight]:
+    """Draw flights in the sea, in a further current: courses with sharp and rounded corners, and surveys."""
+    kinds: tuple[Kind, ...] = ("sharp", "rounded", "survey")
+    further = PROVEN_LEGS, STRONGEST, conditions.sea, random, PROVEN_TURN
+    return [_along(vehicle, conditions, kinds[k % len(kinds)], *further) for k in range(number)]
+
+
+def _along(
+    vehicle: Vehicle, conditions: Conditions, kind: Kind, legs: int, strongest: float, sea: Sea | None,
+    random: np.random.Generator, tightest: float = TIGHTEST,
+) -> Flight:  # fmt: skip
+    """Draw one course, and a current of up to `strongest` times the speed."""
+    thrust, turn = thrust_of(vehicle), tightest_turn(vehicle)
+    speed = vehicle.speed_at(thrust)
+    path = drawn_course(kind, turn.radius, legs, random, tightest)
+    size, course = random.uniform(0.3, 1.0) * strongest * speed, random.uniform(-math.pi, math.pi)
+    scenario = Scenario(
+        path=path, vehicle=vehicle, thrust=thrust, initial=_on_path(vehicle, path, speed),
+        current=Current(size * math.cos(course), size * math.sin(course)), sea=sea,
+        seed=int(random.integers(2**31)), step=conditions.step, command_delay=conditions.delay,
+        time_limit=PATIENCE * path.length / speed + 60.0,
+    )  # fmt: skip
+    return Flight(scenario, False)
 
 
 def thrust_of(vehicle: Vehicle) -> float:

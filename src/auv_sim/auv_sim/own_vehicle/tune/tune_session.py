@@ -17,12 +17,13 @@ from auv_path_following.vehicle import Vehicle
 from auv_sim.command_line import EXIT_DONE, to_type
 from auv_sim.flight.batch.compiled import COMPILED
 from auv_sim.own_vehicle.tune import tuned_file, tuned_picture
-from auv_sim.own_vehicle.tune.ensemble import check_simulated, ensemble, planar
+from auv_sim.own_vehicle.tune.ensemble import check_simulated, ensemble, planar, spread_of_file
 from auv_sim.own_vehicle.tune.gain_space import GainSet, GainSpace, ratios_at
 from auv_sim.own_vehicle.tune.gain_verdict import GainVerdict, Held, judge
 from auv_sim.own_vehicle.tune.sampled_loop import LARGEST_FACTOR, Margins
 from auv_sim.own_vehicle.tune.search import Budget, Problem, search
 from auv_sim.own_vehicle.tune.trial_flights import Amount, Conditions, draw_flights, with_laws
+from auv_sim.own_vehicle.verbs.gain_options import FROM_FILE
 from auv_sim.sim_parameters import SUITE
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, headed_table, progress_bar, wrote
@@ -61,6 +62,7 @@ def run(options: argparse.Namespace) -> int:
     wrote(console, options.out, "gains: `mission.py --params` flies them")
     wrote(console, picture, "a held-out course, before and after")
     rest = ["--delay", f"{options.delay:g}"] if options.delay else []
+    rest += ["--spread", str(options.spread)] if options.spread else []
     line = to_type(
         "vehicle.py", "prove", options.vehicle, "--params", str(options.out), "--sea", options.sea, *rest
     )
@@ -85,14 +87,35 @@ def problem_of(options: argparse.Namespace, own: Vehicle, base: dict[str, Any]) 
         ConfigurationError: the vehicle or the sea does not fit.
     """
     step = 1.0 / options.rate
-    steps = tuple(sorted({1.0 / rate for rate in (*RATES, options.rate) if rate >= options.slowest}))
-    steps = steps or (step,)
     flown = planar(own)
     space = GainSpace(flown, base[topics.GUIDANCE].guidance, options.delay, step)
     random = np.random.default_rng([options.seed, 2])
-    hulls = ensemble(flown, options.members, 0.01 * options.spread, random)
+    spread, own_widths = spread_of(options)
+    hulls = ensemble(flown, options.members, spread, random, own_widths)
+    steps = steps_of(options.rate, options.slowest)
     conditions = Conditions(options.delay, step, steps, sea.load(options.sea))
     return Problem(space, hulls, conditions, options.seed)
+
+
+def steps_of(rate: float, slowest: float) -> tuple[float, ...]:
+    """Return the times between two odometries of flights on lines, s: of `RATES` and `rate`, none slower."""
+    steps = tuple(sorted({1.0 / other for other in (*RATES, rate) if other >= slowest}))
+    return steps or (1.0 / rate,)
+
+
+def spread_of(options: argparse.Namespace) -> tuple[float, dict[str, float]]:
+    """Return the uncertainty as a share, and that of single coefficients.
+
+    Raises:
+        ConfigurationError: the vehicle file states none.
+    """
+    if options.spread != FROM_FILE:
+        return 0.01 * options.spread, {}
+    file = config_files.find("vehicles", options.vehicle)
+    widths = spread_of_file(file)
+    if not widths:
+        raise ConfigurationError(f"{file}: hull", "no coefficient with its uncertainty", "--spread PERCENT")
+    return 0.0, widths
 
 
 def _explain(console: Console, problem: Problem) -> None:
