@@ -105,8 +105,8 @@ def sentence_of(claim: Proposition, label: str, proof: Proof) -> str:
         f"path away from corners, and within {anywhere} anywhere, at 95 % confidence: in {sea_name}, in "
         f"further currents of up to a quarter of the speed, {uncertain}, with {1e3 * late:.0f} ms of delay, "
         f"on courses whose turns have at least {PROVEN_TURN:g} times the hull's radius. {proof.lost} of {n} "
-        f"did not complete their course. Of {starts} hard starts on a straight line {proof.cycles} ended in a "
-        f"limit cycle: at most {100.0 * proof.cycle_bound:.1f} % do, at 95 % confidence."
+        f"did not complete their course. Of {starts} hard starts on a straight line {proof.cycles} ended in "
+        f"a limit cycle: at most {100.0 * proof.cycle_bound:.1f} % do, at 95 % confidence."
     )
 
 
