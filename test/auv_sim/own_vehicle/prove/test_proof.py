@@ -64,7 +64,7 @@ def test_the_sentence_has_the_bounds_and_the_conditions(tmp_path) -> None:
 
 def test_without_numba_it_says_how_to_install(monkeypatch) -> None:
     monkeypatch.setattr(tune_session, "COMPILED", False)
-    with pytest.raises(ConfigurationError, match="pip install -r requirements/vehicle.txt"):
+    with pytest.raises(ConfigurationError, match=r"pip install -r requirements/vehicle\.txt"):
         tune_session.check_compiled("prove")
 
 
