@@ -38,7 +38,10 @@ def fly(options: argparse.Namespace) -> int:
         ConfigurationError: a file or an option cannot be used, or there is no consent.
         KeyboardInterrupt: a signal came; zero commands were sent.
     """
-    hull = vehicle_file.load(options.vehicle)
+    if options.no_sim and options.controller_model is not None:
+        raise ConfigurationError("--controller-model", "--no-sim", "the simulator, or --vehicle alone")
+    options.model = options.controller_model or options.vehicle
+    hull = vehicle_file.load(options.model)
     program = program_file.load(options.program)
     rehearsal = ManoeuvreRun(hull, program, ManoeuvreBounds(box=options.box), options.depth)
     if options.no_sim:
@@ -87,7 +90,7 @@ def _keep(options: argparse.Namespace, directory: Path) -> None:
     """Keep the files that are flown; the recorder puts them into the bag."""
     kept = directory / "config"
     kept.mkdir()
-    shutil.copy(config_files.find("vehicles", options.vehicle), kept / "vehicle.yaml")
+    shutil.copy(config_files.find("vehicles", options.model), kept / "vehicle.yaml")
     shutil.copy(config_files.find("manoeuvres", options.program), kept / "program.yaml")
 
 
@@ -98,10 +101,13 @@ def _nodes(
     from auv_sim.nodes.plant_node import RemusPlantNode
     from auv_sim.nodes.recorder_node import RecorderNode
 
-    file = str(config_files.find("vehicles", options.vehicle).absolute())
+    file, hull_file = (
+        str(config_files.find("vehicles", name).absolute()) for name in (options.model, options.vehicle)
+    )
     simulated = not options.no_sim
+    program = str(config_files.find("manoeuvres", options.program).absolute())
     flying: dict[str, Any] = {
-        "vehicle": file, "program": str(config_files.find("manoeuvres", options.program).absolute()),
+        "vehicle": file, "program": program,
         "consent": True, "depth": options.depth, "bounds.box": options.box, "use_sim_time": simulated,
     }  # fmt: skip
     recording = {
@@ -116,7 +122,7 @@ def _nodes(
     if simulated:
         north, east = options.current
         plant: dict[str, Any] = {
-            "vehicle": file, "speed": options.speed, "initial.surge": 0.0, "initial.depth": options.depth,
+            "vehicle": hull_file, "speed": options.speed, "initial.surge": 0.0, "initial.depth": options.depth,
             "sea": options.sea or "", "seed": options.seed, "current.Vx": north, "current.Vy": east,
             "flood_rate": 200.0 * max(options.speed, 1.0),
         }  # fmt: skip
@@ -165,5 +171,5 @@ def _show(
         draw(run.rows, title, hull.thrust_symbol, hull.dives, picture)
         wrote(out, picture, "the manoeuvres in one picture")
     if run.complete:
-        line = to_type("vehicle.py", "identify", directory / "bag", vehicle=options.vehicle)
+        line = to_type("vehicle.py", "identify", directory / "bag", vehicle=options.model)
         go_on(out, "Identify the vehicle", line)

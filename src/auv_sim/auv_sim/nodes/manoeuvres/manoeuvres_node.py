@@ -70,6 +70,7 @@ class ManoeuvresNode(SuiteNode):
         navigation, dt, _, _, moved = self._intake.take(message)
         self._heard_at = time.monotonic()
         if self._ended_at is not None:
+            self._send(SPATIAL_STOP)
             return
         if not self.run.begun and (others := self._others()):
             self.run.stop(others)

@@ -36,6 +36,10 @@ def add_arguments(parser: Parser) -> None:
     parser.add_argument("--namespace", type=ros_namespace, default="/auv", help="of the vehicle's topics")
     parser.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
     rehearsal = parser.add_argument_group("on the simulator")
+    rehearsal.add_argument(
+        "--controller-model", metavar="FILE",
+        help="file by which the manoeuvres are flown, where --vehicle is another hull in the water",
+    )  # fmt: skip
     rehearsal.add_argument("--sea", metavar="FILE", help="sea file, or a shipped name")
     rehearsal.add_argument("--seed", type=whole, default=0, help="of the sea")
     rehearsal.add_argument("--current", type=finite, nargs=2, default=(0.0, 0.0), metavar=("VX", "VY"),
