@@ -122,7 +122,8 @@ def _nodes(
     if simulated:
         north, east = options.current
         plant: dict[str, Any] = {
-            "vehicle": hull_file, "speed": options.speed, "initial.surge": 0.0, "initial.depth": options.depth,
+            "vehicle": hull_file, "speed": options.speed,
+            "initial.surge": 0.0, "initial.depth": options.depth,
             "sea": options.sea or "", "seed": options.seed, "current.Vx": north, "current.Vy": east,
             "flood_rate": 200.0 * max(options.speed, 1.0),
         }  # fmt: skip

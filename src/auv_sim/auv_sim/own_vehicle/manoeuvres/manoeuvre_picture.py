@@ -45,9 +45,12 @@ def draw(rows: Sequence[ManoeuvreRow], title: str, thrust_unit: str, dives: bool
     angles = [(np.degrees(fins[:, 0]), "rudder, deg")]
     if dives:
         angles.append((np.degrees(fins[:, 1]), "stern planes, deg"))
-        _series(axes[3], t, [(n[:, 2], "depth, m"), (np.degrees(n[:, 4]), "pitch, deg")])
+        _series(axes[3], t, [(n[:, 2], "depth, m")])
         axes[3].invert_yaxis()
-    _series(axes[2], t, [*angles, (fins[:, 2], f"thrust, {thrust_unit}")])
+        _beside(axes[3], t, np.degrees(n[:, 4]), "pitch, deg")
+    _series(axes[2], t, angles)
+    largest = 1.6 * max(float(fins[:, 2].max()), 1e-9)
+    _beside(axes[2], t, fins[:, 2], f"thrust, {thrust_unit}", (0.0, largest))
     for axis in axes:
         for begin in t[np.flatnonzero(np.diff(leg)) + 1]:
             axis.axvline(begin, color="0.85", linewidth=0.8, zorder=0)
@@ -55,6 +58,16 @@ def draw(rows: Sequence[ManoeuvreRow], title: str, thrust_unit: str, dives: bool
     axes[-1].set_xlabel("time, s")
     figure.suptitle(title, fontsize=11)
     figure.savefig(file, dpi=110)
+
+
+def _beside(axis: Any, t: Any, values: Any, label: str, limits: tuple[float, float] | None = None) -> None:
+    """Draw a dashed line on a second axis at the right."""
+    other = axis.twinx()
+    other.plot(t, values, color="0.45", linewidth=0.9, linestyle="--")
+    other.set_ylabel(f"{label} (dashed)", fontsize=8, color="0.35")
+    other.tick_params(labelsize=8, colors="0.35")
+    if limits is not None:
+        other.set_ylim(*limits)
 
 
 def _series(axis: Any, t: Any, series: list[tuple[Any, str]]) -> None:
