@@ -108,7 +108,8 @@ def words_of(line: Line, run: object = "runs/example") -> list[str]:
     stands_for = {
         "MISSION": "survey_wgs84", "RUN": str(run), "runs/...": str(run), "NEW.yaml": "rough",
         "signed.yaml": "robust", "my_law.yaml": "robust", "rule": "robust", "path.kml": "/dev/null",
-        "tuned.yaml": "robust", "my_study": "currents", "...": str(run),
+        "tuned.yaml": "robust", "selkie.yaml": "remus100", "selkie_identified.yaml": "remus100",
+        "selkie_survey.yaml": "survey_wgs84", "my_study": "currents", "...": str(run),
     }  # fmt: skip
     return [stands_for.get(word, word) for word in shlex.split(line.text)[2:]]
 

@@ -70,7 +70,7 @@ def page() -> str:
     parts.append(_FILES)
     for title, cls in (
         ("Mission file", MissionSpec), ("Vehicle file", Vehicle), ("Sea file", Sea), ("Study", Study),
-        ("Fleet", Fleet), ("Manoeuvres", Program),
+        ("Fleet", Fleet), ("Program of manoeuvres", Program),
     ):  # fmt: skip
         parts += _section(title, keys(cls))
     return "\n\n".join(parts) + "\n"
