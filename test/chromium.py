@@ -29,6 +29,7 @@ class Tab:
 
     def __init__(self, socket: aiohttp.ClientWebSocketResponse) -> None:
         self._socket, self._next, self._pending = socket, 0, dict[int, asyncio.Future[Any]]()
+        self._page = "nothing yet"
         self.requests: list[str] = []
         self.complaints: list[str] = []
         self._reader = asyncio.create_task(self._read())
@@ -43,7 +44,7 @@ class Tab:
 
     def _hear(self, method: str, params: dict[str, Any]) -> None:
         match method:
-            case "Network.requestWillBeSent":
+            case "Network.requestWillBeSent" if params["documentURL"].startswith(self._page):
                 self.requests.append(params["request"]["url"])
             case "Network.webSocketCreated":
                 self.requests.append(params["url"])
@@ -81,6 +82,7 @@ class Tab:
 
     async def open(self, url: str) -> None:
         """Load a page from the beginning."""
+        self._page = url.partition("?")[0]
         await self.call("Page.navigate", url=url)
         await self.until("document.readyState === 'complete'")
 

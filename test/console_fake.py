@@ -66,6 +66,7 @@ class FakeConsole:
         app = web.Application()
         app.router.add_get("/", self._page)
         app.router.add_get("/socket", self._socket)
+        app.router.add_get("/left", self._left)
         app.router.add_get("/page/{name}", self._file)
         self._server = web.AppRunner(app, shutdown_timeout=0.2)
         await self._server.setup()
@@ -83,6 +84,11 @@ class FakeConsole:
 
     async def _page(self, _: web.Request) -> web.StreamResponse:
         return web.FileResponse(PAGE / "console.html", headers={"Content-Security-Policy": CSP})
+
+    async def _left(self, _: web.Request) -> web.StreamResponse:
+        return web.Response(
+            text="<title>left</title><link rel='icon' href='data:,'>", content_type="text/html"
+        )
 
     async def _file(self, request: web.Request) -> web.StreamResponse:
         file = PAGE / request.match_info["name"]

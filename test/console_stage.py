@@ -22,12 +22,16 @@ class Stage:
 
     def __init__(self, run: Background, browser: Chromium) -> None:
         self.run, self.browser = run, browser
+        self._tab: Tab | None = None
 
     async def fresh(self, **options: Any) -> tuple[Tab, FakeConsole]:
-        """Return a tab that shows the page of a new fake server with 1200 rows flown."""
-        fake, tab = FakeConsole(**options), await self.browser.tab()
+        """Return the tab with the page of a new fake server with 1200 rows flown; a new port forgets all."""
+        fake = FakeConsole(**options)
         fake.flown = min(1200, len(fake.rows))
-        await tab.size(1440, 900)
+        if self._tab is None:  # a new tab for each test costs twice as much
+            self._tab = await self.browser.tab()
+        tab = self._tab
+        await tab.size(1280, 800)
         await tab.open(await fake.start())
         await tab.until("document.getElementById('mission-name').textContent !== 'no mission'")
         return tab, fake
@@ -59,7 +63,10 @@ def on_page(**options: Any) -> Callable[[Callable[[Tab, FakeConsole], Awaitable[
                     assert [url for url in tab.requests if not url.startswith(own)] == []
                     assert [one for one in tab.complaints if "willReadFrequently" not in one] == []
                 finally:
-                    await tab.close()
+                    # An empty page of the same site keeps the process; the console's page would reconnect.
+                    await tab.open(f"http://127.0.0.1:{fake.port}/left")
+                    tab.requests.clear()
+                    tab.complaints.clear()
                     await fake.stop()
 
             stage.run(play())
