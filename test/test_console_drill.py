@@ -119,6 +119,9 @@ async def _check(tab: Tab, mission: str) -> None:
     await tab.type("#mission-text", mission)
     await tab.click("#check")
     await tab.until("!document.getElementById('load').disabled", 60.0)
+    draft = await tab.value("import('/page/chart.js').then(m => [m.view.draft.north, m.view.draft.east])")
+    end = [3000.0 * math.cos(math.radians(30.0)), 3000.0 * math.sin(math.radians(30.0))]
+    assert [line[-1] for line in draft] == pytest.approx(end)
 
 
 async def _refuse_a_foreign_page(browser: Chromium, live: Live) -> None:

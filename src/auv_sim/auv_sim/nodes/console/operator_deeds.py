@@ -92,8 +92,12 @@ class OperatorDeeds:
     async def _check(self, record: VehicleRecord, _: int, request: Request) -> Answer:
         (hull,) = await self.desk(record.namespace).value(topics.GUIDANCE, "vehicle")
         # A long mission takes seconds: the topics and the other browsers do not wait for it.
-        found = await asyncio.to_thread(mission_desk.check_text, text_in(request, "text"), hull)
-        return Answer(found.ok, found.lines[0] if found.lines else "", {"lines": list(found.lines)})
+        text = text_in(request, "text")
+        found = await asyncio.to_thread(mission_desk.check_text, text, hull)
+        more: dict[str, Any] = {"lines": list(found.lines)}
+        if found.ok:
+            more["course"] = await asyncio.to_thread(mission_desk.draft_of, text, hull)
+        return Answer(found.ok, found.lines[0] if found.lines else "", more)
 
     async def _load(self, record: VehicleRecord, viewer: int, request: Request) -> Answer:
         values = {"mission_text": text_in(request, "text")}

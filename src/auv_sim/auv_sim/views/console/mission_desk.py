@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from auv_msgs_py.settings import user_files, yaml_file
 from auv_msgs_py.values.errors import ConfigurationError, SuiteError
 from auv_path_following import config_files, vehicle
@@ -17,6 +19,8 @@ from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.views.console.record.readiness import PlanLines
 
+#: Largest distance of the points of a course that is drawn, m.
+_DRAWN = 2.0
 #: Longest mission text, characters.
 _LONGEST = 400_000
 
@@ -98,6 +102,20 @@ def check_text(text: str, hull: str) -> PlanLines:
         return checked(mission_file.read_text(text, model, "mission"), model)
     except SuiteError as error:
         return PlanLines(False, (str(error),))
+
+
+def draft_of(text: str, hull: str) -> dict[str, Any]:
+    """Return the course of a mission's text, for the chart before the mission is set: x, y, z, s in ENU, m.
+
+    Raises:
+        SuiteError: the text or the vehicle cannot be read.
+    """
+    model = vehicle.load(hull)
+    mission = mission_file.read_text(text, model, "mission")
+    north, east, _ = mission.path.polyline(_DRAWN)
+    way = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(north), np.diff(east)))])
+    points = np.stack([east, north, np.zeros_like(way), way], axis=1)
+    return {"path": points.tolist(), "joints": joints_of(mission, model), "dives": model.dives}
 
 
 def _headline(mission: Mission, findings: Findings) -> str:

@@ -36,7 +36,7 @@ choice.addEventListener("change", async () => {
 
 function show(answer) {
   const found = answer.lines && answer.lines.length ? answer.lines : [answer.message || (answer.ok ? "the plan check has nothing to say" : "refused")];
-  lines.replaceChildren(...found.map(line => el("li", { text: line })));
+  lines.replaceChildren(...found.map(line => el("li", { text: line, class: /^(refused|warning|notice)/.exec(line)?.[1] })));
   lines.className = answer.ok ? "ok" : "bad";
 }
 
