@@ -4,23 +4,19 @@ from __future__ import annotations
 
 import argparse
 import importlib
-import importlib.util
 import sys
 from collections.abc import Container, Sequence
 
 from auv_sim.command_line import Parser, command
 
 _VERBS_PACKAGE = "auv_sim.own_vehicle.verbs"
-_DESCRIPTIONS = {
+#: In the order of the work on a vehicle.
+VERBS = {
     "new": "a vehicle file from what an owner has at hand: length, speed, turning radius",
     "manoeuvres": "fly zig-zags, circles and steps within bounds, and record them",
     "identify": "coefficients, servo and current from recordings of manoeuvres",
     "tune": "gains for a vehicle, or for all that its uncertain coefficients allow",
     "prove": "a campaign and one page: how close these gains keep the vehicle to its path",
-}
-#: In the order of the work on a vehicle.
-VERBS = {
-    name: what for name, what in _DESCRIPTIONS.items() if importlib.util.find_spec(f"{_VERBS_PACKAGE}.{name}")
 }
 
 

@@ -1,0 +1,59 @@
+"""`vehicle.py manoeuvres` on the simulator: flown by one file, with another hull in the water; recorded."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from auv_sim.bags.content.recorded_manoeuvres import manoeuvres_in
+from auv_sim.cli.vehicles import vehicle_command
+
+PROGRAM = """
+version: 1
+name: short
+legs:
+  - straight: {seconds: 4}
+  - zigzag: {seconds: 10, rudder_deg: 15, heading_deg: 10}
+"""
+CODE = "import sys; from auv_sim.cli.vehicles.vehicle_command import main; sys.exit(main(sys.argv[1:]))"
+
+
+def test_a_rehearsal_is_recorded_for_identification(tmp_path: Path) -> None:
+    (tmp_path / "short.yaml").write_text(PROGRAM)
+    words = ["manoeuvres", "--vehicle", "remus100_mismatch", "--controller-model", "remus100"]
+    words += ["--program", str(tmp_path / "short.yaml"), "--sea", "moderate", "--out", str(tmp_path / "run")]
+    done = subprocess.run(
+        [sys.executable, "-c", CODE, *words], capture_output=True, text=True, check=False, timeout=120
+    )
+    assert done.returncode == 0, done.stderr
+    assert "all manoeuvres are flown" in done.stdout
+    assert f"identify {tmp_path}/run/bag --vehicle remus100" in done.stdout
+    assert (tmp_path / "run" / "manoeuvres.png").stat().st_size > 10_000
+    recorded = manoeuvres_in(tmp_path / "run" / "bag")
+    rudder = recorded.rudder.value
+    assert np.degrees(rudder).max() == pytest.approx(15.0, abs=0.1)
+    assert np.degrees(rudder).min() == pytest.approx(-15.0, abs=0.1)
+
+
+@pytest.mark.parametrize(
+    ("words", "where"),
+    [
+        (["--no-sim"], "--no-sim"),
+        (["--yes-the-vehicle-may-move"], "--yes-the-vehicle-may-move"),
+        (["--no-sim", "--controller-model", "remus100"], "--controller-model"),
+        (["--program", "two_minutes_dive"], "two_minutes_dive: legs"),
+    ],
+)
+def test_nothing_moves_without_consent_or_with_options_that_do_not_fit(
+    words: list[str], where: str, capsys: pytest.CaptureFixture[str], tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    monkeypatch.chdir(tmp_path)
+    assert vehicle_command.main(["manoeuvres", "--vehicle", "remus100", *words]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith(where)
+    assert list(tmp_path.iterdir()) == []
