@@ -21,6 +21,10 @@ from auv_sim.views.console.web.page_server import PageServer
 from auv_sim.views.console.web.page_sessions import PageSessions
 
 
+async def _failing(_: VehicleRecord, __: int, ___: Mapping[str, Any]) -> Answer:
+    raise OverflowError("of a bug")
+
+
 class PageBench:
     """One server, with one vehicle, and what its operators have done."""
 
@@ -33,6 +37,7 @@ class PageBench:
         self.guard = PageGuard(self.tokens, names, PageSessions(None, lambda: 0.0), 80)
         looks = {"missions": self._deed("missions")}
         commands = {name: self._deed(name) for name in ("start", "abort", "hold")}
+        commands["resume"] = _failing
         files = {FRONT: PageFile(Path(__file__), "text/html")}
         desk = OperatorDesk(self.vehicles, looks, commands)
         self.server = PageServer(self.vehicles, desk, self.guard, files)

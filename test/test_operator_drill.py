@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from geometry_msgs.msg import PoseStamped
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParametersAtomically
 
@@ -45,7 +44,6 @@ class Operator:
             bench.node.create_subscription(
                 kind, topic.name, keep, qos.requested(topic, reliable=False, depth=1)
             )
-        self.goal = bench.node.create_publisher(PoseStamped, "goal_pose", qos.offered(topics.GOAL_POSE))
 
     def _at(self, message: Any) -> None:
         self.s = message.data
@@ -86,7 +84,7 @@ def check_rows(browser: ConsoleBrowser, run: Path) -> None:
     recorded = np.array(values, np.float32)
     t = browser.column("t")
     at = np.searchsorted(stamps, t - 0.01)
-    assert len(t) > 20
+    assert len(t) > 5
     assert np.array(stamps)[at] == pytest.approx(t, abs=1e-3)
     for k, name in enumerate("xyz"):
         assert np.array_equal(recorded[at, k], browser.column(name).astype(np.float32)), name
@@ -97,7 +95,7 @@ def check_rows(browser: ConsoleBrowser, run: Path) -> None:
     assert set(seen[np.isfinite(seen)]) <= errors
     said = [log.msg for _, log in load_messages(run / "bag", "rosout") if log.name == topics.CONSOLE]
     assert said[0].endswith("set heading_autopilot autopilot.nism.k1 1")
-    assert said[-1] == "/auv: browser 4: abort"
+    assert said[-1] == "/auv: browser 6: abort"
 
 
 def test_a_drill_is_recorded_and_flown_again_by_a_rerun(
@@ -142,12 +140,8 @@ def test_a_drill_is_recorded_and_flown_again_by_a_rerun(
     refused = browser.ask("set", node=topics.AUTOPILOT, name="autopilot.nism.k1", value="much")
     assert refused["message"] == "autopilot.nism.k1: found 'much', expected a value of type double"
     assert operator.set(topics.GUIDANCE, accept_goal=True, start_at="") == ""
-    goal = PoseStamped()
-    goal.header.frame_id = "map"
-    goal.pose.position.x, goal.pose.position.y = 2000.0, 2000.0
-    goal.pose.orientation.w = 1.0
-    bench.until(operator.goal.get_subscription_count)
-    operator.goal.publish(goal)
+    assert not browser.ask("goal", x=2000.0, y="far", z=0.0, yaw=0.0)["ok"]
+    assert browser.ask("goal", x=2000.0, y=2000.0, z=0.0, yaw=0.0)["ok"]
     bench.spin(0.5)
     assert operator.call("resume").success
     operator.flies(0.5)

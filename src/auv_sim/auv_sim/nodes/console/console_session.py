@@ -73,16 +73,23 @@ class ConsoleSession:
     Args:
         options: of the command line.
         node: of the console.
+        shelf: of the missions.
         tokens: of this start.
         port: that is listened on.
         cache: directory of tracks and cookies; None keeps none.
     """
 
     def __init__(
-        self, options: ConsoleOptions, node: Any, tokens: Tokens, port: int, cache: Path | None
+        self,
+        options: ConsoleOptions,
+        node: Any,
+        shelf: MissionShelf,
+        tokens: Tokens,
+        port: int,
+        cache: Path | None,
     ) -> None:
         self._caller = ServiceCaller(node)
-        self._deeds = OperatorDeeds(node, self._caller, MissionShelf(options.missions))
+        self._deeds = OperatorDeeds(node, self._caller, shelf)
         self._feeds: list[VehicleFeed] = []
         self._server: PageServer | None = None
         domain = int(os.environ.get("ROS_DOMAIN_ID") or 0)
@@ -146,6 +153,7 @@ def serve(options: ConsoleOptions) -> int:
     if options.domain is not None:
         os.environ["ROS_DOMAIN_ID"] = str(options.domain)
     os.environ.update(discovery.variables())
+    shelf = MissionShelf(options.missions)
     listening = _listen(options)
     port = listening.getsockname()[1]
     cache = _cache() if options.keep else None
@@ -154,7 +162,7 @@ def serve(options: ConsoleOptions) -> int:
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     node = rclpy.create_node(topics.CONSOLE, start_parameter_services=False)
     try:
-        session = ConsoleSession(options, node, tokens, port, cache)
+        session = ConsoleSession(options, node, shelf, tokens, port, cache)
         for line in announcement(options, tokens, port):
             say(line)
         asyncio.run(session.run(listening, stop))

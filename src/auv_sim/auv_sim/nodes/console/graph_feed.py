@@ -8,13 +8,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from rcl_interfaces.msg import Log
 from rclpy.node import Node
-from rclpy.parameter import parameter_value_to_python
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.values.errors import MessageRefused, printable
+from auv_sim.nodes.console.parameter_desk import plain_value
 from auv_sim.nodes.console.vehicle_feed import PolledReader, VehicleFeed
 from auv_sim.views.console.record.vehicle_record import VehicleRecord
 from auv_sim.views.console.record.wire_messages import text_of
@@ -25,8 +24,8 @@ _LOOK = 1.0
 _LOG_DEPTH, _DEPTH = 200, 100
 _ROSOUT = Topic("/rosout", "rcl_interfaces/msg/Log", "every node", latched=True)
 _PARAMETER_EVENTS = Topic("/parameter_events", "rcl_interfaces/msg/ParameterEvent", "every node")
-_LEVELS = ((Log.ERROR[0] if isinstance(Log.ERROR, bytes) else Log.ERROR, "error"), (30, "warning"))
 _INFO = 20
+_LEVELS = ((40, "error"), (30, "warning"))
 #: A vehicle is where its state is published.
 _SIGN = f"/{topics.MISSION_STATE.name}"
 
@@ -120,8 +119,8 @@ class GraphFeed:
         if record is None:
             return
         for parameter in (*event.new_parameters, *event.changed_parameters):
-            value = parameter_value_to_python(parameter.value)
-            self._publish([
-                text_of("parameters_changed", vehicle=record.index, node=name, name=parameter.name,
-                        value=list(value) if isinstance(value, tuple) else value)
-            ])  # fmt: skip
+            value = plain_value(parameter.value)
+            message = text_of(
+                "parameters_changed", vehicle=record.index, node=name, name=parameter.name, value=value
+            )
+            self._publish([message])

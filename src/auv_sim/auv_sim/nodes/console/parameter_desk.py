@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -19,6 +18,7 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.settings import yaml_file
 from auv_msgs_py.settings.params_file import BUILT_IN
 from auv_msgs_py.settings.schema import leaves
+from auv_msgs_py.values.errors import shortened
 from auv_sim.nodes.console.vehicle_calls import CallFailed, ServiceCaller
 from auv_sim.sim_parameters import SUITE
 from auv_sim.views.console.web.operator_desk import RequestRefused
@@ -39,6 +39,8 @@ _SERVICES = {
 }
 #: A bound beyond this stands for none.
 _UNBOUNDED = 1e300
+#: Beyond the integers of a parameter.
+_LARGEST = 2**63
 _TYPES = {
     ParameterType.PARAMETER_BOOL: ("bool", "bool_value"),
     ParameterType.PARAMETER_INTEGER: ("int", "integer_value"),
@@ -92,7 +94,7 @@ class ParameterDesk:
             CallFailed: the node does not answer.
         """
         response = await self._call(node, GetParameters, names=list(names))
-        return [parameter_value_to_python(value) for value in response.values]
+        return [plain_value(value) for value in response.values]
 
     async def set(self, node: str, values: Mapping[str, Any]) -> str:
         """Set parameters of a node at once; return why they were refused, empty if they were not.
@@ -106,7 +108,7 @@ class ParameterDesk:
         if any((node, name) not in self._types for name in values):
             await self._described(node, list(values))
         parameters = [
-            Parameter(name=name, value=_converted(name, value, self._types.get((node, name), 0)))
+            Parameter(name=name, value=converted(name, value, self._types.get((node, name), 0)))
             for name, value in values.items()
         ]
         response = await self._call(node, SetParametersAtomically, parameters=parameters)
@@ -158,7 +160,7 @@ def _row(name: str, one: ParameterDescriptor, value: Any, default: Any) -> dict[
     return {
         "name": name,
         "type": _TYPES.get(one.type, ("other", ""))[0],
-        "value": list(value) if isinstance(value, (list, tuple)) else value,
+        "value": value,
         "default": list(default) if isinstance(default, (list, tuple)) else default,
         "minimum": _bound(bounds.from_value) if bounds else None,
         "maximum": _bound(bounds.to_value) if bounds else None,
@@ -169,11 +171,19 @@ def _row(name: str, one: ParameterDescriptor, value: Any, default: Any) -> dict[
     }
 
 
+def plain_value(value: ParameterValue) -> Any:
+    """Return a parameter's value as JSON has it: arrays are lists, bytes are numbers."""
+    found = parameter_value_to_python(value)
+    if found is None or isinstance(found, bool | int | float | str):
+        return found
+    return [item[0] if isinstance(item, bytes) else item for item in found]
+
+
 def _bound(value: float) -> float | None:
     return float(value) if abs(value) < _UNBOUNDED else None
 
 
-def _converted(name: str, value: Any, kind: int) -> ParameterValue:
+def converted(name: str, value: Any, kind: int) -> ParameterValue:
     """Return a value of JSON as its parameter's type: 2 is a number of JSON, and 2.0 of a float parameter.
 
     Raises:
@@ -181,9 +191,9 @@ def _converted(name: str, value: Any, kind: int) -> ParameterValue:
     """
     typed, field = _TYPES.get(kind, ("", ""))
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
-    if typed == "double" and is_number and math.isfinite(value):
+    if typed == "double" and is_number and abs(value) < _UNBOUNDED:  # NaN fails this
         value = float(value)
-    elif typed == "int" and is_number and float(value).is_integer():
+    elif typed == "int" and is_number and abs(value) < _LARGEST and value == int(value):
         value = int(value)
     elif not (
         (typed == "bool" and isinstance(value, bool))
@@ -191,5 +201,7 @@ def _converted(name: str, value: Any, kind: int) -> ParameterValue:
         or (typed == "strings" and isinstance(value, list) and all(isinstance(v, str) for v in value))
     ):
         expected = f"a value of type {typed}" if typed else "the name of a parameter"
-        raise RequestRefused(f"{name}: found {value!r}, expected {expected}"[:300])
+        raise RequestRefused(
+            f"{shortened(name, 80)}: found {shortened(repr(value), 80)}, expected {expected}"
+        )
     return ParameterValue(type=kind, **{field: value})

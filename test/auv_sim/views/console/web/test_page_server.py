@@ -88,6 +88,8 @@ def test_every_request_is_answered_with_its_number() -> None:
             await browser.send_str(text)
             assert not (await heard(browser, "answer", id=None))["ok"]
         assert bench.done == [("start", 1)]
+        answer = await asked(browser, id=9, do="resume", vehicle=0)
+        assert (answer["ok"], answer["message"]) == (False, "the console failed: OverflowError: of a bug")
 
     on_bench(check)
 

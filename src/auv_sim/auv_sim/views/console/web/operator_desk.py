@@ -6,7 +6,7 @@ import json
 from collections.abc import Awaitable, Callable, Mapping
 from typing import Any, NamedTuple
 
-from auv_msgs_py.values.errors import SuiteError
+from auv_msgs_py.values.errors import SuiteError, printable
 from auv_sim.views.console.record.vehicle_record import VehicleRecord
 from auv_sim.views.console.record.wire_messages import text_of
 from auv_sim.views.console.web.viewer import MOST_PENDING, Viewer
@@ -57,6 +57,8 @@ class OperatorDesk:
             answer = await self._done(request, viewer)
         except SuiteError as error:
             answer = Answer(False, str(error))
+        except Exception as error:  # a fault of the console: the page has its answer all the same
+            answer = Answer(False, printable(f"the console failed: {type(error).__name__}: {error}"))
         return text_of("answer", **{**answer.more, "id": number, "ok": answer.ok, "message": answer.message})
 
     async def _done(self, request: Mapping[str, Any], viewer: Viewer) -> Answer:
