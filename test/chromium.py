@@ -75,7 +75,7 @@ class Tab:
     async def until(self, expression: str, seconds: float = 10.0) -> None:
         """Wait until an expression is true."""
         for _ in range(int(seconds / 0.05)):
-            if await self.value(f"!!({expression})"):
+            if await self.value(f"(async () => !!(await ({expression})))()"):
                 return
             await asyncio.sleep(0.05)
         raise AssertionError(f"not true within {seconds} s: {expression}")
@@ -90,6 +90,11 @@ class Tab:
         """Set the size of the window, CSS px."""
         await self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
                         deviceScaleFactor=2 if mobile else 1, mobile=mobile)  # fmt: skip
+
+    async def window(self, state: str) -> None:
+        """Set the state of the browser's window: normal or minimized, which hides the page."""
+        found = await self.call("Browser.getWindowForTarget")
+        await self.call("Browser.setWindowBounds", windowId=found["windowId"], bounds={"windowState": state})
 
     async def middle(self, selector: str) -> tuple[float, float]:
         """Return the middle of an element, which is scrolled into sight."""

@@ -192,20 +192,17 @@ async def test_it_paints_ten_times_a_second_on_new_data_only(tab: Tab, fake: Fak
 @on_page()
 async def test_a_hidden_page_paints_nothing_and_misses_nothing(tab: Tab, fake: FakeConsole) -> None:
     await settled(tab)
-    await tab.value(
-        "Object.defineProperty(document, 'hidden', { get: () => window.away, configurable: true })"
-    )
-    await tab.value("window.away = true; document.dispatchEvent(new Event('visibilitychange'))")
-    await settled(tab)
+    await tab.window("minimized")
+    await tab.until("document.hidden")
+    await asyncio.sleep(0.2)
     before = await tab.value(PAINTS)
     for _ in range(5):
         await fake.advance(4)
         await asyncio.sleep(0.05)
     await asyncio.sleep(0.3)
     assert await tab.value(PAINTS) == before
-    await tab.value("window.away = false; document.dispatchEvent(new Event('visibilitychange'))")
-    await settled(tab)
-    assert await tab.value(PAINTS) > before
+    await tab.window("normal")
+    await tab.until(f"{PAINTS}.then(n => n > {before})")
     assert await tab.value(f"(async () => {ROWS})()") == fake.flown
 
 
@@ -213,7 +210,7 @@ async def test_a_hidden_page_paints_nothing_and_misses_nothing(tab: Tab, fake: F
 async def test_a_server_that_comes_back_shows_the_track_again(tab: Tab, fake: FakeConsole) -> None:
     port = fake.port
     await fake.stop()
-    await tab.until("!document.getElementById('banner').hidden", 2.0)
+    await tab.until("!document.getElementById('banner').hidden")
     assert await tab.value("document.getElementById('state').dataset.state") == "silent"
     await tab.click("#abort")
     await tab.until("document.getElementById('answer').textContent === 'Abort: no link: nothing was sent'")
