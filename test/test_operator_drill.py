@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import os
 import signal
@@ -16,8 +17,11 @@ from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParametersAtomically
 
 from auv_msgs_py.contract import qos, topics
+from auv_sim.bags.content.recorded_mission import mission_in
+from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.load import load_messages
 from auv_sim.bags.verbs.rerun import rerun
+from auv_sim.cli.bag import main as bag_command
 from console_browser import ConsoleBrowser, address_of
 from node_bench import Bench
 
@@ -98,6 +102,29 @@ def check_rows(browser: ConsoleBrowser, run: Path) -> None:
     assert said[-1] == "/auv: browser 6: abort"
 
 
+def check_missions(run: Path) -> None:
+    """Each mission of the recording has figures of its own, on its own path, from where it began."""
+    flight = mission_in(read_bag(run / "bag"))
+    assert [(part.mission.name, part.place, part.ended[0]) for part in flight.parts if part.mission] == [
+        ("paper_composite", "", "holding"), ("other", "50 m", "holding"), ("goal", "", "aborted"),
+    ]  # fmt: skip
+    first, second, third = flight.parts
+    assert first.run and second.run and third.run
+    assert first.run.t[-1] < second.run.t[0] < second.run.t[-1] < third.run.t[0]
+    assert second.summary is not None
+    away = np.abs(second.run.x[second.run.thrust_cmd > 0.0])  # north of a path that goes east
+    assert second.summary.largest_distance == pytest.approx(away.max(), abs=0.05)
+    assert 0.0 <= second.summary.flown_share < 0.5
+    assert bag_command(["report", str(run), "--out", str(run / "page")]) == 0
+    text = (run / "page" / "report.html").read_text(encoding="utf-8")
+    table = json.loads(text.split('type="application/json">')[1].split("</script>")[0])["table"]
+    assert [row[:3] for row in table] == [
+        ["mission", "began at", "outcome"], ["1 paper_composite", "start", "holding"],
+        ["2 other", "50 m", "holding"], ["3 goal", "start", "aborted"],
+    ]  # fmt: skip
+    assert (run / "page" / "mission_3" / "track.png").exists()
+
+
 def test_a_drill_is_recorded_and_flown_again_by_a_rerun(
     bench: Bench,
     domain: int,
@@ -147,6 +174,7 @@ def test_a_drill_is_recorded_and_flown_again_by_a_rerun(
     operator.flies(0.5)
     assert browser.ask("abort")["message"] == "abort was called"
     assert flight.wait(60) == 1
+    check_missions(run)
     browser.until(lambda: not browser.texts["tick"]["fresh"])
     assert set(before) <= set(browser.column("t")), "the track of the console that was killed"
     assert browser.ask("abort") == {

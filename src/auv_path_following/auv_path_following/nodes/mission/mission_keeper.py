@@ -171,7 +171,8 @@ class MissionKeeper:
     def _describe(self) -> None:
         """Begin a report of the course's mission."""
         self._flown = FlownLength(self._course.path.length)
-        self.report.describe(self._course.mission, self._course.path.length)
+        place = self._node.parameters.start_at
+        self.report.describe(self._course.mission, self._course.path.length, place)
 
     def _count(self, now: float, jumps: bool) -> None:
         """Count what was flown up to the measurement of `now`, s."""

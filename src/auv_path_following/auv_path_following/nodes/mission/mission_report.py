@@ -56,9 +56,16 @@ class MissionReport:
         if not self._lockstep:
             node.create_timer(PERIOD, self._publish, clock=Clock(clock_type=ClockType.STEADY_TIME))
 
-    def describe(self, mission: Mission, length: float) -> None:
-        """Take the mission that is reported from now on; `length` of its path, m."""
+    def describe(self, mission: Mission, length: float, place: str) -> None:
+        """Take the mission that is reported from now on.
+
+        Args:
+            mission: for its name and digest.
+            length: of its path, m.
+            place: of the path at which it begins, as the parameter `start_at` names it.
+        """
         self._facts = {"mission": mission.name, "digest": mission.digest, "length [m]": f"{length:.3f}"}
+        self._facts["start at"] = place
         self.begun_at, self.flown = None, 0.0
         if self.word is not None:
             self._publish_status(self._node.now())

@@ -47,7 +47,9 @@ class Event:
 def events_of(flight: RecordedMission) -> list[Event]:
     """Return all events by time."""
     bag = flight.bag
-    found = [*_states(bag), *_diagnostics(bag), *_log(bag), *_flown(flight)]
+    found = [*_states(bag), *_diagnostics(bag), *_log(bag)]
+    for part in flight.missions:
+        found += _flown(part)
     return sorted(found, key=lambda event: event.time)
 
 

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import contextlib
+import dataclasses
+import math
 import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+
+import numpy as np
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.settings import params_file
@@ -16,7 +20,9 @@ from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_path_following.guidance.spatial.flown_path import flown_path
 from auv_path_following.missions import mission_file
 from auv_path_following.missions.mission_file import Mission
+from auv_path_following.missions.orders.start_place import path_parameter_of
 from auv_path_following.vehicle import Vehicle
+from auv_sim.bags.content.mission_list import listed, missions_by_digest
 from auv_sim.bags.reading.load import run_of
 from auv_sim.bags.reading.recording import Bag
 from auv_sim.bags.texts import texts_below
@@ -25,6 +31,8 @@ from auv_sim.flight.metrics import MissionSummary, summarise
 from auv_sim.flight.run_record import Run, SpatialRun
 from auv_sim.sim_parameters import SUITE
 
+#: Stamps that differ by less are one, s.
+_SAME_STAMP = 1e-6
 #: The files that the launcher writes and the recorder keeps.
 MISSION, VEHICLE, PARAMS = "mission.yaml", "vehicle.yaml", "params.yaml"
 #: The hull as the nodes knew it; only there where it was not the vehicle's.
@@ -40,6 +48,10 @@ class RecordedMission:
         run: the odometry's rows.
         mission, vehicle: of the flight.
         notes: reasons for what is missing, a line each.
+        place: of the path at which the mission began, as an operator names it; empty: its start.
+        parts: the missions that were flown, where there are several, each with its rows of the run; the
+            figures are then those of the first.
+        ended: state and reason that guidance reported last.
     """
 
     bag: Bag
@@ -47,12 +59,20 @@ class RecordedMission:
     mission: Mission | None
     vehicle: Vehicle | None
     notes: list[str]
+    place: str = ""
+    parts: tuple[RecordedMission, ...] = ()
+    ended: tuple[str, str] = ("", "")
+
+    @property
+    def missions(self) -> tuple[RecordedMission, ...]:
+        """Each mission that was flown."""
+        return self.parts or (self,)
 
     @property
     def spatial(self) -> SpatialPath | None:
         """The path in three dimensions, where a vehicle that dives flew and was recorded as one."""
         mission, hull = self.mission, self.vehicle
-        if mission is None or not isinstance(self.run, SpatialRun):
+        if self.parts or mission is None or not isinstance(self.run, SpatialRun):
             return None
         if mission.spatial is not None or mission.altitude is not None or hull is None or not hull.dives:
             return mission.spatial
@@ -64,13 +84,21 @@ class RecordedMission:
     @property
     def summary(self) -> MissionSummary | None:
         """The figures, where run and path are known."""
+        if self.parts:
+            return self.parts[0].summary
         if self.run is None or self.mission is None:
             return None
-        return summarise(self.run, self.spatial or self.mission.path)
+        path = self.spatial or self.mission.path
+        begin = 0.0
+        with contextlib.suppress(ConfigurationError):
+            begin = path_parameter_of(self.place, path)
+        return summarise(self.run, path, begin)
 
     @property
     def by_odometry(self) -> ByOdometry | None:
         """The distances by the vehicle's odometry, where the true ones are known, too."""
+        if self.parts:
+            return self.parts[0].by_odometry
         if self.run is None or self.mission is None:
             return None
         return by_odometry(self.run, self.mission.path)
@@ -111,7 +139,42 @@ def mission_in(bag: Bag, mission: str | None = None, namespace: str | None = Non
                 flown = mission_file.load(str(directory / MISSION), model)
     if flown is None and run is not None:
         notes.append("no mission file in or beside the recording: name one with --mission for the figures")
-    return RecordedMission(bag, run, flown, hull, [printable(note) for note in notes])
+    found = RecordedMission(bag, run, flown, hull, [printable(note) for note in notes])
+    return found if mission is not None else _with_missions(found, model, namespace)
+
+
+def _with_missions(flight: RecordedMission, model: Vehicle | None, namespace: str | None) -> RecordedMission:
+    """Return a flight with the place where its mission began, or with its missions if there are several."""
+    missions, run = listed(flight.bag, namespace), flight.run
+    if run is None or not missions:
+        return flight
+    if len(missions) == 1:
+        (one,) = missions
+        return dataclasses.replace(flight, place=one.place, ended=(one.state, one.reason))
+    known = missions_by_digest(
+        flight.bag, namespace, () if flight.mission is None else (flight.mission,), model
+    )
+    parts = []
+    ends = [*(one.begun for one in missions[1:]), math.inf]
+    for one, end in zip(missions, ends, strict=True):
+        rows = run.select((run.t > one.begun - _SAME_STAMP) & (run.t < end - _SAME_STAMP))
+        mission, notes = known.get(one.digest), []
+        if mission is None:
+            notes.append(f"no figures of {printable(one.name)}: its file is not in the recording")
+        parts.append(
+            RecordedMission(
+                flight.bag, _driven(rows), mission, flight.vehicle, notes, one.place,
+                ended=(one.state, one.reason),
+            )
+        )  # fmt: skip
+    notes = [*flight.notes, *(note for part in parts for note in part.notes)]
+    return dataclasses.replace(flight, notes=notes, parts=tuple(parts))
+
+
+def _driven(run: Run) -> Run:
+    """Return the rows up to the one after the last with thrust: what follows is no part of a mission."""
+    driven = np.flatnonzero(run.thrust_cmd > 0.0)
+    return run.select(slice(0, int(driven[-1]) + 2)) if driven.size else run
 
 
 def controller_model(directory: Path) -> Path:

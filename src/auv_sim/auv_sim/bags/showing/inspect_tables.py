@@ -12,6 +12,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from auv_msgs_py.contract.mission_word import MissionState
 from auv_msgs_py.values.errors import printable
 from auv_sim.bags.content.events import Event
 from auv_sim.bags.content.recorded_mission import RecordedMission
@@ -47,7 +48,9 @@ def show(flight: RecordedMission, facts: list[TopicFacts], events: list[Event], 
     for note in flight.notes:
         console.print(f"[dim]{escape(note)}[/dim]", soft_wrap=True)
     summary = flight.summary
-    if summary is not None and flight.mission is not None:
+    if flight.parts:
+        console.print(missions(flight))
+    elif summary is not None and flight.mission is not None:
         console.print(mission(summary, flight.mission.name))
         if (own := flight.by_odometry) is not None:
             console.print(f"distance by odometry: rms {own.rms:.3f} m, largest {own.largest:.3f} m")
@@ -113,6 +116,33 @@ def mission(summary: MissionSummary, name: str) -> Table:
     return table
 
 
+def missions(flight: RecordedMission) -> Table:
+    """Return the figures of several missions, a row for each."""
+    table = Table(title="missions", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
+    for heading in ("mission", "began at", "outcome"):
+        table.add_column(heading, overflow="fold")
+    headings = ["flown", "time s", "rms distance m", "largest m", "rms heading °", "rudder °", "rudder °/m"]
+    if isinstance(flight.run, SpatialRun):
+        headings += ["rms depth m", "largest depth m", "planes °/m", "pitch °"]
+    for heading in headings:
+        table.add_column(heading, justify="right")
+    for number, part in enumerate(flight.parts, 1):
+        summary = part.summary
+        name = part.mission.name if part.mission is not None else "not recorded"
+        figures = ["-"] * len(headings)
+        if summary is not None:
+            figures = [percent(summary.flown_share), *_figures(summary)]
+            figures += ["-"] * (len(headings) - len(figures))
+        table.add_row(_cell(f"{number} {name}"), _cell(part.place or "start"), _ending(part), *figures)
+    return table
+
+
+def _ending(part: RecordedMission) -> str:
+    """Return how a mission ended: as guidance reported it, and why unless it is complete."""
+    state, reason = part.ended
+    return _cell(state if state == MissionState.COMPLETE or not reason else f"{state}: {reason}")
+
+
 def _figures(part: MissionSummary | SubpathSummary) -> list[str]:
     vertical = []
     if isinstance(part, SpatialMissionSummary | SpatialSubpathSummary):
@@ -173,18 +203,23 @@ def show_many(rows: list[tuple[Path, RecordedMission | None, str]], console: Con
             table.add_row(escape(str(path)), *["-"] * 6, "[red]unreadable[/red]", escape(note))
             continue
         first, last = flight.bag.span_ns
-        summary = flight.summary
-        figures, state = ["-"] * 3, "-"
-        if summary is not None:
-            values = (summary.rms_distance, summary.largest_distance, summary.rudder_travel_per_metre)
-            figures = [_number(value, 3) for value in values]
-            state = f"{summary.outcome()}, {percent(summary.flown_share)} flown"
         name = f"{path} {flight.bag.vehicle or ''}".strip()
-        table.add_row(
+        whole = (
             escape(name), f"{(last - first) * 1e-9:.1f}", str(flight.bag.count), size(flight.bag.size),
-            *figures, state, escape(note),
         )  # fmt: skip
+        for number, part in enumerate(flight.missions):
+            table.add_row(*(whole if not number else [""] * 4), *_judged(part), escape(note))
     console.print(table)
+
+
+def _judged(flight: RecordedMission) -> list[str]:
+    """Return the figures of a mission in the row of its recording, and how it went."""
+    summary = flight.summary
+    if summary is None:
+        return ["-"] * 4
+    values = (summary.rms_distance, summary.largest_distance, summary.rudder_travel_per_metre)
+    state = f"{summary.outcome()}, {percent(summary.flown_share)} flown"
+    return [*(_number(value, 3) for value in values), state]
 
 
 def size(number: int) -> str:

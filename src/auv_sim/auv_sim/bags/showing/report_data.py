@@ -36,7 +36,8 @@ def page_data(flight: RecordedMission, events: list[Event], title: str) -> dict[
     columns = _columns(flight) if run is not None and run.steps else {}
     summary, opinion = flight.summary, flight.by_odometry
     path = _path(flight)
-    joints = flight.mission.path.joints if flight.mission is not None else ()
+    missions = [part.mission for part in flight.missions if part.mission is not None]
+    joints = [joint for mission in missions for joint in mission.path.joints]
     return {
         "title": title,
         "facts": _facts(flight, summary, opinion),
@@ -49,7 +50,7 @@ def page_data(flight: RecordedMission, events: list[Event], title: str) -> dict[
         "begin": 0.0,
         "now": [n for n in (*_NOW, *NOW) if n["name"] in columns],
         "panels": [*_panels(flight, columns), *_diagnostics_panel(flight, start)],
-        "table": _table(summary, opinion),
+        "table": _missions_table(flight) if flight.parts else _table(summary, opinion),
         "events": [{"t": e.time - start, "kind": e.kind, "text": e.text, "level": e.level} for e in events],
         "config": texts_of(flight.bag),
     }
@@ -73,13 +74,30 @@ def _columns(flight: RecordedMission) -> dict[str, NDArray[np.float64]]:
         columns["track_x"], columns["track_y"] = run.track
         heading = np.where(np.isfinite(run.psi_true), run.psi_true, run.psi)
         columns["track_psi"] = np.degrees(heading)
-    if flight.mission is not None and "s" in columns:
-        columns["distance"] = _distance(run, flight.mission.path, *run.track)
+    if "s" in columns and any(part.mission is not None for part in flight.missions):
+        columns["distance"] = _distances(flight, *run.track)
         if erring and flight.spatial is None:
-            columns["distance_by_odometry"] = _distance(run, flight.mission.path, run.x, run.y)
+            columns["distance_by_odometry"] = _distances(flight, run.x, run.y)
     if isinstance(run, SpatialRun):
         columns |= spatial_columns(flight)
     return {name: values for name, values in columns.items() if np.isfinite(values).any()}
+
+
+def _distances(
+    flight: RecordedMission, x: NDArray[np.float64], y: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the distance of the positions to the path of the mission of their row, m, shape (n,)."""
+    run = flight.run
+    assert run is not None
+    if not flight.parts:
+        assert flight.mission is not None
+        return _distance(run, flight.mission.path, x, y)
+    distance = np.full(run.steps, np.nan)
+    for part in flight.parts:
+        if part.mission is not None and part.run is not None and part.run.steps:
+            rows = (run.t >= part.run.t[0]) & (run.t <= part.run.t[-1])
+            distance[rows] = _distance(run.select(rows), part.mission.path, x[rows], y[rows])
+    return distance
 
 
 def _distance(
@@ -95,8 +113,10 @@ def _distance(
 
 def _path(flight: RecordedMission) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
     """Return north and east of the path: the mission's, else the one that guidance published."""
-    if flight.mission is not None:
-        x, y, _ = flight.mission.path.polyline(1.0)
+    lines = [part.mission.path.polyline(1.0)[:2] for part in flight.missions if part.mission is not None]
+    if lines:
+        gap = np.array([np.nan])  # the pen is lifted between two paths
+        x, y = (np.concatenate([part for line in lines for part in (line[k], gap)][:-1]) for k in (0, 1))
         return x, y
     published = published_path(flight.bag)
     return published and published[:2]
@@ -136,6 +156,20 @@ def _gaps(summary: MissionSummary | None) -> list[str]:
     if summary is None or not (summary.missed or summary.skipped):
         return []
     return [summary.flown_line()]
+
+
+def _missions_table(flight: RecordedMission) -> list[list[str]]:
+    """Return the figures of several missions, a row for each."""
+    rows, heads = [], ["mission"]
+    for number, part in enumerate(flight.parts, 1):
+        table = _table(part.summary, None)
+        if table:
+            heads = ["mission", "began at", "outcome", "flown", *table[0][1:]]
+            assert part.mission is not None and part.summary is not None
+            share = percent(part.summary.flown_share)
+            name = f"{number} {part.mission.name}"
+            rows.append([name, part.place or "start", part.ended[0], share, *table[-1][1:]])
+    return [heads, *rows]
 
 
 def _table(summary: MissionSummary | None, opinion: ByOdometry | None) -> list[list[str]]:

@@ -72,7 +72,7 @@ def run(arguments: argparse.Namespace) -> int:
     ]
     summaries = [flight.summary for flight in flights if flight.summary is not None]
     opinions = [flight.by_odometry for flight in flights]
-    settings = differences([flight.bag for flight in flights])
+    settings = differences([flight.bag for flight in flights])  # as they were at the start
     try:
         draw(flights, labels, arguments.png)
     except OSError as error:
@@ -95,7 +95,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _flights(path: Path, arguments: argparse.Namespace) -> dict[str, RecordedMission]:
-    """Read a recording: vehicle -> its mission; of one vehicle, under an empty name.
+    """Read a recording: vehicle and mission -> the mission; the only one is under an empty name.
 
     Raises:
         ConfigurationError: one has no mission with figures.
@@ -103,10 +103,14 @@ def _flights(path: Path, arguments: argparse.Namespace) -> dict[str, RecordedMis
     found = {}
     bags = read_vehicles(path, odometry=arguments.odometry, namespace=arguments.namespace)
     for name, bag in bags.items():
-        flight = found[name] = mission_in(bag, arguments.mission, arguments.namespace)
-        if flight.summary is None:
+        flight = mission_in(bag, arguments.mission, arguments.namespace)
+        judged = [part for part in flight.missions if part.summary is not None]
+        if not judged:
             why = flight.notes[0] if flight.notes else "no mission"
             raise ConfigurationError(f"{path} {name}".strip(), why, "a flown mission")
+        for number, part in enumerate(judged, 1):
+            of = f"{number} {part.mission.name}" if flight.parts and part.mission is not None else ""
+            found[f"{name} {of}".strip()] = part
     return found
 
 

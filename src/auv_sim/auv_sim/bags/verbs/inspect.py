@@ -143,6 +143,19 @@ def as_data(flight: RecordedMission, facts: list[TopicFacts], events: list[Event
         "notes": [*bag.notes, *flight.notes],
         "topics": [dataclasses.asdict(fact) for fact in facts],
         "mission": json.loads(summary.to_json()) if summary is not None else None,
+        "missions": [_mission(part) for part in flight.missions],
         "by_odometry": {"rms_distance": own.rms, "largest_distance": own.largest} if own else None,
         "events": [dataclasses.asdict(event) for event in events],
+    }
+
+
+def _mission(part: RecordedMission) -> dict[str, Any]:
+    """Return one of the missions as plain data."""
+    summary = part.summary
+    return {
+        "name": part.mission.name if part.mission is not None else None,
+        "began_at": part.place,
+        "state": part.ended[0],
+        "reason": part.ended[1],
+        "figures": json.loads(summary.to_json()) if summary is not None else None,
     }

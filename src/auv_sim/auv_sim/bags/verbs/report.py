@@ -104,7 +104,14 @@ def _write(flight: RecordedMission, directory: Path) -> list[Path]:
         directory.mkdir(parents=True, exist_ok=True)
         page = directory / PAGE
         write_text(page, page_of(flight))
-        return [page, *pictures(flight, directory, _title(flight))]
+        if not flight.parts:
+            return [page, *pictures(flight, directory, _title(flight))]
+        files = [page]
+        for number, part in enumerate(flight.parts, 1):
+            below = directory / f"mission_{number}"
+            below.mkdir(exist_ok=True)
+            files += pictures(part, below, _title(part))
+        return files
     except OSError as error:
         raise ConfigurationError(str(directory), f"{error.strerror}", "a place to write to") from None
 
