@@ -21,6 +21,8 @@ def test_a_launch_file_has_these_arguments(line: Line) -> None:
     if file.endswith(".xml"):
         assert all(f'<arg name="{name}" default' in text for name in values)
         return
+    if launch_arguments.FLEET in values:
+        assert config_files.find("fleets", values.pop(launch_arguments.FLEET)).is_file()
     table = launch_arguments.of_mission() if file == "mission.launch.py" else launch_arguments.of_vehicle()
     assert set(values) <= {argument.name for argument in table}
     given = {argument.name: values.get(argument.name, argument.default) for argument in table}

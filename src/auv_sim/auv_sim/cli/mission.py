@@ -182,7 +182,22 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _fly_fleet(fleet: str, given: dict[str, Any]) -> int:
-    """Fly a fleet; refuse the options that its file holds for each vehicle."""
+    options = common_options(given)
+    with Loader() as loader:
+        from auv_sim.launch.fleet.fleet_flight import fly
+
+        return fly(fleet, options, loader)
+
+
+def common_options(given: dict[str, Any]) -> Options:
+    """Return the options of a fleet's command line.
+
+    Args:
+        given: name -> value, as `parser_of_one` returns them.
+
+    Raises:
+        ConfigurationError: an option that the fleet's file holds for each vehicle.
+    """
     for name, value in given.items():
         if name not in _OF_FLEET and value != getattr(Options, name):
             option = f"--{name.replace('_', '-')}"
@@ -190,10 +205,7 @@ def _fly_fleet(fleet: str, given: dict[str, Any]) -> int:
                 option, "together with --fleet", "it in the fleet's file, where it has it"
             )
     _require_console(given["console"])
-    with Loader() as loader:
-        from auv_sim.launch.fleet.fleet_flight import fly
-
-        return fly(fleet, Options(**given), loader)
+    return Options(**given)
 
 
 def checked(given: dict[str, Any]) -> Options:

@@ -75,17 +75,23 @@ def command_of(actions: list[Any]) -> list[str]:
 def test_a_mission_takes_the_options_of_the_command() -> None:
     defaults, actions = described("mission.launch.py", mission="loiter", composed="true", current="0.1 0")
     assert defaults.pop("shutdown") == "true"
+    assert defaults.pop("fleet") == ""
     assert defaults == {argument.name: argument.default for argument in arguments.of_mission()}
     assert command_of(actions) == ["--mission=loiter", "--current", "0.1", "0", "--composed"]
 
 
 def test_a_vehicle_has_its_nodes_and_perhaps_a_recorder() -> None:
     defaults, actions = described("vehicle.launch.py", vehicle_driver="mavlink")
-    assert defaults.pop("record") == "true"
+    assert (defaults.pop("record"), defaults.pop("on_exit")) == ("true", "report")
     assert set(defaults) == {argument.name for argument in arguments.of_vehicle()}
-    assert command_of(actions) == ["--nodes-only", "--vehicle-driver=mavlink"]
+    assert command_of(actions) == ["--nodes-only", "--on-exit=report", "--vehicle-driver=mavlink"]
     _, actions = described("vehicle.launch.py", record="false")
-    assert command_of(actions) == ["--nodes-only", "--no-recorder"]
+    assert command_of(actions) == ["--nodes-only", "--no-recorder", "--on-exit=report"]
+
+
+def test_a_fleet_is_flown_by_the_same_launch_file() -> None:
+    _, actions = described("mission.launch.py", fleet="two", composed="true")
+    assert command_of(actions) == ["--composed", "--fleet=two"]
 
 
 def handlers(file: str, **values: str) -> tuple[Any, Any]:
@@ -131,3 +137,10 @@ def test_a_vehicle_s_nodes_go_on_without_the_supervisor_but_do_not_start_without
         on_exit(ended(2), Context())
     on_output(output("nodes to launch: /nodes.launch.xml\n"))
     assert on_exit(ended(1), Context()) == []
+
+
+def test_a_vehicle_s_launch_ends_with_a_node_if_that_is_asked_for() -> None:
+    on_output, on_exit = handlers("vehicle.launch.py", on_exit="shutdown")
+    on_output(output("nodes to launch: /nodes.launch.xml\n"))
+    with pytest.raises(description.SupervisorFailed, match="ended with code 1"):
+        on_exit(ended(1), Context())

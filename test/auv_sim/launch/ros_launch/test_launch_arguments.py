@@ -75,7 +75,8 @@ def test_a_vehicle_has_no_argument_that_only_a_simulator_could_obey() -> None:
         driven = argument.name in ("vehicle_driver", "vehicle_address")
         mode = {"vehicle_driver": "mavlink", "no_sim": False} if driven else {"no_sim": True}
         given_values |= mode | {"vehicle_address": "udpin:127.0.0.1:9"} if driven else mode
-        del given_values["nodes_only"], given_values["no_recorder"]
+        for name in ("nodes_only", "no_recorder", "fleet", "on_exit"):
+            del given_values[name]
         mission.checked(given_values)
 
 

@@ -12,6 +12,7 @@ import pytest
 
 from auv_msgs_py.node.start_gate import pass_gate
 from auv_sim.launch import launcher, mission_plan
+from auv_sim.launch.fleet import fleet_launcher, fleet_plan
 from auv_sim.launch.options import Options
 from auv_sim.launch.processes.process_group import Children
 from auv_sim.launch.ros_launch.nodes_file import FILE, NodesFile, launch_file
@@ -74,3 +75,23 @@ def test_launch_itself_reads_the_file(tmp_path: Path) -> None:
 def test_a_node_whose_launcher_has_looked_passes_the_gate(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("AUV_START_GATE", "passed")
     assert pass_gate(lambda: False)
+
+
+@pytest.mark.parametrize("composed", [False, True])
+@pytest.mark.parametrize("bags", ["each", "one"])
+def test_a_fleet_s_processes_are_told_apart(tmp_path: Path, composed: bool, bags: str) -> None:
+    """Each has its executable, and the parameter file of its vehicle by which it is found."""
+    file = tmp_path / "pair.yaml"
+    vehicles = "".join(f"  - {{namespace: /auv{k}, mission: loiter}}\n" for k in (1, 2))
+    file.write_text(f"version: 1\nname: pair\nbags: {bags}\nvehicles:\n{vehicles}", encoding="utf-8")
+    plan = fleet_plan.make(str(file), Options(composed=composed), tmp_path / "run")
+    commands = fleet_launcher.commands_of(plan)
+    nodes = [(name, module, words, "log") for name, (module, words) in commands.items()]
+    found = NodesFile(tmp_path / "run").fork({}, nodes)
+    places = {name: (process._executable, process._mark) for name, process in found.items()}
+    assert len(set(places.values())) == len(places) == len(nodes)
+    text = (tmp_path / "run" / FILE).read_text(encoding="utf-8")
+    assert text.count('exec="fleet_clock"') == 1
+    assert text.count('exec="recorder"') == (0 if composed or bags == "one" else 2)
+    assert text.count('exec="heading_autopilot"') == (0 if composed else 2)
+    assert text.count("fleet_recorder") == (bags == "one")

@@ -10,7 +10,12 @@ from collections.abc import Callable
 from pathlib import Path
 from xml.etree import ElementTree
 
+import pytest
+
+from auv_sim.launch.outcome import MissionFailed
+from auv_sim.launch.processes.process_group import Children
 from auv_sim.launch.ros_launch.launch_arguments import READY
+from auv_sim.launch.ros_launch.supervisor import _report_ended
 
 
 def launched(file: Path, spawn: Callable[..., subprocess.Popen[str]]) -> subprocess.Popen[str]:
@@ -56,3 +61,32 @@ def test_it_refuses_as_the_command_does(
     assert (supervisor.returncode, output, errors.count("\n")) == (2, "", 1)
     assert errors.startswith("no_such: found no such mission file")
     assert not (tmp_path / "run").exists()
+
+
+def test_it_refuses_for_a_fleet_what_its_file_holds(
+    spawn: Callable[..., subprocess.Popen[str]], command_line: Callable[..., list[str]], tmp_path: Path
+) -> None:
+    module = "auv_sim.launch.ros_launch.supervisor"
+    supervisor = spawn(command_line(module, "--fleet", "two", "--depth", "3", "--out", tmp_path / "run"))
+    output, errors = supervisor.communicate(timeout=30.0)
+    assert (supervisor.returncode, output) == (2, "")
+    assert errors.startswith("--depth: found together with --fleet, expected it in the fleet's file")
+    assert not (tmp_path / "run").exists()
+
+
+def test_a_node_that_has_ended_is_reported_once_or_ends_all(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    children = Children(tmp_path, {})
+    children.start("recorder", "no_such_module", [])
+    (child,) = children
+    child.process.wait(20.0)
+    reported: set[str] = set()
+    for _ in range(3):
+        _report_ended(children, reported, ends=False)
+    said = capsys.readouterr().err
+    assert said.count("recorder ended with code 1; its last lines") == 1
+    assert "No module named no_such_module" in said
+    assert said.endswith("the other nodes go on\n")
+    with pytest.raises(MissionFailed, match="recorder ended with code 1"):
+        _report_ended(children, set(), ends=True)

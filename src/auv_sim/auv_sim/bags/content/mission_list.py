@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -63,18 +62,18 @@ def listed(bag: Bag, namespace: str | None) -> list[ListedMission]:
     return found
 
 
-def missions_by_digest(
-    bag: Bag, namespace: str | None, known: Iterable[Mission], model: Vehicle | None
-) -> dict[str, Mission]:
-    """Return the missions that are recorded, or whose file still is what was flown, by their digests.
+def missions_by_digest(bag: Bag, namespace: str | None, model: Vehicle | None) -> dict[str, Mission]:
+    """Return the missions that were set in flight, by their digests.
+
+    One that was set by the name of a file is read from that file; its digest shows whether it still is the
+    same.
 
     Args:
         bag: with the messages of `/parameter_events`.
         namespace: of the vehicle.
-        known: missions that were read before.
         model: the hull that the nodes assumed.
     """
-    found = {mission.digest: mission for mission in known}
+    found: dict[str, Mission] = {}
     for change in changes_in(bag, namespace):
         if change.node != topics.GUIDANCE:
             continue

@@ -127,6 +127,7 @@ def mission_in(bag: Bag, mission: str | None = None, namespace: str | None = Non
             raise
         notes.append(f"no mission figures: {_without_place(error, bag)}")
     flown = hull = model = None
+    known: dict[str, Mission] = {}
     with configuration(bag) as directory:
         if (directory / VEHICLE).exists():
             with _noted(notes):
@@ -137,13 +138,16 @@ def mission_in(bag: Bag, mission: str | None = None, namespace: str | None = Non
         elif (directory / MISSION).exists():
             with _noted(notes):
                 flown = mission_file.load(str(directory / MISSION), model)
+                known[flown.digest] = flown  # while its file is there
     if flown is None and run is not None:
         notes.append("no mission file in or beside the recording: name one with --mission for the figures")
     found = RecordedMission(bag, run, flown, hull, [printable(note) for note in notes])
-    return found if mission is not None else _with_missions(found, model, namespace)
+    return found if mission is not None else _with_missions(found, known, model, namespace)
 
 
-def _with_missions(flight: RecordedMission, model: Vehicle | None, namespace: str | None) -> RecordedMission:
+def _with_missions(
+    flight: RecordedMission, known: dict[str, Mission], model: Vehicle | None, namespace: str | None
+) -> RecordedMission:
     """Return a flight with the place where its mission began, or with its missions if there are several."""
     missions, run = listed(flight.bag, namespace), flight.run
     if run is None or not missions:
@@ -151,9 +155,7 @@ def _with_missions(flight: RecordedMission, model: Vehicle | None, namespace: st
     if len(missions) == 1:
         (one,) = missions
         return dataclasses.replace(flight, place=one.place, ended=(one.state, one.reason))
-    known = missions_by_digest(
-        flight.bag, namespace, () if flight.mission is None else (flight.mission,), model
-    )
+    known = known | missions_by_digest(flight.bag, namespace, model)
     parts = []
     ends = [*(one.begun for one in missions[1:]), math.inf]
     for one, end in zip(missions, ends, strict=True):

@@ -18,13 +18,19 @@ from auv_sim.launch.processes.process_group import Starter
 from auv_sim.terminal import console as terminal
 
 
-def fly(fleet: str, options: Options, loader: Starter) -> int:
+def run_directory(fleet: str, options: Options) -> Path:
+    """Return the run directory, which does not exist yet: of the command line, else by the fleet's name."""
+    return mission_flight.run_directory(dataclasses.replace(options, mission=Path(fleet).stem))
+
+
+def fly(fleet: str, options: Options, loader: Starter, domain: int | None = None) -> int:
     """Fly a fleet from its file to its picture.
 
     Args:
         fleet: its file, or the name of a shipped one.
         options: the command line; each vehicle's mission has further ones from the file.
         loader: of the nodes.
+        domain: ROS domain; None for the launcher's choice.
 
     Returns:
         0 if every mission is complete, 1 if one is not, 130 after an interruption.
@@ -32,9 +38,10 @@ def fly(fleet: str, options: Options, loader: Starter) -> int:
     Raises:
         SuiteError: from the launcher or the mission check.
     """
-    directory = mission_flight.run_directory(dataclasses.replace(options, mission=Path(fleet).stem))
+    directory = run_directory(fleet, options)
     plan = fleet_plan.make(fleet, options, directory)
-    domain = launcher.domain_of(next(iter(plan.members.values())))
+    if domain is None:
+        domain = launcher.domain_of(next(iter(plan.members.values())))
     console = terminal(options.quiet)
     make_directory(directory, new=True)
     for member in plan.members.values():

@@ -212,7 +212,7 @@ class _FleetFlight:
 
     def _spin(self, seconds: float) -> None:
         dead = self._children.dead()
-        if dead is not None:
+        if dead is not None and not self._interrupt.requested:  # a signal may have reached the nodes, too
             raise MissionFailed(dead.obituary())
         for monitor in self._monitors.values():
             monitor.look(0.0)

@@ -20,26 +20,30 @@ class SupervisorFailed(RuntimeError):
 
 
 def mission() -> Any:
-    """Return the LaunchDescription that flies one mission and ends with it."""
+    """Return the LaunchDescription that flies one mission, or a fleet's, and ends with it."""
     ends = Argument("shutdown", "end everything launched when the mission ends (default true)", True, False)
 
     def words_of(values: dict[str, str]) -> tuple[list[str], bool]:
         ends_all = arguments.is_true(ends.name, values[ends.name])
-        return arguments.command_line(arguments.of_mission(), values), ends_all
+        return arguments.command_line(arguments.of_mission_or_fleet(), values), ends_all
 
-    return _description((*arguments.of_mission(), ends), {ends.name: "true"}, words_of)
+    return _description((*arguments.of_mission_or_fleet(), ends), {ends.name: "true"}, words_of)
 
 
 def vehicle() -> Any:
     """Return the LaunchDescription of a vehicle's nodes, which leaves the mission to the operator."""
     record = Argument("record", "record a bag (default true)", True, False)
+    text = "when a node has ended: report it and go on (default), or shutdown: end all with code 1"
+    on_exit = Argument("on_exit", text, False, False)
 
     def words_of(values: dict[str, str]) -> tuple[list[str], bool]:
         recorder = [] if arguments.is_true(record.name, values[record.name]) else ["--no-recorder"]
         options = arguments.command_line(arguments.of_vehicle(), values)
-        return ["--nodes-only", *recorder, *options], False
+        ends = on_exit.option(values[on_exit.name])
+        return ["--nodes-only", *recorder, *ends, *options], values[on_exit.name] == arguments.SHUTDOWN
 
-    return _description((*arguments.of_vehicle(), record), {record.name: "true"}, words_of)
+    defaults = {record.name: "true", on_exit.name: arguments.REPORT}
+    return _description((*arguments.of_vehicle(), record, on_exit), defaults, words_of)
 
 
 def _description(

@@ -21,6 +21,10 @@ _OF_VEHICLE = (
     "mission", "vehicle", "controller_model", "params", "switching", "vehicle_driver", "vehicle_address",
     "use_sim_time", "display", "out", "namespace", "domain", "force", "start_at",
 )  # fmt: skip
+#: What vehicle.launch.py does when a node has ended: values of its argument `on_exit`.
+REPORT, SHUTDOWN = "report", "shutdown"
+#: Name of the argument that flies a fleet.
+FLEET = "fleet"
 
 
 class Argument(NamedTuple):
@@ -70,7 +74,7 @@ def is_true(name: str, value: str) -> bool:
 
 
 def of_mission() -> tuple[Argument, ...]:
-    """Return the arguments of mission.launch.py: every option of `scripts/mission.py`."""
+    """Return the arguments of one mission: every option of `scripts/mission.py`."""
     shown = [action for action in parser_of_one().actions if action.help != argparse.SUPPRESS]
     # The mission is an option and a word; the word has its help.
     texts = {action.dest: action.help or "" for action in shown}
@@ -79,6 +83,12 @@ def of_mission() -> tuple[Argument, ...]:
         for action in shown
         if action.option_strings and action.dest != "help"
     )
+
+
+def of_mission_or_fleet() -> tuple[Argument, ...]:
+    """Return the arguments of mission.launch.py: those of a mission, and the fleet's file."""
+    text = "several vehicles from a fleet's file, or the name of a shipped one, in place of a mission"
+    return (*of_mission(), Argument(FLEET, text, False, False))
 
 
 def of_vehicle() -> tuple[Argument, ...]:

@@ -6,12 +6,14 @@ needs no library of this suite.
 
 from __future__ import annotations
 
+import json
 import shlex
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from xml.etree import ElementTree
 
+from auv_msgs_py.contract import topics
 from auv_msgs_py.node.start_gate import GATE, PASSED
 from auv_msgs_py.settings.result_files import write_text
 from auv_sim.command_line import say
@@ -19,6 +21,9 @@ from auv_sim.launch.composed import NODES
 from auv_sim.launch.processes.launched import Launched
 from auv_sim.launch.ros_launch.launch_arguments import READY
 
+#: Module of a node -> its executable, in the package of the module.
+_EXECUTABLES = {place.split(":")[0]: name for name, place in NODES.items()}
+_EXECUTABLES["auv_sim.nodes.fleet.fleet_clock_node"] = topics.FLEET_CLOCK
 FILE = Path("config") / "nodes.launch.xml"
 
 
@@ -45,9 +50,10 @@ class NodesFile:
             NotWritten: the file cannot be written.
         """
         write_text(self._file, launch_file(environment, nodes))
-        parameters = str(self._file.with_name("params.yaml"))
-        executables = {name: name if name in NODES else module for name, module, _, _ in nodes}
-        return {name: Launched(executable, parameters) for name, executable in executables.items()}
+        return {
+            name: Launched(_executable_of(module, arguments) or module, _parameters_of(arguments))
+            for name, module, arguments, _ in nodes
+        }
 
     def at_gate(self) -> bool:
         """Return True: the nodes load after the look at the graph."""
@@ -68,9 +74,9 @@ def launch_file(environment: Mapping[str, str], nodes: Sequence[tuple[str, str, 
         nodes: (name, module, arguments, log file) of each.
     """
     root = ElementTree.Element("launch")
-    for name, module, arguments, _ in nodes:
-        if name in NODES:
-            package = NODES[name].split(".")[0]
+    for _, module, arguments, _ in nodes:
+        if name := _executable_of(module, arguments):
+            package = module.split(".")[0]
             ros = arguments[arguments.index("--ros-args") + 1 :]
             attributes = {"pkg": package, "exec": name, "ros_args": _literal(shlex.join(ros))}
             element = ElementTree.SubElement(root, "node", attributes, output="screen")
@@ -81,6 +87,20 @@ def launch_file(environment: Mapping[str, str], nodes: Sequence[tuple[str, str, 
             ElementTree.SubElement(element, "env", name=variable, value=_literal(value))
     ElementTree.indent(root)
     return ElementTree.tostring(root, encoding="unicode") + "\n"
+
+
+def _executable_of(module: str, arguments: Sequence[str]) -> str:
+    """Return the name of a node's executable; empty for a process of several nodes."""
+    return _EXECUTABLES.get(module, "") if arguments[0] == "--ros-args" else ""
+
+
+def _parameters_of(arguments: Sequence[str]) -> str:
+    """Return the parameter file of a process: of its first node, where it has several."""
+    words: Sequence[str] = arguments
+    if arguments[0] != "--ros-args":
+        nodes = json.loads(arguments[0])
+        words = next(iter(nodes.values() if isinstance(nodes, dict) else nodes))
+    return words[words.index("--params-file") + 1]
 
 
 def _literal(text: str) -> str:
