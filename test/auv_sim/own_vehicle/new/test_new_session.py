@@ -166,3 +166,10 @@ def test_length_speed_and_radius_are_enough_for_a_survey(hull: Vehicle) -> None:
     distance = np.abs(mission.path.distance(flown.x_true, flown.y_true, index))
     assert np.mean(distance < 1.0) >= 0.95
     assert np.sqrt(np.mean(distance**2)) <= 0.45
+
+
+def test_a_vehicle_that_cannot_fly_leaves_no_file_and_says_why(tmp_path: Path) -> None:
+    late = FACTS._replace(delay=0.6, radii=((25.0, 8.0),), divergence=1.3)
+    with pytest.raises(ConfigurationError, match=r"flown to \d+ ?%.*too much delay for this hull"):
+        new_vehicle(late, tmp_path / "late.yaml", False, console())
+    assert list(tmp_path.iterdir()) == []

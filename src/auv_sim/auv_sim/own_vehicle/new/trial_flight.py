@@ -29,6 +29,9 @@ _CURRENT, _DIRECTION = 0.15, 0.8
 #: Depths of a vehicle that dives, in shallowest depths of its range.
 _DEPTHS = (3.0, 4.0, 5.0)
 
+#: What is expected of facts.
+_FLYING = "facts of a vehicle that flies one"
+
 
 class TrialFlight(NamedTuple):
     """Result of one flight: current (m/s), flown share of the path, rms and largest distance to it (m)."""
@@ -79,9 +82,11 @@ def fly_trials(vehicle: Vehicle, mission: Mission) -> list[TrialFlight]:
         )  # fmt: skip
         flown = summarise(closed_loop.fly(scenario), followed_path(scenario))
         if flown.outcome() != "complete":
+            why = gains.notices[0] if gains.notices else "check delay, rudder rate and radius"
             raise ConfigurationError(
-                vehicle.name, f"a survey flown to {flown.flown_share:.0%} in {speed:.2f} m/s of current",
-                "facts of a vehicle that flies one",
-            )  # fmt: skip
+                vehicle.name,
+                f"a survey flown to {flown.flown_share:.0%} in {speed:.2f} m/s of current",
+                f"{_FLYING} ({why.removeprefix(f'{vehicle.name}: ')})",
+            )
         trials.append(TrialFlight(speed, flown.flown_share, flown.rms_distance, flown.largest_distance))
     return trials
