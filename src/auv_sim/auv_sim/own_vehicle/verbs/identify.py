@@ -20,7 +20,7 @@ from auv_path_following import config_files
 from auv_path_following import vehicle as vehicle_file
 from auv_path_following.vehicle import Vehicle
 from auv_sim.bags.content.recorded_manoeuvres import READ
-from auv_sim.command_line import not_negative, positive, say, target, to_type
+from auv_sim.command_line import at_least_one, not_negative, positive, say, target, to_type, whole
 from auv_sim.own_vehicle.identify.hull_abilities import abilities_of
 from auv_sim.own_vehicle.identify.identification import Identified, identify
 from auv_sim.own_vehicle.identify.innovations import Channels, channels_of
@@ -43,6 +43,7 @@ from auv_sim.own_vehicle.identify.results.known_vehicle import (
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
 from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, RATE, DataSheet, typed
 from auv_sim.own_vehicle.identify.water_current import mean_current
+from auv_sim.own_vehicle.verbs.identification_study import study
 from auv_sim.own_vehicle.verbs.recordings_read import ENOUGH, LAST, divided, read
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, progress_bar, wrote
@@ -53,7 +54,7 @@ _LATENCY = (0.1, 0.08)
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The verb's options."""
-    parser.add_argument("bag", type=Path, nargs="+", metavar="BAG", help="recordings of one vehicle")
+    parser.add_argument("bag", type=Path, nargs="*", metavar="BAG", help="recordings of one vehicle")
     shipped = ", ".join(config_files.shipped("vehicles"))
     parser.add_argument(
         "--vehicle", default="remus100", metavar="FILE",
@@ -77,12 +78,28 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         f"(default: its last {LAST:g} s where there are {ENOUGH:g} s in all)",
     )  # fmt: skip
     _add_sheet(parser)
+    _add_study(parser)
     topics = ", ".join(topic.name for topic in READ)
     parser.add_argument(
         "--topic", action="append", default=[], metavar="NAME=TOPIC",
         help=f"other name of a topic; NAME is one of {topics}",
     )  # fmt: skip
     parser.add_argument("--namespace", metavar="NAME", help="which vehicle, where there are several")
+
+
+def _add_study(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--study", type=at_least_one, metavar="N",
+        help="instead of recordings: identify N simulated vehicles with random hulls, and judge by the truth",
+    )  # fmt: skip
+    parser.add_argument("--first", type=whole, default=0, metavar="SEED", help="of the study's first vehicle")
+    parser.add_argument(
+        "--program", default="eight_minutes", metavar="FILE", help="of the study's manoeuvres"
+    )
+    parser.add_argument(
+        "--sea", default="moderate", metavar="FILE", help="of the study (default: %(default)s)"
+    )
+    parser.add_argument("--page", type=Path, metavar="FILE", help="page with the study's figures, to renew")
 
 
 def _add_sheet(parser: argparse.ArgumentParser) -> None:
@@ -101,7 +118,24 @@ def _add_sheet(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Identify, print, write."""
+    """Identify, print, write.
+
+    Raises:
+        ConfigurationError: no recordings, or such as show nothing.
+    """
+    if arguments.study is not None:
+        out = arguments.out.with_suffix(".json")
+        return study(
+            arguments.study,
+            arguments.first,
+            arguments.program,
+            arguments.sea,
+            arguments.workers,
+            out,
+            arguments.page,
+        )
+    if not arguments.bag:
+        raise ConfigurationError("BAG", "no recording", "at least one, or --study N")
     vehicle = vehicle_file.load(arguments.vehicle)
     hull = known_hull(vehicle)
     recordings = read(arguments.bag, arguments.topic, arguments.namespace, vehicle, hull)
