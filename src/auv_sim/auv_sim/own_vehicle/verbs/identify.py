@@ -94,10 +94,13 @@ def _add_study(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     parser.add_argument("--first", type=whole, default=0, metavar="SEED", help="of the study's first vehicle")
     parser.add_argument(
-        "--program", default="eight_minutes", metavar="FILE", help="of the study's manoeuvres"
+        "--program", default="eight_minutes", metavar="FILE", help="of the study (default: %(default)s)"
     )
     parser.add_argument(
         "--sea", default="moderate", metavar="FILE", help="of the study (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--workers", type=at_least_one, default=2, metavar="N", help="processes of the study (2)"
     )
     parser.add_argument("--page", type=Path, metavar="FILE", help="page with the study's figures, to renew")
 
@@ -124,16 +127,8 @@ def run(arguments: argparse.Namespace) -> int:
         ConfigurationError: no recordings, or such as show nothing.
     """
     if arguments.study is not None:
-        out = arguments.out.with_suffix(".json")
-        return study(
-            arguments.study,
-            arguments.first,
-            arguments.program,
-            arguments.sea,
-            arguments.workers,
-            out,
-            arguments.page,
-        )
+        o = arguments
+        return study(o.study, o.first, o.program, o.sea, o.workers, o.out.with_suffix(".json"), o.page)
     if not arguments.bag:
         raise ConfigurationError("BAG", "no recording", "at least one, or --study N")
     vehicle = vehicle_file.load(arguments.vehicle)
