@@ -35,7 +35,7 @@ _COMPILED_FROM = (
     *((auv_path_following, f"{room}/**/*.py") for room in ("guidance", "control")),
     (auv_sim, "flight/**/*.py"),
     (auv_sim, "vehicle/**/*.py"),
-    (auv_sim, "own_vehicle/identify/*.py"),
+    (auv_sim, "own_vehicle/identify/**/*.py"),
 )
 
 #: Whether the engine is compiled; otherwise a flight takes about as long as one of `closed_loop`.

@@ -22,7 +22,7 @@ def fin_angles(
     """Fill in the mean angle of the fin in each step, and the change within it of the line of best fit.
 
     The servo moves at its rate to the last command whose dead time is over; at rest it ignores a command
-    within its dead band. The fin follows the servo with the play.
+    within its dead band. The fin follows the servo with the play. Both begin in neutral.
 
     Args:
         times: shape (n,), s, increasing.
@@ -32,7 +32,7 @@ def fin_angles(
         dead_band, half_play: rad.
         means, changes: written, shape (n - 1,), rad.
     """
-    angle = target = fin = commands[0]
+    angle = target = fin = 0.0
     following = 0
     for k in range(len(times) - 1):
         t, end = times[k], times[k + 1]

@@ -1,4 +1,4 @@
-"""Identify a planar hull from recordings: several starts, the best likelihood, intervals."""
+"""Identify a hull from recordings: several starts, the best likelihood, intervals."""
 
 from __future__ import annotations
 
@@ -10,8 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from auv_path_following.vehicle import Hull
-from auv_sim.own_vehicle.identify.combinations import COUNT, Numbers, prior_of
-from auv_sim.own_vehicle.identify.innovations import Channels, channels_of
+from auv_path_following.vertical_hull import VerticalHull
+from auv_sim.own_vehicle.identify.combinations import COUNT, Numbers, Prior, prior_of
+from auv_sim.own_vehicle.identify.dive.dive_combinations import dive_prior_of
+from auv_sim.own_vehicle.identify.dive.dive_data import DiveData
+from auv_sim.own_vehicle.identify.innovations import Channels, Recording, channels_of
 from auv_sim.own_vehicle.identify.intervals import Covariances, spread_of
 from auv_sim.own_vehicle.identify.minimise import Minimised, minimise
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
@@ -21,12 +24,14 @@ from auv_sim.own_vehicle.identify.unknowns import ALL, LATENCY, DataSheet, Scali
 _DAMPED = {"Nuv": 0.125, "Nur": 2.0, "Nrr": 0.2}
 #: Dead times of the starts, s.
 _DEAD_TIMES = (0.05, 0.2)
-_STARTS = 3
 #: Dead bands that are tried where none is given, deg.
 DEAD_BANDS = (0.0, 0.1, 0.2, 0.3, 0.5)
 #: Each start is minimised first over this time (s), by a filter with this growth of the variances of u, v, r
 #: in a second: it follows the measurements, and its likelihood has hardly any local minima.
 _BEGIN, _GROWTH = 150.0, (1e-2, 1e-3, 1e-4)
+#: Factors on the growth of the filter's variances: errors of the model. The next one is taken where it lowers
+#: the cost by more than this.
+_MODEL_ERRORS, _BETTER = (100.0, 1e4), 10.0
 #: A found latency that differs by more from the grid's gets a grid of its own, s.
 _NEAR = 0.005
 
@@ -62,7 +67,7 @@ def identify(
     dead_band: float | None = None,
     progress: Callable[[int, int, str], None] = _quiet,
 ) -> Identified:
-    """Identify a hull.
+    """Identify a hull in the plane.
 
     Args:
         recordings: manoeuvres of one vehicle.
@@ -71,17 +76,60 @@ def identify(
         dead_band: of the rudder, rad; None: the one of `DEAD_BANDS` that fits best.
         progress: called with minimisations done, their number, and what the next one is.
     """
-    sheet = DataSheet() if sheet is None else sheet
+    damped = dataclasses.replace(hull, **{name: f * getattr(hull, name) for name, f in _DAMPED.items()})
+    prior = prior_of(hull)
+    starts = [(prior, _DEAD_TIMES[0]), (prior, _DEAD_TIMES[1]), (prior_of(damped), _DEAD_TIMES[0])]
+    return best_of(recordings, starts, DataSheet() if sheet is None else sheet, dead_band, progress)
+
+
+def identify_dive(
+    recordings: Sequence[DiveData],
+    hull: Hull,
+    vertical: VerticalHull,
+    sheet: DataSheet | None = None,
+    dead_band: float | None = None,
+    progress: Callable[[int, int, str], None] = _quiet,
+) -> Identified:
+    """Identify heave and pitch.
+
+    Args:
+        recordings: manoeuvres of one vehicle.
+        hull, vertical: a known hull of about this size.
+        sheet: errors of instruments and servo; the rate is that of the stern planes.
+        dead_band, progress: as for `identify`.
+    """
+    prior = dive_prior_of(hull, vertical)
+    starts = [(prior, dead_time) for dead_time in _DEAD_TIMES]
+    return best_of(recordings, starts, DataSheet() if sheet is None else sheet, dead_band, progress)
+
+
+def best_of(
+    recordings: Sequence[Recording],
+    starts: Sequence[tuple[Prior, float]],
+    sheet: DataSheet,
+    dead_band: float | None,
+    progress: Callable[[int, int, str], None],
+) -> Identified:
+    """Return the estimate of the best likelihood from several starts, with intervals.
+
+    Args:
+        recordings: of one vehicle and one kind.
+        starts: prior, and dead time of the fin (s).
+        sheet: errors of instruments and servo.
+        dead_band, progress: as for `identify`.
+    """
     bands = [math.radians(band) for band in DEAD_BANDS] if dead_band is None else [dead_band]
-    total = _STARTS + len(bands) + 1
-    found = _from_starts(recordings, hull, sheet, bands[min(1, len(bands) - 1)], progress, total)
+    total = len(starts) + len(bands) + 2
+    found = _from_starts(recordings, starts, sheet, bands[min(1, len(bands) - 1)], progress, total)
     misfits = [estimate.misfit for _, estimate in found]
     scaling, estimate = found[int(np.argmin(misfits))]
     tried = []
     for k, band in enumerate(bands):
-        progress(_STARTS + k, total, "dead band of the rudder")
+        progress(len(starts) + k, total, "dead band")
         tried.append(_again(recordings, scaling, estimate, band))
     channels, estimate = min(tried, key=lambda one: one[1].cost)
+    progress(total - 2, total, "errors of the model")
+    channels, estimate = _with_model_errors(channels, scaling, estimate)
     scaling, estimate = _widened(channels, scaling, estimate)
     progress(total - 1, total, "intervals")
     spread = spread_of(channels, scaling, estimate)
@@ -93,29 +141,27 @@ def identify(
 
 
 def _from_starts(
-    recordings: Sequence[PlanarData],
-    hull: Hull,
+    recordings: Sequence[Recording],
+    starts: Sequence[tuple[Prior, float]],
     sheet: DataSheet,
     dead_band: float,
     progress: Callable[[int, int, str], None],
     total: int,
 ) -> list[tuple[Scaling, Minimised]]:
     """Return the estimate from each start."""
-    damped = dataclasses.replace(hull, **{name: f * getattr(hull, name) for name, f in _DAMPED.items()})
-    starts = [(hull, _DEAD_TIMES[0]), (hull, _DEAD_TIMES[1]), (damped, _DEAD_TIMES[0])]
     channels = channels_of(recordings, sheet, dead_band)
     begin = channels_of([_beginning(recordings[0])], sheet, dead_band)
     begin = begin._replace(noise=(*begin.noise[:3], *_GROWTH, *begin.noise[6:]))
     found = []
-    for k, (known, dead_time) in enumerate(starts):
+    for k, (prior, dead_time) in enumerate(starts):
         progress(k, total, f"start {k + 1} of {len(starts)}")
-        scaling = Scaling(prior_of(known), sheet._replace(dead_time=dead_time))
+        scaling = Scaling(prior, sheet._replace(dead_time=dead_time))
         z = minimise(begin, scaling, np.zeros(ALL), rounds=2, steps=10).z
         found.append((scaling, minimise(channels, scaling, z)))
     return found
 
 
-def _beginning(data: PlanarData) -> PlanarData:
+def _beginning(data: Recording) -> Recording:
     return data.between(data.t[0] - 1.0, data.t[0] + _BEGIN)
 
 
@@ -131,8 +177,22 @@ def _widened(channels: Channels, scaling: Scaling, estimate: Minimised) -> tuple
     return scaling, estimate
 
 
+def _with_model_errors(
+    channels: Channels, scaling: Scaling, estimate: Minimised
+) -> tuple[Channels, Minimised]:
+    """Return the estimate of the filter that predicts best, of filters that trust the model less and less."""
+    best, growth = (channels, estimate), np.array(channels.noise[3:6])
+    for factor in _MODEL_ERRORS:
+        own = channels._replace(noise=(*channels.noise[:3], *(factor * growth), *channels.noise[6:]))
+        found = minimise(own, scaling, best[1].z, first=best[1].deviations)
+        if found.cost > best[1].cost - _BETTER:
+            break
+        best = own, found
+    return best
+
+
 def _again(
-    recordings: Sequence[PlanarData], scaling: Scaling, estimate: Minimised, band: float
+    recordings: Sequence[Recording], scaling: Scaling, estimate: Minimised, band: float
 ) -> tuple[Channels, Minimised]:
     """Minimise from an estimate with another dead band, on the grid of the latency found."""
     latency = float(scaling.physical(estimate.z)[LATENCY])

@@ -10,7 +10,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from auv_sim.flight.batch.compiled import COMPILED, compiled, take_over_pure
-from auv_sim.own_vehicle.identify.combinations import COUNT, Numbers
+from auv_sim.own_vehicle.identify.combinations import COUNT, SCALE_POWERS, Numbers
+from auv_sim.own_vehicle.identify.dive.dive_combinations import DIVE_SCALE_POWERS
+from auv_sim.own_vehicle.identify.dive.dive_data import DiveData, dive_passage_of
+from auv_sim.own_vehicle.identify.dive.dive_filter import dive_innovations
 from auv_sim.own_vehicle.identify.exact_servo import fin_angles
 from auv_sim.own_vehicle.identify.planar_filter import planar_flight, planar_innovations
 from auv_sim.own_vehicle.identify.time_grid import SAME, Passage, PlanarData, passage_of
@@ -18,27 +21,59 @@ from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, HALF_PLAY, LATENCY,
 
 take_over_pure()
 _fin_angles = compiled(fin_angles)
-_innovations = compiled(planar_innovations)
 _flight = compiled(planar_flight)
 
-#: Growth of the variances of u, v and r in a second: nearly none.
-_GROWTH = (1e-7, 1e-8, 1e-9)
-#: Least standard deviations of measured u and v (m/s) and r (rad/s).
-_LEAST = (1e-3, 1e-3, 1e-4)
+#: Recordings of one kind.
+Recording = PlanarData | DiveData
+
+
+class Plane(NamedTuple):
+    """What differs between identifications in the plane and in the vertical.
+
+    Attributes:
+        compiled, plain: the filter.
+        passage_of: (recording, latency) -> passage.
+        measured: names of the signals in the order of the states, for their noise.
+        least: least standard deviations of those.
+        growth: of the states' variances in a second: nearly none.
+        scale_powers: of the combinations, in the scale of the log.
+        has_thrust: whether the first combination is that of the thrust.
+    """
+
+    compiled: Callable[..., None]
+    plain: Callable[..., None]
+    passage_of: Callable[[Any, float], Passage]
+    measured: tuple[str, str, str]
+    least: tuple[float, float, float]
+    growth: tuple[float, float, float]
+    scale_powers: Numbers
+    has_thrust: bool
+
+
+HORIZONTAL = Plane(
+    compiled(planar_innovations), planar_innovations, passage_of, ("u", "v", "r"), (1e-3, 1e-3, 1e-4),
+    (1e-7, 1e-8, 1e-9), SCALE_POWERS, True,
+)  # fmt: skip
+VERTICAL = Plane(
+    compiled(dive_innovations), dive_innovations, dive_passage_of, ("theta", "w", "q"), (1e-4, 1e-3, 1e-4),
+    (1e-9, 1e-7, 1e-8), DIVE_SCALE_POWERS, False,
+)  # fmt: skip
 
 
 class Channels(NamedTuple):
     """All recordings on their grids.
 
     Attributes:
+        plane: of the recordings.
         passages: one for each.
         noise: of the filter: see `planar_innovations`.
-        dead_band: of the rudder, rad.
+        dead_band: of the fin, rad.
         latency: with which the grids were made, s.
-        rows: 0 for rows of r, 1 of u, 2 of v, one recording after the other.
+        rows: 0 for rows of the rate, 1 and 2 for the others, one recording after the other.
         blocks: number of the block of 10 s of each row.
     """
 
+    plane: Plane
     passages: tuple[Passage, ...]
     noise: tuple[float, ...]
     dead_band: float
@@ -53,31 +88,32 @@ _BLOCK = 10.0
 
 
 def channels_of(
-    recordings: Sequence[PlanarData], sheet: DataSheet, dead_band: float, latency: float | None = None
+    recordings: Sequence[Recording], sheet: DataSheet, dead_band: float, latency: float | None = None
 ) -> Channels:
     """Return recordings ready for the filter.
 
     Args:
-        recordings: of one vehicle.
+        recordings: of one vehicle and one kind.
         sheet: errors of its instruments.
-        dead_band: of the rudder, rad.
+        dead_band: of the fin, rad.
         latency: of the log, s; the sheet's if None.
     """
     latency = sheet.latency if latency is None else latency
-    passages = tuple(passage_of(data, latency) for data in recordings)
+    plane = VERTICAL if isinstance(recordings[0], DiveData) else HORIZONTAL
+    passages = tuple(plane.passage_of(data, latency) for data in recordings)
     rows, blocks, first = [], [], 0
     for passage in passages:
-        of_r, of_u = passage.counts
-        rows.append(np.repeat([0, 1, 2], [of_r, of_u, of_u]))
+        rows.append(np.repeat([0, 1, 2], passage.counts))
         block = ((passage.rows - passage.rows.min()) // _BLOCK).astype(int) + first
         first = int(block.max()) + 1
         blocks.append(block)
-    measured = [max(least, _white(recordings, name)) ** 2 for least, name in zip(_LEAST, "uvr", strict=True)]
-    noise = (*measured, *_GROWTH, sheet.thrust_drift**2, 1.0 / sheet.drift_time)
-    return Channels(passages, noise, dead_band, latency, np.concatenate(rows), np.concatenate(blocks))
+    signals = zip(plane.measured, plane.least, strict=True)
+    measured = [max(least, _white(recordings, name)) ** 2 for name, least in signals]
+    noise = (*measured, *plane.growth, sheet.thrust_drift**2, 1.0 / sheet.drift_time)
+    return Channels(plane, passages, noise, dead_band, latency, np.concatenate(rows), np.concatenate(blocks))
 
 
-def _white(recordings: Sequence[PlanarData], name: str) -> float:
+def _white(recordings: Sequence[Recording], name: str) -> float:
     """Return the standard deviation of a signal's white noise, from its second differences."""
     second = np.concatenate([np.diff(getattr(data, name), 2) for data in recordings])
     return 1.4826 * float(np.median(np.abs(second))) / math.sqrt(6.0) if second.size else 0.0
@@ -99,7 +135,8 @@ def filtered(passage: Passage, channels: Channels, physical: Numbers) -> Numbers
     states = np.full((passage.times.size - 1, 4), np.nan)
     means, changes = rudder_of(passage, channels.dead_band, physical)
     out = np.zeros(passage.rows.size)
-    _innovations(arguments_of(channels, physical), channels.noise, passage.grid, means, changes, out, states)
+    c = arguments_of(channels, physical)
+    channels.plane.compiled(c, channels.noise, passage.grid, means, changes, out, states)
     return states
 
 
@@ -119,7 +156,7 @@ def _of_passage(passage: Passage, channels: Channels, physical: Numbers) -> Numb
     means, changes = rudder_of(passage, channels.dead_band, physical)
     arguments = arguments_of(channels, physical)
     with np.errstate(all="ignore"):
-        _innovations(arguments, channels.noise, passage.grid, means, changes, out, _NO_STATES)
+        channels.plane.compiled(arguments, channels.noise, passage.grid, means, changes, out, _NO_STATES)
     return out
 
 
@@ -173,7 +210,6 @@ def _uncompiled(channels: Channels, sets: Sequence[Numbers]) -> Numbers:
         means, changes = np.array(rudders).transpose(1, 2, 0)
         out = np.zeros((passage.rows.size, len(sets)))
         with np.errstate(all="ignore"):
-            run: Callable[..., None] = planar_innovations
-            run(arguments, channels.noise, passage.grid, means, changes, out, _NO_STATES)
+            channels.plane.plain(arguments, channels.noise, passage.grid, means, changes, out, _NO_STATES)
         parts.append(out)
     return np.clip(np.nan_to_num(np.concatenate(parts), nan=1e6), -1e6, 1e6)

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from auv_sim.own_vehicle.identify.combinations import COUNT, SCALE_POWERS, Numbers
-from auv_sim.own_vehicle.identify.innovations import Channels
+from auv_sim.own_vehicle.identify.combinations import COUNT, Numbers
+from auv_sim.own_vehicle.identify.innovations import Channels, Plane
 from auv_sim.own_vehicle.identify.minimise import Minimised, free_unknowns, jacobian, weights_of
 from auv_sim.own_vehicle.identify.unknowns import ALL, DataSheet, Scaling
 
@@ -64,15 +64,16 @@ def spread_of(channels: Channels, scaling: Scaling, estimate: Minimised) -> Cova
     return Covariances(
         slopes @ bread @ slopes.T,
         slopes @ bread @ meat @ bread @ slopes.T,
-        systematic_of(physical, scaling.sheet),
+        systematic_of(physical, scaling.sheet, channels.plane),
     )
 
 
-def systematic_of(physical: Numbers, sheet: DataSheet) -> Numbers:
+def systematic_of(physical: Numbers, sheet: DataSheet, plane: Plane) -> Numbers:
     """Return one standard deviation of each error that no data show, by the unknowns, shape (2, 21)."""
     found = np.zeros((2, ALL))
-    found[0, :COUNT] = physical[:COUNT] * SCALE_POWERS * sheet.log_scale
-    found[1, 0] = physical[0] * sheet.thrust_bias
+    found[0, :COUNT] = physical[:COUNT] * plane.scale_powers * sheet.log_scale
+    if plane.has_thrust:
+        found[1, 0] = physical[0] * sheet.thrust_bias
     return found
 
 

@@ -87,8 +87,8 @@ class Passage(NamedTuple):
         grid: its nodes.
         times: of the nodes and of the end of the last step, s.
         issued, commands: rudder commands.
-        rows: time of each row of the innovations, s: of r, then of u, then of v.
-        counts: rows of r, and of u (as many as of v).
+        rows: time of each row of the innovations, s: channel after channel.
+        counts: rows of each channel.
     """
 
     grid: Grid
@@ -96,7 +96,7 @@ class Passage(NamedTuple):
     issued: Numbers
     commands: Numbers
     rows: Numbers
-    counts: tuple[int, int]
+    counts: tuple[int, int, int]
 
 
 def passage_of(data: PlanarData, latency: float) -> Passage:
@@ -128,7 +128,7 @@ def passage_of(data: PlanarData, latency: float) -> Passage:
     grid = Grid(step, begins, thrust, rate_row, rate, u_row, v_row, u, v)
     every = np.concatenate((t, at, at))
     ends = np.append(times, times[-1] + SAME)
-    return Passage(grid, ends, data.rudder_t, data.rudder, every, (t.size, at.size))
+    return Passage(grid, ends, data.rudder_t, data.rudder, every, (t.size, at.size, at.size))
 
 
 def _snapped(at: Numbers, t: Numbers) -> Numbers:

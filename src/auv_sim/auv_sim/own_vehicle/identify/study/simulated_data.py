@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from auv_sim.own_vehicle.identify.dive.dive_data import DiveData
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
 from auv_sim.own_vehicle.manoeuvres.manoeuvre_flight import Manoeuvred
 from auv_sim.vehicle.draws import Draws
@@ -18,6 +19,24 @@ def planar_data(flown: Manoeuvred, name: str = "simulated") -> PlanarData:
         name, t, flown.r, flown.water_t, flown.water_u, flown.water_v, t, flown.rudder, t, flown.thrust,
         flown.psi, flown.u, flown.v, np.asarray(flown.leg),
     )  # fmt: skip
+
+
+def dive_data(flown: Manoeuvred, name: str = "simulated") -> DiveData:
+    """Return the vertical motion of `simulate` as a recording."""
+    t = flown.t
+    return DiveData(
+        name,
+        t,
+        flown.q,
+        flown.theta,
+        flown.phi,
+        flown.r,
+        flown.water_t,
+        flown.water_u,
+        flown.water_w,
+        t,
+        flown.sternplanes,
+    )
 
 
 def thrust_share(sea: Sea, seed: int, step: float = 0.05) -> float:

@@ -1,0 +1,1 @@
+"""Heave and pitch by the same method: stern planes, righting moment, buoyancy."""
