@@ -86,7 +86,7 @@ def vertical_with(combinations: DiveCombinations, m: float, assumed: VerticalHul
     """
     c, v = combinations, assumed
     # xg has a share in the mass matrix: a few steps settle it.
-    xg, found = v.xg, {}
+    xg = v.xg
     for _ in range(5):
         heave, pitch = m - v.Zwd, v.Iyy - v.Mqd
         upper, lower = -m * xg - v.Zqd, -m * xg - v.Mwd
@@ -95,7 +95,8 @@ def vertical_with(combinations: DiveCombinations, m: float, assumed: VerticalHul
         xg = -M[5] / v.W
     found = {
         "Zww": Z[0], "Zqq": Z[1], "Zuq": Z[2] - m, "Zuw": Z[3], "Zuud": Z[4], "B": v.W - Z[5],
-        "Mww": M[0], "Mqq": M[1], "Muq": M[2] + m * xg, "Muw": M[3], "Muud": M[4], "xg": xg, "zg": -M[6] / v.W,
+        "Mww": M[0], "Mqq": M[1], "Muq": M[2] + m * xg, "Muw": M[3], "Muud": M[4],
+        "xg": xg, "zg": -M[6] / v.W,
     }  # fmt: skip
     for name in ("Zww", "Zuud", "Mqq", "Muud"):
         found[name] = min(found[name], 1e-3 * getattr(v, name))

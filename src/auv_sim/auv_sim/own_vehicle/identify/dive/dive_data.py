@@ -6,11 +6,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from auv_path_following.vehicle import GRAVITY, Hull
+from auv_path_following.vertical_hull import VerticalHull
 from auv_sim.own_vehicle.identify.combinations import Numbers
 from auv_sim.own_vehicle.identify.time_grid import Passage, PlanarData, passage_of
 
-#: Time over which measured surge is averaged, s: it changes slowly.
-_SMOOTH = 1.0
+#: Times over which measured surge and sway, the gain of surge, and roll are averaged, s: they change slowly.
+_SMOOTH, _GAIN, _ROLL = 1.0, 2.5, 0.3
 
 
 class DiveData(NamedTuple):
@@ -19,8 +21,9 @@ class DiveData(NamedTuple):
     Attributes:
         name: for people.
         t, q, theta, phi, r: times (s), pitch rate, pitch, roll and yaw rate, as measured.
-        water_t, u, w: arrival of each new sample of the velocity through the water, and its components.
+        water_t, u, v, w: arrival of each new sample of the velocity through the water, and its components.
         planes_t, planes: times and values of the commands of the stern planes.
+        coupling: of roll with heave and pitch, as assumed: see `coupling_of`.
     """
 
     name: str
@@ -31,22 +34,33 @@ class DiveData(NamedTuple):
     r: Numbers
     water_t: Numbers
     u: Numbers
+    v: Numbers
     w: Numbers
     planes_t: Numbers
     planes: Numbers
+    coupling: Numbers
 
     def between(self, begin: float, end: float) -> DiveData:
         """Return the measurements of an interval (s), with the commands before its end."""
         rows, water = (self.t >= begin) & (self.t < end), (self.water_t >= begin) & (self.water_t < end)
         planes = self.planes_t < end
-        return DiveData(
-            self.name, self.t[rows], self.q[rows], self.theta[rows], self.phi[rows], self.r[rows], self.water_t[water], self.u[water],
-            self.w[water], self.planes_t[planes], self.planes[planes],
-        )  # fmt: skip
+        motion = (one[rows] for one in (self.t, self.q, self.theta, self.phi, self.r))
+        log = (one[water] for one in (self.water_t, self.u, self.v, self.w))
+        return DiveData(self.name, *motion, *log, self.planes_t[planes], self.planes[planes], self.coupling)
+
+
+def coupling_of(hull: Hull, vertical: VerticalHull) -> Numbers:
+    """Return heave and pitch accelerations by roll rate times sway and yaw rate, Eqs. (3D-3), (3D-4), (2, 2)."""
+    h, c = hull, vertical
+    masses = [[h.m - c.Zwd, -h.m * c.xg - c.Zqd], [-h.m * c.xg - c.Mwd, c.Iyy - c.Mqd]]
+    loads = [[c.Zvp - h.m, c.Zrp - h.m * c.xg], [c.Mvp + h.m * c.xg, c.Mrp - (c.Ixx - h.Izz)]]
+    return np.linalg.solve(np.array(masses), np.array(loads))
 
 
 def dive_passage_of(data: DiveData, latency: float) -> Passage:
-    """Return the nodes of a recording: as in the plane, with the pitch beside its rate; surge, roll and yaw rate are given.
+    """Return the nodes of a recording, as in the plane, with the pitch beside its rate.
+
+    Surge, sway, roll and yaw rate are given, as measured and smoothed.
 
     Args:
         data: its measurements and commands.
@@ -60,20 +74,30 @@ def dive_passage_of(data: DiveData, latency: float) -> Passage:
     passage = passage_of(plane, latency)
     grid, (of_rate, of_water, _) = passage.grid, passage.counts
     nodes = passage.times[:-1]
-    surge = np.interp(nodes, data.water_t - latency, _smoothed(data.water_t, data.u))
     w_row = np.where(grid.v_row >= 0, grid.v_row - of_water + of_rate, -1)
     pitch_row = np.where(grid.rate_row >= 0, grid.rate_row + of_rate, -1)
     pitch = np.interp(nodes, data.t, data.theta)
-    phi, r = np.interp(nodes, data.t, data.phi), np.interp(nodes, data.t, data.r)
-    given = np.array([surge, np.cos(phi), r * np.sin(phi)]).T
-    own = grid._replace(thrust=given, u_row=pitch_row, v_row=w_row, u=pitch, v=grid.v)
+    own = grid._replace(thrust=_given(data, latency, nodes), u_row=pitch_row, v_row=w_row, u=pitch)
     t, at = passage.rows[:of_rate], passage.rows[of_rate : of_rate + of_water]
     return passage._replace(grid=own, rows=np.concatenate((t, t, at)), counts=(of_rate, of_rate, of_water))
 
 
-def _smoothed(t: Numbers, u: Numbers) -> Numbers:
-    """Return u averaged over `_SMOOTH`."""
+def _given(data: DiveData, latency: float, nodes: Numbers) -> Numbers:
+    """Return what `dive_advance` is given at each node, (n, 6)."""
+    at = data.water_t - latency
+    surge = _smoothed(data.water_t, data.u)
+    roll = _smoothed(data.t, data.phi, _ROLL)
+    u, v = np.interp(nodes, at, surge), np.interp(nodes, at, _smoothed(data.water_t, data.v))
+    gain = np.interp(nodes, at, np.gradient(_smoothed(data.water_t, data.u, _GAIN), at))
+    phi, r = np.interp(nodes, data.t, roll), np.interp(nodes, data.t, data.r)
+    p = np.interp(nodes, data.t, np.gradient(roll, data.t))
+    heave, pitch = data.coupling @ np.array([v * p, r * p])
+    return np.array([u, np.cos(phi), r * np.sin(phi), (gain - v * r) / GRAVITY, heave, pitch]).T
+
+
+def _smoothed(t: Numbers, u: Numbers, over: float = _SMOOTH) -> Numbers:
+    """Return u averaged over a time, s."""
     period = max(float(np.median(np.diff(t))), 1e-3)
-    half = max(round(0.5 * _SMOOTH / period), 0)
+    half = max(round(0.5 * over / period), 0)
     padded = np.concatenate((np.repeat(u[:1], half), u, np.repeat(u[-1:], half)))
     return np.convolve(padded, np.full(2 * half + 1, 1.0 / (2 * half + 1)), mode="valid")

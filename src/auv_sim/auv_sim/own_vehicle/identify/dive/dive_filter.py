@@ -48,30 +48,40 @@ def dive_jacobian(c: Any, u: Any, w: Any, q: Any, cos: Any, sin: Any, level: Any
 
 
 @pure
+def dive_rates(c: Any, given: Any, theta: Any, w: Any, q: Any, delta: Any) -> tuple[Any, Any, Any]:
+    """Return the rates of theta, w and q.
+
+    The centre of gravity below that of buoyancy makes the hull a pendulum: it feels the acceleration ahead as
+    it feels the pitch.
+
+    Args:
+        c: the numbers of a `DiveCombinations`.
+        given: surge (m/s), cosine of the roll, yaw rate times sine of the roll (rad/s), acceleration ahead
+            over that of gravity, and heave and pitch accelerations by the roll rate (m/s^2, rad/s^2).
+        theta, w, q: rad, m/s, rad/s.
+        delta: angle of the planes, rad.
+    """
+    sin = np.sin(theta) + given[3]
+    dw, dq = dive_accelerations(c, given[0], w, q, given[1] * np.cos(theta), sin, delta)
+    return given[1] * q - given[2], dw + given[4], dq + given[5]
+
+
+@pure
 def dive_advance(c: Any, given: Any, x: Any, delta: Any, change: Any, h: Any) -> tuple[Any, Any, Any]:
     """Return (theta, w, q) after `h` seconds: one Runge-Kutta step.
 
     Args:
-        c: the numbers of a `DiveCombinations`.
-        given: surge (m/s), cosine of the roll, and yaw rate times sine of the roll (rad/s).
+        c, given: as for `dive_rates`.
         x: theta, w, q before, rad, m/s, rad/s.
         delta, change: mean angle of the planes in the step, and its change, rad.
         h: s.
     """
-    u, level, turn = given[0], given[1], given[2]
     theta, w, q = x
-    half = 0.5 * h
-    w1, q1 = dive_accelerations(c, u, w, q, level * np.cos(theta), np.sin(theta), delta - 0.5 * change)
-    t1, qa = level * q - turn, q + half * q1
-    at = theta + half * t1
-    w2, q2 = dive_accelerations(c, u, w + half * w1, qa, level * np.cos(at), np.sin(at), delta)
-    t2, qb = level * qa - turn, q + half * q2
-    at = theta + half * t2
-    w3, q3 = dive_accelerations(c, u, w + half * w2, qb, level * np.cos(at), np.sin(at), delta)
-    t3, qc = level * qb - turn, q + h * q3
-    at = theta + h * t3
-    w4, q4 = dive_accelerations(c, u, w + h * w3, qc, level * np.cos(at), np.sin(at), delta + 0.5 * change)
-    t4, sixth = level * qc - turn, h / 6.0
+    half, sixth = 0.5 * h, h / 6.0
+    t1, w1, q1 = dive_rates(c, given, theta, w, q, delta - 0.5 * change)
+    t2, w2, q2 = dive_rates(c, given, theta + half * t1, w + half * w1, q + half * q1, delta)
+    t3, w3, q3 = dive_rates(c, given, theta + half * t2, w + half * w2, q + half * q2, delta)
+    t4, w4, q4 = dive_rates(c, given, theta + h * t3, w + h * w3, q + h * q3, delta + 0.5 * change)
     return (
         theta + sixth * (t1 + 2.0 * (t2 + t3) + t4),
         w + sixth * (w1 + 2.0 * (w2 + w3) + w4),
@@ -99,7 +109,7 @@ def dive_innovations(c: Any, noise: Any, grid: Any, means: Any, changes: Any, ou
         c: a `DiveCombinations`, then the biases of gyro (rad/s), theta (rad) and w (m/s), then the time from
             a sample's node to the moment at which it was measured, s.
         noise: variances of theta, w, q as measured, and their growth in a second; further ones are not used.
-        grid: `time_grid.Grid` as its arrays, with what `dive_advance` is given in
+        grid: `time_grid.Grid` as its arrays, with what `dive_rates` is given in
             place of the thrust, the pitch rate in place of r,
             and the pitch in place of u, at the nodes of the pitch rate.
         means, changes: mean angle of the planes in each step and its change in it, rad.
@@ -115,7 +125,7 @@ def dive_innovations(c: Any, noise: Any, grid: Any, means: Any, changes: Any, ou
     for k in range(len(step)):
         if begins[k]:
             p, x = begin, (zero + pitch[k] - bias, zero + w_log[k] - w_bias, zero + rate[k] - gyro)
-        u, level, delta, h = given[k, 0], given[k, 1], means[k], step[k]
+        u, level, delta, h = given[k][0], given[k][1], means[k], step[k]
         if rate_row[k] >= 0:
             innovation = rate[k] - gyro - x[2]
             out[rate_row[k]] = innovation
@@ -125,7 +135,7 @@ def dive_innovations(c: Any, noise: Any, grid: Any, means: Any, changes: Any, ou
             p, x = corrected_dive(p, x, (p[0], p[1], p[2]), p[0] + noise_t, innovation)
         cos, sin = level * np.cos(x[0]), np.sin(x[0])
         if w_row[k] >= 0:
-            dw, _ = dive_accelerations(c, u, x[1], x[2], cos, sin, delta)
+            _, dw, _ = dive_rates(c, given[k], x[0], x[1], x[2], delta)
             innovation = w_log[k] - w_bias - lead * dw - x[1]
             out[w_row[k]] = innovation
             p, x = corrected_dive(p, x, (p[1], p[3], p[4]), p[3] + noise_w, innovation)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from auv_sim.own_vehicle.identify.combinations import Numbers
 from auv_sim.own_vehicle.identify.dive.dive_data import DiveData
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
 from auv_sim.own_vehicle.manoeuvres.manoeuvre_flight import Manoeuvred
@@ -21,22 +22,10 @@ def planar_data(flown: Manoeuvred, name: str = "simulated") -> PlanarData:
     )  # fmt: skip
 
 
-def dive_data(flown: Manoeuvred, name: str = "simulated") -> DiveData:
+def dive_data(flown: Manoeuvred, coupling: Numbers, name: str = "simulated") -> DiveData:
     """Return the vertical motion of `simulate` as a recording."""
-    t = flown.t
-    return DiveData(
-        name,
-        t,
-        flown.q,
-        flown.theta,
-        flown.phi,
-        flown.r,
-        flown.water_t,
-        flown.water_u,
-        flown.water_w,
-        t,
-        flown.sternplanes,
-    )
+    t, water = flown.t, (flown.water_t, flown.water_u, flown.water_v, flown.water_w)
+    return DiveData(name, t, flown.q, flown.theta, flown.phi, flown.r, *water, t, flown.sternplanes, coupling)
 
 
 def thrust_share(sea: Sea, seed: int, step: float = 0.05) -> float:
