@@ -50,7 +50,7 @@ class DiveData(NamedTuple):
 
 
 def coupling_of(hull: Hull, vertical: VerticalHull) -> Numbers:
-    """Return heave and pitch accelerations by roll rate times sway and yaw rate, Eqs. (3D-3), (3D-4), (2, 2)."""
+    """Return heave and pitch accelerations by roll rate times sway and times yaw rate, Eq. (3D-4): (2, 2)."""
     h, c = hull, vertical
     masses = [[h.m - c.Zwd, -h.m * c.xg - c.Zqd], [-h.m * c.xg - c.Mwd, c.Iyy - c.Mqd]]
     loads = [[c.Zvp - h.m, c.Zrp - h.m * c.xg], [c.Mvp + h.m * c.xg, c.Mrp - (c.Ixx - h.Izz)]]

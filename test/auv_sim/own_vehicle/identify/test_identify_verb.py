@@ -1,0 +1,115 @@
+"""`vehicle.py identify` from a recording of another maker to a vehicle file that flies; and its refusals."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from auv_path_following import vehicle as vehicle_file
+from auv_sim.bags.content.recorded_manoeuvres import manoeuvres_in
+from auv_sim.cli.vehicles import vehicle_command
+from auv_sim.own_vehicle.identify.combinations import combinations_of
+from auv_sim.own_vehicle.identify.hull_abilities import pole_of, radius_of
+from auv_sim.own_vehicle.identify.study.simulated_data import planar_data
+from auv_sim.own_vehicle.identify.water_current import mean_current
+from auv_sim.own_vehicle.manoeuvres import program_file
+from auv_sim.own_vehicle.manoeuvres.manoeuvre_flight import Manoeuvred, simulate
+from auv_sim.vehicle import sea as sea_file
+from manoeuvre_bag import NAMES, write_manoeuvres
+
+REMUS = vehicle_file.load("remus100")
+OTHER_NAMES = NAMES | {"rudder_cmd": "/auv/fins/rudder", "odom": "/auv/nav"}
+
+
+@pytest.fixture(scope="module")
+def flown() -> Manoeuvred:
+    """Two minutes of another vehicle than the known one, in a moderate sea."""
+    h = REMUS.coefficients
+    other = dataclasses.replace(
+        REMUS,
+        hull=dataclasses.replace(h, Nuud=-4.5, Nuv=-18.0, Yuv=-40.0),
+        rudder=dataclasses.replace(REMUS.rudder, max_rate_deg_s=20.0, dead_time=0.07),
+    )
+    return simulate(other, sea_file.load("moderate"), program_file.load("two_minutes"), 3)
+
+
+def test_a_recording_of_another_maker_becomes_a_vehicle_file_that_flies(
+    flown: Manoeuvred, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bag = write_manoeuvres(tmp_path / "bag", flown, OTHER_NAMES, ned=True, repeated=False)
+    out = tmp_path / "mine.yaml"
+    words = ["identify", str(bag), "--out", str(out), "--log-latency", "0.1", "--dead-band", "0.2"]
+    assert vehicle_command.main([*words, "--topic", "rudder_cmd=/auv/fins/rudder"]) == 0
+    printed = capsys.readouterr().out
+    assert "vehicle.py tune" in printed and "of 14 have" in printed
+    assert out.with_suffix(".png").stat().st_size > 20_000
+    found = vehicle_file.load(str(out))
+    c, true = combinations_of(found.coefficients), combinations_of(REMUS.coefficients)
+    assert c.Nuud / true.Nuud == pytest.approx(4.5 / 6.15, rel=0.06)
+    assert found.rudder.dead_time == pytest.approx(0.12, abs=0.01)  # 0.07 s and the sea's 0.05 s
+    assert found.rudder.max_rate_deg_s == pytest.approx(20.0, rel=0.01)
+    assert pole_of(c, 2.0) > 0.5
+    assert radius_of(c, REMUS, 1.0) == pytest.approx(radius_of(true, REMUS, 1.0), rel=0.2)
+    assert "# assumed" in out.read_text() and "+-" in out.read_text()
+
+
+def test_both_frames_and_repeated_samples_are_read_alike(flown: Manoeuvred, tmp_path: Path) -> None:
+    ned = manoeuvres_in(write_manoeuvres(tmp_path / "ned", flown, ned=True))
+    enu = manoeuvres_in(write_manoeuvres(tmp_path / "enu", flown, repeated=False))
+    assert ned.water == pytest.approx(enu.water)
+    assert ned.water_t == pytest.approx(enu.water_t)
+    assert ned.water[:, 1] == pytest.approx(flown.water_v)
+    assert ned.run.r == pytest.approx(flown.r) and enu.run.r == pytest.approx(flown.r)
+    assert enu.rudder.value == pytest.approx(flown.rudder)
+    assert np.nanmax(np.abs(enu.over[:, 1] - flown.v)) < 1e-9
+
+
+def test_the_current_is_found_with_its_sign(flown: Manoeuvred) -> None:
+    found = mean_current(planar_data(flown))
+    north, east, _ = flown.current.mean(axis=0)
+    assert found is not None
+    assert (found.north, found.east) == pytest.approx((north, east), abs=0.02)
+    assert north > 0.03 and east > 0.03
+
+
+@pytest.mark.parametrize(
+    ("missing", "found"),
+    [("rudder_cmd", "no rudder_cmd"), ("velocity_through_water", "no velocity_")],
+)
+def test_a_missing_topic_costs_one_line(
+    flown: Manoeuvred, tmp_path: Path, missing: str, found: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    names = {name: full for name, full in NAMES.items() if name != missing}
+    bag = write_manoeuvres(tmp_path / "bag", _first(flown, 200), names)
+    assert vehicle_command.main(["identify", str(bag), "--out", str(tmp_path / "x.yaml")]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert found in line and "--topic" in line
+
+
+def test_a_straight_run_is_refused_and_names_what_is_missing(
+    flown: Manoeuvred, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    still = flown._replace(rudder=0.0 * flown.rudder, r=0.001 * flown.r)
+    bag = write_manoeuvres(tmp_path / "bag", still)
+    assert vehicle_command.main(["identify", str(bag), "--out", str(tmp_path / "x.yaml")]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "zig-zags" in line
+
+
+def test_no_recording_costs_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+    assert vehicle_command.main(["identify"]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "no recording" in line
+
+
+def _first(flown: Manoeuvred, rows: int) -> Manoeuvred:
+    n = flown.t.size
+    kept = {
+        name: column[:rows]
+        for name, column in flown._asdict().items()
+        if isinstance(column, np.ndarray) and column.shape[0] == n
+    }
+    return flown._replace(**kept)
