@@ -23,6 +23,7 @@ LONGER = {
     "progress.move": (42, _STEP),
     "exact_servo.fin_angles": (48, _STEP),
     "planar_filter.planar_innovations": (45, _STEP),
+    "dive_filter.dive_innovations": (45, _STEP),
     "run_columns.assemble": (61, "one column after the other; a third is its docstring"),
     "judge.judged": (51, "a table: one figure a line"),
     "flight_figures.figures_of": (43, "a table: one figure a line"),

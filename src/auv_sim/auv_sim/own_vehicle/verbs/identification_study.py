@@ -13,7 +13,7 @@ from rich.table import Table
 
 from auv_msgs_py.settings.result_files import write_text
 from auv_sim.own_vehicle.identify.results.identification_tables import IDENTIFIED
-from auv_sim.own_vehicle.identify.study.cases import Case, Outcome, outcome_of
+from auv_sim.own_vehicle.identify.study.identified_cases import Case, Judged, outcome_of
 from auv_sim.studies.pool import each
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import headed_table, progress_bar, wrote
@@ -28,7 +28,7 @@ _LEAST = 8
 class Timed(NamedTuple):
     """An outcome and its wall time, flights included, s."""
 
-    outcome: Outcome
+    outcome: Judged
     seconds: float
 
 
@@ -89,7 +89,7 @@ def _plain(timed: Timed) -> dict[str, object]:
     return timed.outcome._asdict() | {"case": timed.outcome.case._asdict(), "seconds": timed.seconds}
 
 
-def figures(outcomes: Sequence[Outcome], program: str) -> list[Row]:
+def figures(outcomes: Sequence[Judged], program: str) -> list[Row]:
     """Return the figures and their targets; of two minutes only the rudder's effect has one."""
     b = _row(outcomes, "effect of the rudder b", "%", 100.0, 4.0 if "two" in program else 3.0, lambda o: o.b)
     if "two" in program:
@@ -116,12 +116,12 @@ def figures(outcomes: Sequence[Outcome], program: str) -> list[Row]:
 
 
 def _row(
-    outcomes: Sequence[Outcome],
+    outcomes: Sequence[Judged],
     name: str,
     unit: str,
     factor: float,
     target: float,
-    value: Callable[[Outcome], float],
+    value: Callable[[Judged], float],
 ) -> Row:
     sizes = factor * np.abs([value(outcome) for outcome in outcomes])
     met = bool(sizes.max() <= target)
@@ -129,7 +129,7 @@ def _row(
     return Row(name, f"{np.median(sizes):.2g}{unit}", f"{sizes.max():.2g}{unit}", f"{target:g}{unit}", met)
 
 
-def _coverage(outcomes: Sequence[Outcome]) -> list[Row]:
+def _coverage(outcomes: Sequence[Judged]) -> list[Row]:
     """Return the share of intervals that hold the truth, of the combinations identified, and how many are."""
     identified = np.array([outcome.shares for outcome in outcomes]) < IDENTIFIED
     holds = np.abs([outcome.scores for outcome in outcomes]) < _REACH

@@ -44,9 +44,13 @@ class DiveData(NamedTuple):
         """Return the measurements of an interval (s), with the commands before its end."""
         rows, water = (self.t >= begin) & (self.t < end), (self.water_t >= begin) & (self.water_t < end)
         planes = self.planes_t < end
-        motion = (one[rows] for one in (self.t, self.q, self.theta, self.phi, self.r))
-        log = (one[water] for one in (self.water_t, self.u, self.v, self.w))
-        return DiveData(self.name, *motion, *log, self.planes_t[planes], self.planes[planes], self.coupling)
+        return DiveData(
+            self.name,
+            *(self.t[rows], self.q[rows], self.theta[rows], self.phi[rows], self.r[rows]),
+            *(self.water_t[water], self.u[water], self.v[water], self.w[water]),
+            *(self.planes_t[planes], self.planes[planes]),
+            self.coupling,
+        )
 
 
 def coupling_of(hull: Hull, vertical: VerticalHull) -> Numbers:

@@ -39,7 +39,7 @@ class Case(NamedTuple):
     sea: str
 
 
-class Outcome(NamedTuple):
+class Judged(NamedTuple):
     """Errors of one identification. Speed and what grows with it are compared as the vehicle flew.
 
     Attributes:
@@ -73,7 +73,7 @@ class Outcome(NamedTuple):
     true_ten: float
 
 
-def outcome_of(case: Case) -> Outcome:
+def outcome_of(case: Case) -> Judged:
     """Fly, identify and compare."""
     vehicle, sea = random_vehicle(case.seed, case.stable), sea_file.load(case.sea)
     flown = simulate(vehicle, sea, program_file.load(case.program), case.seed)
@@ -85,7 +85,7 @@ def outcome_of(case: Case) -> Outcome:
 
 def _compared(
     case: Case, vehicle: Vehicle, sea: Sea, flown: Manoeuvred, found: Identified, left: Manoeuvred
-) -> Outcome:
+) -> Judged:
     true = combinations_of(vehicle.coefficients)
     speed = speed_of(true, vehicle.thrust_max * thrust_share(sea, case.seed))
     radius = radius_of(true, vehicle, 1.0)
@@ -99,7 +99,7 @@ def _compared(
     p, sd = found.physical[:COUNT], found.spread.deviations[:COUNT]
     two, ten = _predicted(left, found, found.physical)
     true_two, true_ten = _predicted(left, found, true_unknowns(vehicle, sea))
-    return Outcome(
+    return Judged(
         case,
         pole_of(true, speed),
         named["effect of the rudder b"] / (abs(true.Nuud) * speed**2) - 1.0,
