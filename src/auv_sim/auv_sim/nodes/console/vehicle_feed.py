@@ -21,6 +21,8 @@ from auv_sim.views.console.record.vehicle_record import VehicleRecord
 
 #: After a silence of this long another publisher may be there, s.
 _SILENCE = 2.0
+#: Odometries that are left out while the graph does not show their publisher.
+_MOST_LOOKS = 40
 
 
 class PolledReader:
@@ -76,7 +78,7 @@ class VehicleFeed:
             for topic, read in readers.items()
         ]
         self._publisher = ""
-        self._heard_at = 0.0
+        self._heard_at, self._sought = 0.0, 0
 
     def poll(self) -> None:
         """Take what has arrived."""
@@ -85,23 +87,27 @@ class VehicleFeed:
                 message = polled.take()
                 if message is None:
                     continue
-                if topic is topics.ODOM:
-                    self._identify()
-                read(message)
+                if topic is not topics.ODOM or self._is_identified():
+                    read(message)
         self._reader.look()
 
-    def _identify(self) -> None:
-        """At the first odometry, and after a silence, look up its publisher: the track belongs to it."""
+    def _is_identified(self) -> bool:
+        """Return whether an odometry counts: its publisher is known, or was sought for long enough.
+
+        It is looked up at the first odometry and after a silence, because the track belongs to it.
+        """
         now = self._clock()
         is_known, self._heard_at = self._publisher and now - self._heard_at < _SILENCE, now
         if is_known:
-            return
+            return True
         name = topics.full_name(self.record.namespace, topics.ODOM.name)
         found = self._node.get_publishers_info_by_topic(name)
-        if not found:
-            return
+        if not found:  # the graph's news are behind the message
+            self._sought += 1
+            return bool(self._publisher) or self._sought > _MOST_LOOKS
         identity = "|".join(sorted(bytes(info.endpoint_gid).hex() for info in found))
         publisher = hashlib.sha256(identity.encode()).hexdigest()
         if publisher != self._publisher:
             self._publisher = publisher
             self.record.belongs_to(f"{self._domain} {self.record.namespace} {publisher}")
+        return True
