@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
+import os
 import signal
 import subprocess
 import sys
@@ -17,7 +18,9 @@ import numpy as np
 import pytest
 
 from auv_msgs_py.contract import topics
+from auv_msgs_py.node.start_gate import GATE
 from auv_sim.checks.benchmark import against, console_cost, contender, figures_page, sheets
+from auv_sim.checks.benchmark.fleet_cost import vehicle_cost
 from auv_sim.checks.benchmark.measures import dimensions, graph_speed, law_speed, operation, start_up
 from auv_sim.checks.benchmark.measures.children import BenchmarkFailed
 from auv_sim.checks.benchmark.measures.rig import LockstepTiming, Setup, free_running, lockstep
@@ -41,6 +44,21 @@ def test_a_lockstep_run_is_timed_step_by_step(setup: Setup) -> None:
     assert set(timing.usage) == ({"composed"} if setup.composed else NODES | {topics.RECORDER})
     assert all(used.cpu > 0.0 for used in timing.usage.values())
     assert all(0 < occupied.pss <= occupied.rss for occupied in timing.memory.values())
+
+
+def test_the_cost_of_a_fleet_is_that_of_a_vehicle_s_step() -> None:
+    cost = vehicle_cost(2, True, 40)
+    assert set(cost) == {"composed", topics.FLEET_CLOCK}
+    assert 0.0 < cost[topics.FLEET_CLOCK] < cost["composed"] < 1.0
+    assert GATE not in os.environ
+
+
+def test_the_fleet_s_table_has_the_ratio_of_a_vehicle_s_cost() -> None:
+    run = {"1": {"cpu_us": 400.0, "cpu_by_process_us": {"composed": 400.0}},
+           "4": {"cpu_us": 480.0, "cpu_by_process_us": {"fleet_clock": 20.0, "composed": 460.0}}}  # fmt: skip
+    ratio, kinds = sheets.sheets({"fleet": {"separate": run, "composed": run}})
+    assert [row[1] for row in ratio.rows] == ["1.20", "1.20"]
+    assert ("fleet_clock", "-", "20") in kinds.rows
 
 
 def test_every_odometry_is_answered_against_the_wall_clock() -> None:

@@ -70,6 +70,7 @@ def vehicle_cost(number: int, composed: bool, steps: int) -> dict[str, float]:
         os.environ[GATE] = PASSED  # the graph is new, and the simulators share one clock
         for process, (module, words) in commands.items():
             children.start(process, module, words)
+        del os.environ[GATE]
         from auv_sim.launch.monitor import Monitor  # only now: a process with DDS threads must not fork
 
         monitors = {label: Monitor(plan.options.namespace) for label, plan in members.items()}
