@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import os
+import subprocess
+import sys
 import tempfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -11,6 +14,7 @@ from typing import Any
 
 from auv_msgs_py.node.start_gate import GATE, PASSED
 from auv_sim.checks.benchmark.measures.children import BenchmarkFailed, MeasuredProcesses, processes
+from auv_sim.checks.benchmark.measures.stopwatch import MARK
 from auv_sim.checks.benchmark.scale import Scale
 from auv_sim.launch import launcher, mission_plan
 from auv_sim.launch.fleet import fleet_launcher, fleet_plan
@@ -41,7 +45,7 @@ def fleet_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
         for place, found in runs.items():
             for number in NUMBERS:
                 tick(f"fleet, {place}, {number}")
-                cost = vehicle_cost(number, place == "composed", scale.steps)
+                cost = in_own_process(number, place == "composed", scale.steps)
                 found.setdefault(str(number), []).append(cost)
     figures: dict[str, Any] = {}
     for place, found in runs.items():
@@ -52,6 +56,24 @@ def fleet_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
                 "cpu_by_process_us": {name: seconds * _MICRO for name, seconds in best.items()},
             }
     return figures
+
+
+def in_own_process(number: int, composed: bool, steps: int) -> dict[str, float]:
+    """Return `vehicle_cost`, measured in a process of its own: one process enters one graph once.
+
+    Raises:
+        BenchmarkFailed: the vehicles did not fly.
+    """
+    words = [str(number), "composed" if composed else "separate", str(steps)]
+    done = subprocess.run(  # noqa: S603 - our own interpreter, our own module
+        [sys.executable, "-m", "auv_sim.checks.benchmark.fleet_cost", *words],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    lines = done.stdout.splitlines()
+    if not lines or not lines[-1].startswith(MARK):
+        raise BenchmarkFailed(f"{number} vehicles: {' '.join(done.stderr.split()[-40:]) or 'no result'}")
+    cost: dict[str, float] = json.loads(lines[-1].removeprefix(MARK))
+    return cost
 
 
 def vehicle_cost(number: int, composed: bool, steps: int) -> dict[str, float]:
@@ -133,3 +155,9 @@ def _measured(
         kind = name.rsplit(".", 1)[-1]
         cost[kind] = cost.get(kind, 0.0) + (used.cpu - before[name].cpu) / flown
     return cost
+
+
+if __name__ == "__main__":
+    number, place, steps = sys.argv[1:]
+    figures = vehicle_cost(int(number), place == "composed", int(steps))
+    print(f"{MARK}{json.dumps(figures)}", flush=True)
