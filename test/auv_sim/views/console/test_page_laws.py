@@ -25,7 +25,7 @@ pytestmark = pytest.mark.skipif(NODE is None, reason="not run: no node")
 def evaluate(code: str) -> Any:
     """Return what `out` is after some code that may import modules of the page."""
     assert NODE is not None
-    for name in ("geodesy", "rows", "drawing", "link", "map_drawing"):
+    for name in ("geodesy", "rows", "drawing", "link", "map_drawing", "flights"):
         code = code.replace(f"'{name}'", f"'file://{PAGE.joinpath(f'{name}.js')}'")
     done = subprocess.run(
         [NODE, "--input-type=module", "-e", f"let out;\n{code}\n{_END}"],
@@ -199,3 +199,33 @@ def test_a_turned_map_finds_its_places_again() -> None:
     assert found[3] == 7.5
     # With east up, a place in the east is above the middle.
     assert found[4] == pytest.approx([0, -1], abs=1e-12)
+
+
+def test_another_vehicle_leaves_the_rows_of_the_first_and_a_restart_does_not() -> None:
+    found = evaluate("""
+        import { flights, guided, take, takeRows } from 'flights';
+        const columns = ['t', 'x', 'y'].map(name => ({ name }));
+        const vehicle = (namespace, index) => ({ index, namespace, name: namespace });
+        const hello = (started, ...names) => take({ kind: 'hello', started, columns,
+          vehicles: names.map(vehicle) });
+        const rows = (epoch, ...values) => {
+          const b = new ArrayBuffer(16 + 4 * values.length), d = new DataView(b);
+          [0, epoch, 0, values.length / 3].forEach((v, k) => d.setUint32(4 * k, v, true));
+          values.forEach((v, k) => d.setFloat32(16 + 4 * k, v, true));
+          return takeRows(b);
+        };
+        const n = () => flights.vehicles.map(v => v.table.n);
+        out = [];
+        hello('one', '/auv1'); take({ kind: 'begin', vehicle: 0, epoch: 7, t0: 5 });
+        out.push([rows(7, 0, 1, 2, 1, 2, 3), rows(6, 2, 2, 2), ...n()]);
+        hello('one', '/auv1', '/auv2'); out.push(n());
+        hello('two', '/auv1', '/auv2'); out.push(n());
+        flights.link = 'open';
+        const tick = (age, fresh) => {
+          const health = [{ node: 'ailos_guidance', age, level: 0 }];
+          take({ kind: 'tick', vehicle: 0, fresh, health });
+          return guided(flights.vehicles[0]);
+        };
+        out.push([tick(0.1, true), tick(null, true), tick(0.1, false)]);
+    """)
+    assert found == [[True, False, 2], [2, 0], [0, 0], [True, False, False]]
