@@ -18,17 +18,21 @@ from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_path_following import vehicle as vehicle_file
-from auv_path_following.vehicle import Vehicle
+from auv_path_following.vehicle import Hull, Vehicle
 from auv_sim.bags.content.recorded_manoeuvres import READ
 from auv_sim.command_line import at_least_one, not_negative, positive, say, target, to_type, whole
+from auv_sim.own_vehicle.identify.combinations import COUNT
+from auv_sim.own_vehicle.identify.dive.dive_combinations import DiveCombinations
+from auv_sim.own_vehicle.identify.dive.dive_data import DiveData
 from auv_sim.own_vehicle.identify.hull_abilities import abilities_of
-from auv_sim.own_vehicle.identify.identification import Identified, identify
+from auv_sim.own_vehicle.identify.identification import Identified, identify, identify_dive
 from auv_sim.own_vehicle.identify.innovations import Channels, channels_of
 from auv_sim.own_vehicle.identify.predictions import Prediction, predictions_of
 from auv_sim.own_vehicle.identify.results.excitation import check_excitation, remarks
 from auv_sim.own_vehicle.identify.results.identification_picture import draw_identification
 from auv_sim.own_vehicle.identify.results.identification_tables import (
     coefficients_table,
+    dive_table,
     figures_table,
     identified_count,
     predictions_table,
@@ -41,7 +45,7 @@ from auv_sim.own_vehicle.identify.results.known_vehicle import (
     known_hull,
 )
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
-from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, RATE, DataSheet, typed
+from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, LATENCY, RATE, DataSheet, typed
 from auv_sim.own_vehicle.identify.water_current import mean_current
 from auv_sim.own_vehicle.verbs.identification_study import study
 from auv_sim.own_vehicle.verbs.recordings_read import ENOUGH, LAST, divided, read
@@ -133,7 +137,8 @@ def run(arguments: argparse.Namespace) -> int:
         raise ConfigurationError("BAG", "no recording", "at least one, or --study N")
     vehicle = vehicle_file.load(arguments.vehicle)
     hull = known_hull(vehicle)
-    recordings = read(arguments.bag, arguments.topic, arguments.namespace, vehicle, hull)
+    recorded = read(arguments.bag, arguments.topic, arguments.namespace, vehicle, hull)
+    recordings = [one.plane for one in recorded]
     where = ", ".join(map(str, arguments.bag))
     check_excitation(recordings, where)
     used, left_out = divided(recordings, arguments.left_out)
@@ -144,8 +149,22 @@ def run(arguments: argparse.Namespace) -> int:
     with progress_bar(terminal()) as bar:
         found = identify(used, hull, sheet, band, _reporter(bar))
     check_sign(found, where)
-    report(arguments, vehicle, recordings, left_out, found)
+    dives = [one.dive for one in recorded if one.dive is not None]
+    report(arguments, vehicle, recordings, left_out, found, _dive(dives, vehicle, hull, sheet, found))
     return 0
+
+
+def _dive(
+    dives: list[DiveData], vehicle: Vehicle, hull: Hull, sheet: DataSheet, plane: Identified
+) -> Identified | None:
+    """Identify heave and pitch where stern planes moved; the log's latency is that found in the plane."""
+    if not dives or hull.vertical is None or vehicle.sternplanes is None:
+        return None
+    own = sheet._replace(
+        rate=vehicle.sternplanes.max_rate, latency=float(plane.physical[LATENCY]), latency_deviation=0.0
+    )
+    with progress_bar(terminal()) as bar:
+        return identify_dive(dives, hull, hull.vertical, own, None, _reporter(bar))
 
 
 def report(
@@ -154,6 +173,7 @@ def report(
     recordings: list[PlanarData],
     left_out: PlanarData | None,
     found: Identified,
+    dive: Identified | None,
 ) -> None:
     """Print tables; write the vehicle file and the picture."""
     console, hull = terminal(), known_hull(vehicle)
@@ -165,9 +185,12 @@ def report(
     console.print(whiteness_table(found))
     if predictions:
         console.print(predictions_table(predictions))
+    if dive is not None:
+        console.print(dive_table(dive))
     new = identified_vehicle(
-        vehicle, hull, typed(found.physical), math.degrees(found.physical[RATE]), found.physical[DEAD_TIME]
-    )
+        vehicle, hull, typed(found.physical), math.degrees(found.physical[RATE]), found.physical[DEAD_TIME],
+        None if dive is None else DiveCombinations(*map(float, dive.physical[:COUNT])),
+    )  # fmt: skip
     names = ", ".join(path.name for path in arguments.bag)
     write_text(arguments.out, identified_text(new, hull, found, names))
     picture = arguments.out.with_suffix(".png")

@@ -4,22 +4,34 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.vehicle import Hull, Vehicle
 from auv_sim.bags.content.recorded_manoeuvres import READ, Manoeuvring, manoeuvres_in
+from auv_sim.flight.run_record import SpatialRun
+from auv_sim.own_vehicle.identify.dive.dive_data import DiveData, coupling_of
 from auv_sim.own_vehicle.identify.results.known_vehicle import forces
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
 
 #: With at least this much data (s) the last part is left out, and predicted.
 ENOUGH, LAST = 150.0, 45.0
+#: Heave and pitch need at least so many odometries and samples, and planes that move (deviation, rad).
+_LEAST_ROWS, _LEAST_SAMPLES, _LEAST_ANGLE = 800, 100, 0.01
+
+
+class Recorded(NamedTuple):
+    """One recording: in the plane, and in the vertical where there are commands of stern planes."""
+
+    plane: PlanarData
+    dive: DiveData | None
 
 
 def read(
     bags: Sequence[Path], topics: Sequence[str], namespace: str | None, vehicle: Vehicle, hull: Hull
-) -> list[PlanarData]:
+) -> list[Recorded]:
     """Read recordings.
 
     Args:
@@ -32,7 +44,11 @@ def read(
         ConfigurationError: as `manoeuvres_in`; also an unknown name in `topics`.
     """
     names = dict(map(_renaming, topics))
-    return [planar(manoeuvres_in(path, names, namespace), vehicle, hull, path.name) for path in bags]
+    found = []
+    for path in bags:
+        recorded = manoeuvres_in(path, names, namespace)
+        found.append(Recorded(planar(recorded, vehicle, hull, path.name), diving(recorded, vehicle, hull)))
+    return found
 
 
 def _renaming(text: str) -> tuple[str, str]:
@@ -54,6 +70,25 @@ def planar(recorded: Manoeuvring, vehicle: Vehicle, hull: Hull, name: str) -> Pl
         forces(vehicle, hull, np.clip(recorded.thrust.value, 0.0, vehicle.thrust_max)), run.psi[known],
         recorded.over[known, 0], recorded.over[known, 1], np.zeros(int(known.sum())),
     )  # fmt: skip
+
+
+def diving(recorded: Manoeuvring, vehicle: Vehicle, hull: Hull) -> DiveData | None:
+    """Return what the identification of heave and pitch needs; None without planes, or a hull in space."""
+    run, planes, limits = recorded.run, recorded.sternplanes, vehicle.sternplanes
+    if planes is None or limits is None or hull.vertical is None or not isinstance(run, SpatialRun):
+        return None
+    known = np.isfinite(run.q) & np.isfinite(run.theta) & np.isfinite(run.r)
+    water = np.isfinite(recorded.water[:, 2])
+    if known.sum() < _LEAST_ROWS or water.sum() < _LEAST_SAMPLES or np.std(planes.value) < _LEAST_ANGLE:
+        return None
+    log = recorded.water[water]
+    return DiveData(
+        "dive",
+        *(run.t[known], run.q[known], run.theta[known], run.phi[known], run.r[known]),
+        *(recorded.water_t[water], log[:, 0], log[:, 1], log[:, 2]),
+        *(planes.t, np.clip(planes.value, -limits.max_angle, limits.max_angle)),
+        coupling_of(hull, hull.vertical),
+    )
 
 
 def divided(

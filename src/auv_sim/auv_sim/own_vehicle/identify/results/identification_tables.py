@@ -10,6 +10,7 @@ import numpy as np
 from rich.table import Table
 
 from auv_sim.own_vehicle.identify.combinations import COUNT, SYMBOLS, UNITS
+from auv_sim.own_vehicle.identify.dive.dive_combinations import DIVE_SYMBOLS, DIVE_UNITS
 from auv_sim.own_vehicle.identify.hull_abilities import Ability
 from auv_sim.own_vehicle.identify.identification import Identified
 from auv_sim.own_vehicle.identify.intervals import REACH
@@ -29,6 +30,9 @@ from auv_sim.terminal import headed_table
 
 #: A coefficient with a smaller standard deviation counts as identified, a share.
 IDENTIFIED = 0.10
+#: Heave and pitch are identified with roll and sway given, not modelled: on a hull in six degrees of freedom
+#: this makes errors of about this many statistical deviations.
+MODEL_ERROR = 3.0
 _CHANNELS = ("yaw rate", "u through the water", "v through the water")
 
 
@@ -60,6 +64,23 @@ def coefficients_table(found: Identified) -> Table:
             *(f"{100.0 * cell / abs(value):.1f}" for cell in cells),
             verdict,
         )
+    return table
+
+
+def dive_table(found: Identified) -> Table:
+    """Return the combinations of heave and pitch, with `MODEL_ERROR` times their statistical deviations."""
+    table = headed_table("heave and pitch", ("",), ("value", "unit", "95 % +- %", ""))
+    off = REACH * MODEL_ERROR * found.spread.deviations[:COUNT]
+    for k in range(COUNT):
+        value = found.physical[k]
+        share = off[k] / abs(value)
+        verdict = "" if share < REACH * IDENTIFIED else "weak" if share < 1.0 else "as assumed"
+        table.add_row(DIVE_SYMBOLS[k], f"{value:.4g}", DIVE_UNITS[k], f"{100.0 * share:.0f}", verdict)
+    p, sd = found.physical, REACH * found.spread.deviations
+    table.add_row(
+        "rate of the planes", f"{math.degrees(p[RATE]):.4g}", "deg/s", f"{100.0 * sd[RATE] / p[RATE]:.1f}", ""
+    )
+    table.add_row("dead time of the planes", f"{p[DEAD_TIME]:.3f}", "s", "", "")
     return table
 
 

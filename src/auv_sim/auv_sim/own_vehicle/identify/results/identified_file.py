@@ -96,7 +96,7 @@ def _hull(vehicle: Vehicle, known: Hull, found: Identified) -> list[str]:
             rows.append(f"  {field.name}: {value:.5g}  # {note}")
     rows.append("  surge_coupling: true")
     if hull.vertical is not None:
-        rows += ["  vertical:  # as assumed", *_mapping(hull.vertical, "    ")]
+        rows += ["  vertical:  # masses as assumed", *_mapping(hull.vertical, "    ")]
     return rows
 
 

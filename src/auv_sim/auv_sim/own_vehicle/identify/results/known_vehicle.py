@@ -9,6 +9,7 @@ import numpy as np
 from auv_path_following import vehicle as vehicle_file
 from auv_path_following.vehicle import Hull, Vehicle
 from auv_sim.own_vehicle.identify.combinations import Combinations, Numbers, hull_with, scaled_hull
+from auv_sim.own_vehicle.identify.dive.dive_combinations import DiveCombinations, vertical_with
 
 #: Where a vehicle's file has no coefficients, they are those of this vehicle, scaled to its length.
 _REFERENCE = "remus100"
@@ -56,7 +57,12 @@ def in_plane(vehicle: Vehicle, hull: Hull) -> Vehicle:
 
 
 def identified_vehicle(
-    vehicle: Vehicle, hull: Hull, c: Combinations, rate_deg_s: float, dead_time: float
+    vehicle: Vehicle,
+    hull: Hull,
+    c: Combinations,
+    rate_deg_s: float,
+    dead_time: float,
+    dive: DiveCombinations | None = None,
 ) -> Vehicle:
     """Return the vehicle with identified coefficients; it moves by them with the masses of `hull`.
 
@@ -67,6 +73,7 @@ def identified_vehicle(
         hull: the source of the masses.
         c: identified combinations, for forces by `forces`.
         rate_deg_s, dead_time: of the rudder, deg/s and s.
+        dive: identified combinations of heave and pitch.
     """
     table = vehicle.thrust_table
     if vehicle.thrust_unit != "N" and not table:
@@ -76,6 +83,8 @@ def identified_vehicle(
         table = tuple((float(a), float(b)) for a, b in zip(thrusts, newtons, strict=True))
         c = c._replace(X1=1.0 / mass)
     found = hull_with(c, hull)
+    if dive is not None and found.vertical is not None:
+        found = dataclasses.replace(found, vertical=vertical_with(dive, hull.m, found.vertical))
     rudder = dataclasses.replace(
         vehicle.rudder, max_rate_deg_s=rate_deg_s, dead_time=min(max(dead_time, 0.0), 2.0)
     )
