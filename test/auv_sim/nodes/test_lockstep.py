@@ -9,6 +9,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.serialization import serialize_message
 
+from auv_msgs_py.values.errors import MessageRefused
 from auv_sim.nodes.held_commands import orders_of
 from auv_sim.nodes.lockstep import Lockstep
 from auv_sim.nodes.wait_reports import WaitReports
@@ -105,7 +106,6 @@ def test_the_node_that_owes_something_is_named(waiting: dict[str, str], named: s
     simulator: Any = Simulator()
     lockstep = Lockstep(simulator, orders_of(REMUS))
     lockstep.on_mission_state()
-    lockstep._on_diagnostics(b"no report")
     lockstep._on_diagnostics(serialize_message(reports(**waiting)))
     lockstep._check()
     assert simulator.fault == f"step 7 (t = 1.35 s) got no answer within 0 s: {named}"
@@ -171,7 +171,7 @@ def test_a_node_of_another_vehicle_is_no_culprit() -> None:
     assert kept.culprit(("rudder_cmd",), 0.0) == "ailos_guidance did not send desired_yaw"
 
 
-def test_only_reports_of_the_own_nodes_are_kept_and_none_is_read_before_it_is_needed() -> None:
+def test_only_reports_of_the_own_nodes_are_decoded() -> None:
     simulator: Any = Simulator()
     simulator.parameters = SimpleNamespace(
         recorded=False, shared_clock=True, answer_timeout=0.0, recorded_vehicles=1
@@ -184,7 +184,8 @@ def test_only_reports_of_the_own_nodes_are_kept_and_none_is_read_before_it_is_ne
         array = reports(heading_autopilot=waits)
         array.status[0].name = f"{namespace}/heading_autopilot"
         lockstep._on_diagnostics(serialize_message(array))
-    assert len(lockstep._unread) == 1
+    lockstep._on_diagnostics(b"/auv2/no report")
+    with pytest.raises(MessageRefused):
+        lockstep._on_diagnostics(b"/auv1/no report")
     lockstep._check()
     assert simulator.fault.endswith("ailos_guidance did not send desired_yaw")
-    assert not lockstep._unread

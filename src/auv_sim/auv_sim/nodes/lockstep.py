@@ -5,9 +5,7 @@
 
 from __future__ import annotations
 
-import contextlib
 import time
-from collections import deque
 from collections.abc import Callable
 from typing import Any, Protocol
 
@@ -18,14 +16,10 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.pairing import Pairing
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.node.transport import generated_decoder
-from auv_msgs_py.values.errors import MessageRefused
 from auv_msgs_py.values.types import STOP
 from auv_sim.nodes.fleet.member import FleetMember
 from auv_sim.nodes.held_commands import Orders
 from auv_sim.nodes.wait_reports import WaitReports
-
-#: Reports of the nodes that are kept until a step has no answer; five nodes send ten a second.
-_KEPT = 500
 
 
 class Simulator(Protocol):
@@ -76,9 +70,7 @@ class Lockstep:
         self._published = 0
         own = node.get_namespace() if node.parameters.shared_clock else ""
         self._reports = WaitReports(own)
-        #: Reports of this vehicle's nodes, not yet read: reading one costs more than a message of a step.
-        self._unread: deque[tuple[float, bytes]] = deque(maxlen=_KEPT)
-        self._own = own.encode()
+        self._own, self._decode = own.encode(), generated_decoder(topics.DIAGNOSTICS)
         node.listen(topics.DIAGNOSTICS, self._on_diagnostics, raw=True)
         self._request = node.advertise(topics.RECORD_REQUEST) if node.parameters.recorded else None
         if node.parameters.recorded:
@@ -143,16 +135,8 @@ class Lockstep:
             self._request.publish(UInt64(data=self._published))
 
     def _on_diagnostics(self, data: bytes) -> None:
-        if self._own in data:
-            self._unread.append((time.monotonic(), data))
-
-    def _read_reports(self) -> None:
-        """Read the reports that came since the last time; one that does not decode reports nothing."""
-        decode = generated_decoder(topics.DIAGNOSTICS)
-        while self._unread:
-            at, data = self._unread.popleft()
-            with contextlib.suppress(MessageRefused):
-                self._reports.take_in(decode(data), at)
+        if self._own in data:  # of a fleet, the other vehicles' reports are not even decoded
+            self._reports.take_in(self._decode(data), time.monotonic())
 
     def _check(self) -> None:
         """End the run, naming the culprit, when a step stays without an answer."""
@@ -168,7 +152,6 @@ class Lockstep:
             return
         bound = self._node.parameters.answer_timeout
         if time.monotonic() - self._open_since > bound:
-            self._read_reports()
             culprit = self._reports.culprit(self._missing(), self._open_since)
             self._node.fail(f"{self._where()} got no answer within {bound:g} s: {culprit}")
 
