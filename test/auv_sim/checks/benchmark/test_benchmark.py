@@ -96,9 +96,9 @@ def test_without_numba_few_vehicles_are_flown_and_the_table_says_so(monkeypatch:
     assert [row[0] for row in sheet.rows] == ["closed_loop, one vehicle", "batch, not compiled, 2 vehicles"]
 
 
-def test_the_command_brings_numba() -> None:
+def test_the_command_brings_numba_and_the_console() -> None:
     script = Path(__file__).parents[4] / "scripts" / "benchmark.py"
-    assert 'ensure_environment(extra=("batch",))' in script.read_text(encoding="utf-8")
+    assert 'ensure_environment(extra=("batch", "console"))' in script.read_text(encoding="utf-8")
 
 
 def test_the_suite_is_compared_with_its_own_floor(
