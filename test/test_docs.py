@@ -108,6 +108,7 @@ def words_of(line: Line, run: object = "runs/example") -> list[str]:
     stands_for = {
         "MISSION": "survey_wgs84", "RUN": str(run), "runs/...": str(run), "NEW.yaml": "rough",
         "signed.yaml": "robust", "my_law.yaml": "robust", "rule": "robust", "path.kml": "/dev/null",
+        "mine.yaml": "remus100",
         "tuned.yaml": "robust", "selkie.yaml": "remus100", "selkie_identified.yaml": "remus100",
         "selkie_survey.yaml": "survey_wgs84", "my_study": "currents", "...": str(run),
     }  # fmt: skip
