@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+
 import pytest
 
 from auv_msgs_py.values.errors import ConfigurationError, MessageRefused, SuiteError, printable
@@ -42,3 +44,12 @@ def test_no_error_carries_a_terminal_escape_or_a_page(kind):
 
 def test_an_error_that_quotes_a_log_keeps_its_lines():
     assert str(SuiteError("a node ended:\n  | \x1b[31mlast line")) == "a node ended:\n  | \\x1b[31mlast line"
+
+
+@pytest.mark.parametrize(
+    "error", [ConfigurationError("a.yaml: b", "c", "d"), MessageRefused("odom", "e", "f"), SuiteError("g")]
+)
+def test_an_error_comes_back_from_a_worker_process(error: SuiteError) -> None:
+    back = pickle.loads(pickle.dumps(error))  # noqa: S301
+    assert type(back) is type(error)
+    assert (str(back), vars(back)) == (str(error), vars(error))

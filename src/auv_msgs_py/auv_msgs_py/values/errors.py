@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 #: A place or a finding longer than this is printed without its middle, characters.
 _LONGEST = 400
@@ -35,10 +36,21 @@ def shortened(text: str, longest: int = _LONGEST) -> str:
 
 
 class SuiteError(Exception):
-    """Base of every error that is the fault of an input, never of the suite; safe to print."""
+    """Base of every error that is the fault of an input, never of the suite; safe to print.
+
+    It can be pickled whatever its arguments, and so comes back from a worker process.
+    """
 
     def __str__(self) -> str:
         return printable_lines(super().__str__())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _unpickled, (type(self), self.args), self.__dict__
+
+
+def _unpickled(kind: type[SuiteError], arguments: tuple[Any, ...]) -> SuiteError:
+    """Return an error with the text of another process: `Exception` would pass the text as all arguments."""
+    return kind.__new__(kind, *arguments)
 
 
 class ConfigurationError(SuiteError):
