@@ -12,6 +12,7 @@ from rich.progress import BarColumn, ProgressColumn, TaskProgressColumn, TextCol
 from rich.progress import Progress as Bar
 
 from auv_path_following.curves.composite import CompositePath
+from auv_sim.terminal import console as terminal
 
 
 def place_on(path: CompositePath, s: float) -> tuple[int, float]:
@@ -38,10 +39,8 @@ class Bars:
             text: to print.
             needed: print them with `--quiet` too.
         """
-        if needed and self._bar.console.quiet:
-            print(text, flush=True)
-            return
-        self._bar.console.print(escape(text), highlight=False, soft_wrap=True)
+        shown = terminal() if needed and self._bar.console.quiet else self._bar.console
+        shown.print(escape(text), highlight=False, soft_wrap=True)
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None

@@ -25,6 +25,8 @@ class RudderFlaws:
     dead_time: float = setting(0.0, "time from a command to the servo's start", unit="s", ge=0.0, le=5.0)
 
 
+#: A servo that is nearer to its target than this is at rest, rad.
+AT_REST = 1e-12
 #: Commanded angle, rad, and whether it is new at the begin of this step or held.
 Order = tuple[float, bool]
 #: Angle of the rudder itself at the beginning, the middle and the end of a step, rad.
@@ -205,7 +207,7 @@ def _due(
 @pure
 def _aim(band: float, angle: float, target: float, command: float) -> float:
     """Return the new target, rad: a servo at rest ignores a command within its dead band."""
-    at_rest = abs(target - angle) < 1e-12
+    at_rest = abs(target - angle) < AT_REST
     if not at_rest or abs(command - angle) > band or not band > 0.0:
         return command
     return target

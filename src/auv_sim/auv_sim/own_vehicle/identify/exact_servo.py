@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from auv_msgs_py.values.pure import pure
+from auv_sim.vehicle.actuator import AT_REST
 
 
 @pure
@@ -72,7 +73,7 @@ def due(
     """Return the servo's target (rad) by the commands whose dead time is over, and the next command."""
     while following < len(issued) and issued[following] + dead_time <= t:
         command = commands[following]
-        if target != angle or abs(command - angle) > dead_band:
+        if abs(target - angle) >= AT_REST or abs(command - angle) > dead_band or not dead_band > 0.0:
             target = command
         following += 1
     return target, following
