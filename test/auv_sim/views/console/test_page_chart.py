@@ -169,7 +169,35 @@ async def test_two_vehicles_share_the_chart(tab: Tab, fake: FakeConsole) -> None
     await tab.until(
         "document.querySelectorAll('#vehicles button')[1].getAttribute('aria-pressed') === 'true'"
     )
-    assert [request["vehicle"] for request in fake.asked] == [1]
+    assert [(one["vehicle"], one["namespace"]) for one in fake.asked] == [(1, "/auv2")]
+    await vehicles_do_not_share_what_is_prepared(tab, fake)
+
+
+async def vehicles_do_not_share_what_is_prepared(tab: Tab, fake: FakeConsole) -> None:
+    """Leave a vehicle during a press of Start, with a checked mission, and with its gains in sight."""
+    at = await tab.middle("#start")
+    await tab.mouse("Pressed", *at)
+    await asyncio.sleep(0.2)
+    await tab.key("Down", "1")
+    await asyncio.sleep(1.0)
+    await tab.click("#open-mission")
+    await tab.type("#mission-text", "version: 1\nthrust: 5\n")
+    await tab.click("#check")
+    await tab.until("!document.getElementById('load').disabled")
+    draft = "import('/page/chart.js').then(m => m.view.draft !== null)"
+    assert await tab.value(draft)
+    await tab.click("#vehicles button:nth-child(2)")
+    assert await tab.value("document.getElementById('load').disabled")
+    assert not await tab.value(draft)
+    await tab.click("#open-gains")
+    field = "[data-name='autopilot.nism.k1'] input"
+    await tab.until(f"document.querySelector({field!r})")
+    await tab.click("#vehicles button:nth-child(1)")
+    await tab.until(f"document.querySelector({field!r})")
+    await tab.type(field, "0.5")
+    await asyncio.sleep(0.8)
+    found = [(one["do"], one["namespace"]) for one in fake.asked if one["do"] not in ("abort", "missions")]
+    assert found == [("check", "/auv1"), ("parameters", "/auv2"), ("parameters", "/auv1"), ("set", "/auv1")]
 
 
 @on_page()

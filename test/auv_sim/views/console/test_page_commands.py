@@ -49,6 +49,7 @@ async def test_start_is_pressed_for_a_second(tab: Tab, fake: FakeConsole) -> Non
     assert time.monotonic() - begun >= 1.0
     await tab.mouse("Released", *at)
     assert done(fake) == ["start"]
+    assert fake.asked[-1]["digest"] == fake.course["mission"]["digest"]
     assert await text(tab, "answer") == "Start: running"
 
 

@@ -1,39 +1,21 @@
-"""The page's arithmetic under node: degrees, ticks, rows, tracks, the link's time-outs."""
+"""The page's arithmetic under node: degrees, ticks, rows, tracks, values of parameters."""
 
 from __future__ import annotations
 
 import json
 import math
-import shutil
-import subprocess
+import re
 from importlib import resources
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 import pytest
 
 from auv_path_following.missions import geodesy
 from auv_path_following.missions.geodesy import Origin
-from auv_sim.views.console.record.wire_messages import PROTOCOL
+from node_page import evaluate, needs_node
 
-PAGE = resources.files("auv_sim.views.console").joinpath("page")
-NODE = shutil.which("node")
-_END = "console.log(JSON.stringify(out)); process.exit(0)"
-pytestmark = pytest.mark.skipif(NODE is None, reason="not run: no node")
-
-
-def evaluate(code: str) -> Any:
-    """Return what `out` is after some code that may import modules of the page."""
-    assert NODE is not None
-    for name in ("geodesy", "rows", "drawing", "link", "map_drawing", "flights"):
-        code = code.replace(f"'{name}'", f"'file://{PAGE.joinpath(f'{name}.js')}'")
-    done = subprocess.run(
-        [NODE, "--input-type=module", "-e", f"let out;\n{code}\n{_END}"],
-        capture_output=True, text=True, check=False, timeout=60,
-    )  # fmt: skip
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout)
+pytestmark = needs_node
 
 
 @pytest.mark.parametrize("latitude", [63.4470, -33.9, 0.0])
@@ -145,7 +127,7 @@ def test_a_track_stays_small_and_near_what_was_flown() -> None:
     found = evaluate("""
         import { Track } from 'rows';
         const t = new Track(500, 0.25), at = k => [100 * Math.cos(k / 400), 100 * Math.sin(k / 400)];
-        for (let k = 0; k < 9000; k++) t.add(...(k === 4500 ? [NaN, NaN] : at(k)), k);
+        for (let k = 0; k < 9000; k++) t.add(...(k === 4500 ? [NaN, NaN] : at(k)));
         out = [t.north.map((v, k) => [v, t.east[k]]), t.spacing];
     """)
     places = np.array([[math.nan if v is None else v for v in place] for place in found[0]])
@@ -159,71 +141,8 @@ def test_a_track_stays_small_and_near_what_was_flown() -> None:
 
 
 def test_a_vehicle_at_rest_adds_nothing_to_its_track() -> None:
-    code = "const t = new Track(); for (let k = 0; k < 99; k++) t.add(3, 4, k); out = t.north"
+    code = "const t = new Track(); for (let k = 0; k < 99; k++) t.add(3, 4); out = t.north"
     assert evaluate(f"import {{ Track }} from 'rows'; {code}") == [3]
-
-
-#: A browser's socket and fetch: a handshake that is answered with 403 closes the socket.
-_BROWSER = """
-    globalThis.location = { protocol: 'http:', host: 'here' };
-    globalThis.status = 200; globalThis.sockets = []; globalThis.sent = [];
-    globalThis.WebSocket = class { static CONNECTING = 0; static OPEN = 1; static CLOSED = 3; readyState = 0;
-      constructor() {
-        sockets.push(this); globalThis.socket = this;
-        if (status === 403) setTimeout(() => { this.readyState = 3; this.onclose(); });
-      }
-      send(text) { sent.push(JSON.parse(text)); } close() { this.readyState = 3; }
-      says(message) { this.onmessage({ data: JSON.stringify(message) }); } };
-    globalThis.fetch = async () => ({ status });
-    const { Link } = await import('link'), states = [], heard = [];
-    const link = new Link(message => heard.push(message.kind), state => states.push(state));
-    const pause = milliseconds => new Promise(done => setTimeout(done, milliseconds));
-"""
-
-
-def test_every_request_has_an_end() -> None:
-    found = evaluate(f"""{_BROWSER}
-        socket.readyState = 1; socket.says({{ kind: 'hello', protocol: 1 }});
-        const first = link.ask('hold'), late = link.ask('abort', {{}}, 0.05), gone = link.ask('start');
-        socket.says({{ kind: 'answer', id: 1, ok: true, message: 'holding' }});
-        out = [await first, await late];
-        status = 403; socket.readyState = 3; socket.onclose();
-        out.push(await gone, await link.ask('abort'));
-        await pause(500);
-        out.push(states, sockets.length);
-    """)
-    assert [answer["message"] for answer in found[:4]] == [
-        "holding", "no answer within 0.05 s", "the link was lost before the answer",
-        "no link: nothing was sent",
-    ]  # fmt: skip
-    assert [answer["ok"] for answer in found[:4]] == [True, False, False, False]
-    # A page that is refused says so until it is let in.
-    assert found[4:] == [["open", "lost", "refused"], 1]
-
-
-def test_nothing_is_sent_before_the_hello_nor_to_another_protocol() -> None:
-    found = evaluate(f"""{_BROWSER}
-        socket.readyState = 1; socket.onopen?.();
-        out = [(await link.ask('abort')).message];
-        socket.says({{ kind: 'hello', protocol: 2 }}); socket.says({{ kind: 'tick' }});
-        out.push((await link.ask('abort')).message, [...heard], [...states]);
-        socket.says({{ kind: 'hello', protocol: PROTOCOL }}); link.ask('abort');
-        out.push(heard, states, sent.map(one => one.do));
-    """.replace("const { Link }", "const { Link, PROTOCOL }"))  # fmt: skip
-    refused = "no link: nothing was sent"
-    assert found == [refused, refused, [], ["outdated"], ["hello"], ["outdated", "open"], ["abort"]]
-    assert evaluate("import { PROTOCOL } from 'link'; out = PROTOCOL") == PROTOCOL
-
-
-def test_a_socket_that_never_opens_is_given_up() -> None:
-    found = evaluate(f"""
-        let now = 0; performance.now = () => now;
-        {_BROWSER}
-        now = 4900; link.watch(); out = [[...states]];
-        now = 5100; link.watch(); await pause(400);
-        out.push(states, sockets.map(one => one.readyState));
-    """)
-    assert found == [[], ["lost"], [3, 0]]
 
 
 def test_a_turned_map_finds_its_places_again() -> None:
@@ -241,31 +160,18 @@ def test_a_turned_map_finds_its_places_again() -> None:
     assert found[4] == pytest.approx([0, -1], abs=1e-12)
 
 
-def test_another_vehicle_leaves_the_rows_of_the_first_and_a_restart_does_not() -> None:
+def test_every_type_of_parameter_of_the_server_is_read() -> None:
+    source = (
+        resources.files("auv_sim.nodes.console").joinpath("parameter_desk.py").read_text(encoding="utf-8")
+    )
+    types = re.findall(r'ParameterType\.\w+: \("(\w+)"', source)
     found = evaluate("""
-        import { flights, guided, take, takeRows } from 'flights';
-        const columns = ['t', 'x', 'y'].map(name => ({ name }));
-        const vehicle = (namespace, index) => ({ index, namespace, name: namespace });
-        const hello = (started, ...names) => take({ kind: 'hello', started, columns,
-          vehicles: names.map(vehicle) });
-        const rows = (epoch, ...values) => {
-          const b = new ArrayBuffer(16 + 4 * values.length), d = new DataView(b);
-          [0, epoch, 0, values.length / 3].forEach((v, k) => d.setUint32(4 * k, v, true));
-          values.forEach((v, k) => d.setFloat32(16 + 4 * k, v, true));
-          return takeRows(b);
-        };
-        const n = () => flights.vehicles.map(v => v.table.n);
-        out = [];
-        hello('one', '/auv1'); take({ kind: 'begin', vehicle: 0, epoch: 7, t0: 5 });
-        out.push([rows(7, 0, 1, 2, 1, 2, 3), rows(6, 2, 2, 2), ...n()]);
-        hello('one', '/auv1', '/auv2'); out.push(n());
-        hello('two', '/auv1', '/auv2'); out.push(n());
-        flights.link = 'open';
-        const tick = (age, fresh) => {
-          const health = [{ node: 'ailos_guidance', age, level: 0 }];
-          take({ kind: 'tick', vehicle: 0, fresh, health });
-          return guided(flights.vehicles[0]);
-        };
-        out.push([tick(0.1, true), tick(null, true), tick(0.1, false)]);
+        import { TYPES, shows, typed } from 'typed';
+        const cases = [['double', ' 0.5 '], ['int', '3'], ['bool', 'true'], ['string', ' a '],
+          ['strings', 'a, b'], ['strings', '']];
+        out = [Object.keys(TYPES), cases.map(one => typed(...one)), cases.map(one => shows(typed(...one))),
+          ['', 'many'].map(text => Number.isNaN(typed('int', text)) && Number.isNaN(typed('double', text)))];
     """)
-    assert found == [[True, False, 2], [2, 0], [0, 0], [True, False, False]]
+    assert sorted(found[0]) == sorted(types)
+    assert found[1] == [0.5, 3, True, "a", ["a", "b"], []]
+    assert found[2:] == [["0.5", "3", "true", "a", "a, b", ""], [True, True]]

@@ -133,6 +133,7 @@ export function fitAll() { view.fitted = false; if (view.follow) follow(); repai
 
 /* Show a course before it is sent; null: no more. */
 export function showDraft(course) {
+  if (!course && !view.draft) return;
   view.draft = course && { north: course.path.map(p => p[1]), east: course.path.map(p => p[0]) };
   fitAll();
 }

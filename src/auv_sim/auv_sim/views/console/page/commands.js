@@ -1,6 +1,6 @@
-/* Start (pressed for a second), Hold, Resume and Abort (one click, always enabled, never asks). */
+/* Start (pressed for a second), Hold, Resume and Abort (one click, always enabled, without confirmation). */
 import { $, write } from "./dom.js";
-import { flights, shown } from "./flights.js";
+import { digestOf, flights, locked, shown } from "./flights.js";
 import { paints, repaint } from "./painting.js";
 
 const PRESS = 1000, MEANWHILE = {
@@ -19,17 +19,23 @@ export function answered(what, answer) {
   line.textContent = `${what}: ${answer.message || (answer.ok ? "done" : "refused")}`;
 }
 
-async function send(what, words) {
+async function send(what, words, fields = {}) {
   const line = $("answer");
   line.className = ""; line.textContent = `${words} …`;
-  answered(words, await ask(what, { vehicle: flights.chosen }));
+  answered(words, await ask(what, flights.namespace, fields));
 }
 
+/* Start what was shown when the press began, or nothing. */
 function press() {
-  const start = $("start");
+  const start = $("start"), { namespace } = flights, digest = digestOf(shown());
   if (start.getAttribute("aria-disabled") === "true" || pressed) return;
   start.classList.add("pressed");
-  pressed = setTimeout(() => { pressed = null; start.classList.remove("pressed"); send("start", "Start"); }, PRESS);
+  pressed = setTimeout(() => {
+    pressed = null; start.classList.remove("pressed");
+    const same = namespace === flights.namespace && digest === digestOf(shown());
+    const why = same ? locked(shown()) : "another mission is shown than when the press began";
+    if (why) answered("Start", { ok: false, message: `nothing was sent: ${why}` }); else send("start", "Start", { digest });
+  }, PRESS);
 }
 
 function release() {
@@ -44,24 +50,16 @@ for (const end of ["pointerup", "pointerleave", "pointercancel", "blur"]) start.
 start.addEventListener("keydown", e => { if (isPress(e)) { e.preventDefault(); if (!e.repeat) press(); } });
 start.addEventListener("keyup", e => { if (isPress(e)) { e.preventDefault(); release(); } });
 start.addEventListener("contextmenu", e => e.preventDefault());
-document.addEventListener("visibilitychange", release);
+for (const end of ["visibilitychange", "vehicle"]) document.addEventListener(end, release);
 $("hold").addEventListener("click", () => send("hold", "Hold"));
 $("resume").addEventListener("click", () => send("resume", "Resume"));
 export const abort = () => send("abort", "Abort");
 $("abort").addEventListener("click", abort);
 
-/* Why Start is locked; empty: it is not. */
-function locked(t) {
-  if (!t || flights.link !== "open") return "no data";
-  if (["running", "holding"].includes(t.state)) return `the mission is ${t.state}`;
-  if (t.preflight && !t.preflight.ready) return "the pre-flight line is not ready";
-  return t.can.start ? "" : "guidance does not offer it now";
-}
-
 paints(() => {
   const v = shown(), t = v && v.tick, may = Boolean(flights.hello && flights.hello.may_command);
   $("commands").hidden = Boolean(flights.hello) && !may;
-  const why = locked(t), linked = flights.link === "open";
+  const why = locked(v), linked = flights.link === "open";
   start.setAttribute("aria-disabled", String(Boolean(why)));
   start.title = why ? `Locked: ${why}` : "Keep pressed for one second";
   if (why) { clearTimeout(pressed); pressed = null; start.classList.remove("pressed"); }

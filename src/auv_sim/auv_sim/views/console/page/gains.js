@@ -2,25 +2,26 @@
 import { $, el, write } from "./dom.js";
 import { flights } from "./flights.js";
 import { answered } from "./commands.js";
+import { shows, typed } from "./typed.js";
 
-let ask = null, nodes = [], of = -1, asking = false;
+/* of: namespace of the vehicle whose parameters are listed. */
+let ask = null, nodes = [], of = null, asking = false;
 
 /* ask: the link's. */
 export function gains(asks) { ask = asks; }
 
-const fields = more => ({ vehicle: flights.chosen, ...more });
-const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
-const shows = v => Array.isArray(v) ? v.join(", ") : typeof v === "number" ? String(Number(v.toPrecision(9))) : String(v);
-const KINDS = { double: Number, integer: Number, bool: v => v === "true", string: v => v, string_array: v => v.split(",").map(one => one.trim()), double_array: v => v.split(",").map(Number), integer_array: v => v.split(",").map(Number) };
+const same = (a, b) => JSON.stringify(a) === JSON.stringify(b), isNumber = p => ["double", "int"].includes(p.type);
 
 /* Ask for the parameters of the vehicle that is shown; nodes may come later than the page. */
 export async function listGains(again = false) {
-  if (asking || !again && of === flights.chosen && nodes.length) return;
+  const { namespace } = flights;
+  if (asking || !again && of === namespace && nodes.length) return;
   asking = true;
-  const answer = await ask("parameters", fields(), 10);
+  const answer = await ask("parameters", namespace, {}, 10);
   asking = false;
+  if (namespace !== flights.namespace) { listGains(); return; }
   if (!answer.ok) { write($("gains-note"), answer.message); return; }
-  nodes = answer.nodes; of = flights.chosen;
+  nodes = answer.nodes; of = namespace;
   write($("gains-note"), nodes.length ? "" : "No node answers yet.");
   build();
 }
@@ -35,11 +36,11 @@ function range(p) {
 const broken = name => name.split(/(?<=[._])/).flatMap((part, k) => k ? [el("wbr"), part] : [part]);
 
 /* A row: name, value, unit; the default and a button back where it differs. */
-function row(node, p) {
+function row(namespace, node, p) {
   const id = `p-${node}-${p.name}`, same_as = p.default !== undefined && p.default !== null;
   const bool = p.type === "bool";
   const input = bool ? el("select", { id, disabled: p.read_only }, el("option", { text: "true" }), el("option", { text: "false" }))
-    : el("input", { id, type: "text", inputmode: KINDS[p.type] === Number ? "decimal" : null, readonly: p.read_only, autocomplete: "off", spellcheck: "false" });
+    : el("input", { id, type: "text", inputmode: isNumber(p) ? "decimal" : null, readonly: p.read_only, autocomplete: "off", spellcheck: "false" });
   const back = el("button", { type: "button", class: "back", text: "back", "aria-label": `${p.name} back to its default` });
   const said = el("p", { class: "said", role: "status" }), confirm = el("div", { class: "confirm", hidden: true });
   const box = el("div", { class: "gain", "data-name": p.name }, el("label", { for: id, title: p.doc || "" }, ...broken(p.name)), input,
@@ -53,7 +54,7 @@ function row(node, p) {
   };
   const send = async value => {
     confirm.hidden = true;
-    const answer = await ask("set", fields({ node, name: p.name, value }));
+    const answer = await ask("set", namespace, { node, name: p.name, value });
     said.className = `said ${answer.ok ? "ok" : "bad"}`;
     said.textContent = answer.message || (answer.ok ? `set to ${shows(value)}` : "refused");
     answered(p.name, { ...answer, message: said.textContent });
@@ -69,8 +70,7 @@ function row(node, p) {
       el("button", { type: "button", text: "Keep", onclick: () => { confirm.hidden = true; p.show(); } }));
     confirm.hidden = false;
   };
-  const read = () => input.value.trim() === "" && KINDS[p.type] === Number ? NaN : (KINDS[p.type] || (v => v))(input.value.trim());
-  input.addEventListener("change", () => change(read()));
+  input.addEventListener("change", () => change(typed(p.type, input.value)));
   input.addEventListener("keydown", e => { if (e.key === "Escape") p.show(); });
   back.addEventListener("click", () => change(p.default));
   p.show();
@@ -82,8 +82,8 @@ function build() {
   for (const { node, parameters } of nodes) {
     const fit = parameters.filter(p => !p.read_only);
     const [first, second] = [fit.filter(p => !p.safety), fit.filter(p => p.safety)];
-    if (first.length) live.push(el("h3", { text: node }), ...first.map(p => row(node, p)));
-    if (second.length) limits.push(el("h3", { text: node }), ...second.map(p => row(node, p)));
+    if (first.length) live.push(el("h3", { text: node }), ...first.map(p => row(of, node, p)));
+    if (second.length) limits.push(el("h3", { text: node }), ...second.map(p => row(of, node, p)));
   }
   $("gains").replaceChildren(...live);
   $("limits").replaceChildren(...limits);
@@ -93,7 +93,7 @@ function build() {
 
 /* A value that was changed elsewhere. */
 export function parameterChanged(m) {
-  if (m.vehicle !== of) return;
+  if (flights.vehicles[m.vehicle]?.namespace !== of) return;
   const p = nodes.find(one => one.node === m.node)?.parameters.find(one => one.name === m.name);
   if (!p || !p.show) return;
   p.value = m.value;
@@ -115,11 +115,14 @@ $("gain-search").addEventListener("input", search);
 $("only-changed").addEventListener("change", search);
 $("gains-again").addEventListener("click", () => listGains(true));
 $("save-gains").addEventListener("click", async () => {
-  const answer = await ask("parameter_file", fields(), 10);
+  const answer = await ask("parameter_file", flights.namespace, {}, 10);
   if (!answer.ok) { answered("Parameter file", answer); return; }
   const link = el("a", { href: URL.createObjectURL(new Blob([answer.text], { type: "application/yaml" })), download: "console.yaml" });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
   answered("Parameter file", { ok: true, message: "saved as console.yaml" });
 });
-document.addEventListener("vehicle", () => { if (!$("tab-gains").hidden) listGains(); });
+document.addEventListener("vehicle", () => {
+  nodes = []; of = null; build(); write($("gains-note"), "Reading …");
+  if (!$("tab-gains").hidden) listGains();
+});

@@ -1,7 +1,7 @@
 /* The console's page: connect, keep what arrives, paint it. */
 import { $, kept } from "./dom.js";
 import { forgetColours } from "./drawing.js";
-import { flights, take, takeRows } from "./flights.js";
+import { asksOf, flights, shown, take, takeRows } from "./flights.js";
 import { Link } from "./link.js";
 import { repaint } from "./painting.js";
 import { chartKeys, fitAll } from "./chart.js";
@@ -13,15 +13,15 @@ import { panels } from "./panels.js";
 
 function hear(message) {
   if (message instanceof ArrayBuffer) { if (takeRows(message)) repaint(); return; }
-  const v = take(message);
+  const before = flights.namespace, v = take(message);
   if (message.kind === "course" && v) fitAll();
   if (message.kind === "parameters_changed") parameterChanged(message);
-  if (message.kind === "hello") { document.dispatchEvent(new Event("vehicle")); again(); }
+  if (message.kind === "hello") { if (flights.namespace !== before) document.dispatchEvent(new Event("vehicle")); again(); }
   repaint();
 }
 
 const link = new Link(hear, state => { flights.link = state; showLink(); repaint(); });
-const ask = link.ask.bind(link);
+const ask = asksOf(link.ask.bind(link));
 for (const use of [commands, missions, gains, panels]) use(ask);
 
 /* Tabs. */
@@ -37,7 +37,7 @@ function open(tab) {
 }
 /* Fill the open tab, if it could not be filled before: nodes may come later than the page. */
 function again() {
-  if (document.hidden || flights.link !== "open" || !flights.vehicles.length) return;
+  if (document.hidden || flights.link !== "open" || !shown()) return;
   if (!$("tab-mission").hidden) listMissions();
   if (!$("tab-gains").hidden) listGains();
 }

@@ -5,19 +5,18 @@ import { showDraft } from "./chart.js";
 import { answered } from "./commands.js";
 import { paints } from "./painting.js";
 
+/* checked: the text that has passed, and the namespace of the vehicle that it has passed for. */
 let ask = null, checked = null, list = null, asking = false, busy = false;
 const text = $("mission-text"), choice = $("mission-choice"), lines = $("check-lines");
 
 /* ask: the link's. */
 export function missions(asks) { ask = asks; }
 
-const fields = more => ({ vehicle: flights.chosen, ...more });
-
 /* Ask for the missions once the tab is open; a server that is not ready is asked again. */
 export async function listMissions() {
   if (list || asking) return;
   asking = true;
-  const answer = await ask("missions", fields());
+  const answer = await ask("missions", flights.namespace);
   asking = false;
   if (!answer.ok) { answered("Missions", answer); return; }
   list = answer.missions;
@@ -27,7 +26,7 @@ export async function listMissions() {
 
 choice.addEventListener("change", async () => {
   if (!choice.value) return;
-  const about = list.find(m => m.name === choice.value), answer = await ask("mission_text", fields({ name: choice.value }));
+  const about = list.find(m => m.name === choice.value), answer = await ask("mission_text", flights.namespace, { name: choice.value });
   write($("mission-about"), about && about.description || "");
   if (!answer.ok) { answered("Mission", answer); return; }
   text.value = answer.text;
@@ -35,7 +34,7 @@ choice.addEventListener("change", async () => {
 });
 
 function show(answer) {
-  const found = answer.lines && answer.lines.length ? answer.lines : [answer.message || (answer.ok ? "the plan check has nothing to say" : "refused")];
+  const found = answer.lines && answer.lines.length ? answer.lines : [answer.message || (answer.ok ? "the plan check reports nothing" : "refused")];
   lines.replaceChildren(...found.map(line => el("li", { text: line, class: /^(refused|warning|notice)/.exec(line)?.[1] })));
   lines.className = answer.ok ? "ok" : "bad";
 }
@@ -46,20 +45,22 @@ function changed() {
   buttons();
 }
 
+const passed = () => checked !== null && checked.text === text.value && checked.namespace === flights.namespace;
+
 function buttons() {
   const v = shown(), flying = v && v.tick && v.tick.state === "running";
   $("check").disabled = busy || !text.value.trim();
-  $("load").disabled = busy || checked === null || checked !== text.value;
+  $("load").disabled = busy || !passed();
   $("load").title = $("load").disabled ? "Check the text first" : "";
   write($("load-note"), flying ? "Guidance takes a mission while idle, complete, aborted or on hold." : "");
 }
 
 $("check").addEventListener("click", async () => {
-  const of = text.value;
+  const of = { text: text.value, namespace: flights.namespace };
   busy = true; buttons();
-  const answer = await ask("check", fields({ text: of }), 30);
+  const answer = await ask("check", of.namespace, { text: of.text }, 30);
   busy = false;
-  if (text.value === of) {
+  if (text.value === of.text && flights.namespace === of.namespace) {
     checked = answer.ok ? of : null;
     show(answer); showDraft(answer.ok && answer.course ? answer.course : null);
   }
@@ -67,17 +68,22 @@ $("check").addEventListener("click", async () => {
 });
 
 $("load").addEventListener("click", async () => {
-  const at = $("start-at").value.trim();
+  if (!passed()) { buttons(); return; }
+  const at = $("start-at").value.trim(), of = checked;
   busy = true; buttons();
-  const answer = await ask("load", fields({ text: text.value, ...(at ? { start_at: at } : {}) }), 30);
+  const answer = await ask("load", of.namespace, { text: of.text, ...(at ? { start_at: at } : {}) }, 30);
   busy = false;
-  show({ ...answer, lines: [answer.message || (answer.ok ? "loaded" : "refused")] });
   answered("Load", answer);
-  if (answer.ok) { showDraft(null); kept.set("console-mission", text.value); }
+  if (answer.ok) kept.set("console-mission", of.text);
+  if (flights.namespace === of.namespace) {
+    show({ ...answer, lines: [answer.message || (answer.ok ? "loaded" : "refused")] });
+    if (answer.ok) showDraft(null);
+  }
   buttons();
 });
 
 text.addEventListener("input", changed);
+document.addEventListener("vehicle", changed);
 text.addEventListener("keydown", e => {
   if (e.key === "Enter" && e.ctrlKey && !$("check").disabled) { e.preventDefault(); $("check").click(); }
 });

@@ -27,10 +27,10 @@ function events(v) {
   $("no-events").hidden = some.length > 0;
 }
 
-const acknowledge = a => ask("acknowledge", { vehicle: a.k, alarm: a.id });
+const acknowledge = a => ask("acknowledge", a.namespace, { alarm: a.id });
 
 /* All alarms of all vehicles that are not yet acknowledged, or still active. */
-const alarms = () => flights.vehicles.flatMap((v, k) => v.alarms.map(a => ({ ...a, k, of: v.name || v.namespace })));
+const alarms = () => flights.vehicles.flatMap(v => v.alarms.map(a => ({ ...a, namespace: v.namespace, of: v.name || v.namespace })));
 
 function alarmBar() {
   const all = alarms(), several = flights.vehicles.length > 1, may = Boolean(flights.hello && flights.hello.may_command);
@@ -74,7 +74,6 @@ addEventListener("keydown", wake, { once: true });
 setInterval(beep, 2000);
 
 paints(() => {
-  const v = shown();
-  alarmBar(); sounds();
-  if (v) { health(v); events(v); }
+  const v = shown() || { tick: null, events: [] };
+  alarmBar(); sounds(); health(v); events(v);
 });

@@ -15,7 +15,8 @@ const DERIVED = {
   planes_deg: [["planes"], v => v * DEG],
 };
 
-/* Columns of float32 that grow by doubling; above `most` rows the older half keeps every second one. */
+/* Columns of float32 that grow by doubling. Above `most` rows the older half keeps every second one: the server thins the
+   whole table, but here the strips of the last minutes are in sight, and they would change before the reader's eyes. */
 export class Table {
   constructor(names, most = 200000) {
     this.names = names; this.most = most; this.size = 1024;
@@ -81,35 +82,35 @@ export class Table {
 export class Track {
   constructor(most = 4000, spacing = 0.25) { this.most = most; this.first = spacing; this.clear(); }
 
-  clear() { this.spacing = this.first; this.north = []; this.east = []; this.time = []; this.open = false; }
+  clear() { this.spacing = this.first; this.north = []; this.east = []; this.open = false; }
 
   /* Append a place; NaN interrupts the line. */
-  add(north, east, time) {
+  add(north, east) {
     const n = this.north.length, gap = !Number.isFinite(north) || !Number.isFinite(east);
     if (gap ? !this.open : this.open && this.near(n - 1, north, east)) return;
-    this.push(gap ? NaN : north, gap ? NaN : east, time);
+    this.push(gap ? NaN : north, gap ? NaN : east);
     this.open = !gap;
     if (this.north.length > this.most) this.thin();
   }
 
   near(k, north, east) { return Math.hypot(north - this.north[k], east - this.east[k]) < this.spacing; }
 
-  push(north, east, time) { this.north.push(north); this.east.push(east); this.time.push(time); }
+  push(north, east) { this.north.push(north); this.east.push(east); }
 
   thin() {
-    const { north, east, time } = this;
-    this.spacing *= 2; this.north = []; this.east = []; this.time = []; this.open = false;
+    const { north, east } = this;
+    this.spacing *= 2; this.north = []; this.east = []; this.open = false;
     for (let k = 0; k < north.length; k++) {
       const gap = Number.isNaN(north[k]), n = this.north.length;
-      if (gap ? this.open : !this.open || !this.near(n - 1, north[k], east[k])) this.push(north[k], east[k], time[k]);
+      if (gap ? this.open : !this.open || !this.near(n - 1, north[k], east[k])) this.push(north[k], east[k]);
       this.open = !gap;
     }
   }
 }
 
-/* A binary message: vehicle, epoch, first row, count, then the rows. */
+/* A binary message: vehicle, epoch, first row (which jumps where the server has thinned), count, then the rows. */
 export function unpacked(buffer) {
   const head = new DataView(buffer);
-  const [vehicle, epoch, first, count] = [0, 4, 8, 12].map(at => head.getUint32(at, true));
-  return { vehicle, epoch, first, count, values: new Float32Array(buffer, 16) };
+  const [vehicle, epoch, count] = [0, 4, 12].map(at => head.getUint32(at, true));
+  return { vehicle, epoch, count, values: new Float32Array(buffer, 16) };
 }

@@ -1,7 +1,7 @@
 /* The head of the page: state and reason, progress, figures, pre-flight line, vehicles; the banner. */
 import { $, clock, el, renew, write } from "./dom.js";
 import { fmt } from "./drawing.js";
-import { flights, guided, shown } from "./flights.js";
+import { flights, guided, isLocated, reasonOf, shown, stateOf } from "./flights.js";
 import { heading } from "./rows.js";
 import { paints, repaint } from "./painting.js";
 
@@ -16,7 +16,7 @@ function badge(v) {
   const sure = guided(v), state = v.tick ? v.tick.state : "", known = STATES.includes(state) ? state : "unknown";
   $("state").dataset.state = sure ? known : "silent";
   write($("state-name"), state || "no state");
-  write($("state-reason"), sure ? v.tick.reason || "" : v.tick && flights.link === "open" ? "guidance is silent: the last state that was heard" : "not heard yet");
+  write($("state-reason"), reasonOf(v));
 }
 
 function progress(v) {
@@ -30,15 +30,16 @@ function progress(v) {
 }
 
 function figures(v) {
-  const t = v.tick, table = v.table, next = t && t.next_joint, p = t && t.pose;
+  const t = v.tick, table = v.table, next = t && t.next_joint, there = isLocated(v), p = there && t && t.pose;
+  const last = (name, digits, unit) => there ? `${fmt(table.last(name), digits)} ${unit}` : "–";
   write($("mission-time"), t ? clock(t.mission_time) : "–");
   write($("to-go"), t ? clock(t.time_to_go) : "–");
   write($("next-joint"), next ? `${next.kind} in ${fmt(next.distance, 0)} m, ${clock(next.time)}` : "–");
   write($("now-heading"), p && Number.isFinite(p[3]) ? `${String(Math.round(heading(p[3])) % 360).padStart(3, "0")}°` : "–");
-  write($("now-speed"), `${fmt(table.last("u"), 2)} m/s`);
+  write($("now-speed"), last("u", 2, "m/s"));
   $("depth-box").hidden = !table.seen.has("depth");
-  write($("now-depth"), table.seen.has("depth") ? `${fmt(table.last("depth"), 1)} m` : "–");
-  write($("now-ye"), `${fmt(table.last("ye"), 2)} m`);
+  write($("now-depth"), table.seen.has("depth") ? last("depth", 1, "m") : "–");
+  write($("now-ye"), last("ye", 2, "m"));
 }
 
 function preflight(v) {
@@ -53,9 +54,9 @@ function preflight(v) {
 
 function vehicles() {
   const list = $("vehicles");
-  list.hidden = flights.vehicles.length < 2;
+  list.hidden = flights.vehicles.length < 2 && Boolean(shown());
   if (list.hidden) return;
-  const about = flights.vehicles.map((v, k) => ({ name: v.name || v.namespace, state: v.tick ? v.tick.state : "not heard", colour: v.colour, chosen: k === flights.chosen, k,
+  const about = flights.vehicles.map((v, k) => ({ name: v.name || v.namespace, state: stateOf(v), colour: v.colour, chosen: v === shown(), k,
     alarm: v.alarms.some(a => a.active) }));
   renew(list, about, one => {
     const dot = el("i");
@@ -68,7 +69,8 @@ function vehicles() {
 /* Show another vehicle. */
 export function choose(k) {
   if (!flights.vehicles[k]) return;
-  flights.chosen = k;
+  if (flights.vehicles[k].namespace === flights.namespace) return;
+  flights.namespace = flights.vehicles[k].namespace;
   document.dispatchEvent(new Event("vehicle"));
   repaint();
 }
@@ -82,13 +84,25 @@ export function showLink() {
   if (flights.link !== "open") $("state").dataset.state = "silent";
 }
 
+/* After a restart of the console the vehicle that was shown may not be discovered yet: show no other in its place. */
+function unlisted(hello) {
+  const { namespace } = flights;
+  $("state").dataset.state = "silent"; $("preflight").hidden = true;
+  write($("state-name"), "no state");
+  write($("state-reason"), !hello ? "not heard yet" : namespace ? `${namespace} is not heard yet` : "no vehicle is heard in this ROS domain");
+  for (const one of document.querySelectorAll("#figures dd, #lengths, #share")) write(one, "–");
+  write($("mission-name"), "no mission");
+  $("flown").style.width = "0";
+  document.title = namespace ? `not heard · ${namespace}` : "console";
+}
+
 function draw() {
   const v = shown(), hello = flights.hello;
   write($("viewer"), hello ? `browser ${hello.viewer}` : "");
   $("view-only").hidden = !hello || hello.may_command;
   vehicles();
-  if (!v) { write($("state-reason"), hello ? "no vehicle is heard in this ROS domain" : "not heard yet"); return; }
+  if (!v) { unlisted(hello); return; }
   badge(v); progress(v); figures(v); preflight(v);
-  document.title = `${v.tick ? v.tick.state : "console"} · ${v.name || v.namespace}`;
+  document.title = `${stateOf(v)} · ${v.name || v.namespace}`;
 }
 paints(draw);
