@@ -74,7 +74,7 @@ async def _with_browser(rig: _Rig, socket: Any, scale: Scale) -> dict[str, Any]:
     reading = asyncio.create_task(rig.read(socket))
 
     async def ask(do: str) -> None:
-        await socket.send_str(json.dumps({"id": do, "do": do, "vehicle": 0}))
+        await socket.send_str(json.dumps({"id": do, "do": do, "vehicle": 0, "namespace": NAMESPACE}))
 
     try:
         await rig.until(lambda: rig.may_start)

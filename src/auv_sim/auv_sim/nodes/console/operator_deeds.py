@@ -52,7 +52,7 @@ class OperatorDeeds:
     def commands(self) -> dict[str, Deed]:
         """Requests that reach the vehicle, or what other browsers see."""
         return {
-            "start": self._service(topics.START_SERVICE), "abort": self._service(topics.ABORT_SERVICE),
+            "start": self._start, "abort": self._service(topics.ABORT_SERVICE),
             "hold": self._service(topics.HOLD_SERVICE), "resume": self._service(topics.RESUME_SERVICE),
             "load": self._load, "set": self._set, "goal": self._goal, "acknowledge": self._acknowledge,
         }  # fmt: skip
@@ -82,6 +82,13 @@ class OperatorDeeds:
             return Answer(done, message)
 
         return call
+
+    async def _start(self, record: VehicleRecord, viewer: int, request: Request) -> Answer:
+        reason = record.start_refusal(request.get("digest"), time.monotonic())
+        if reason:
+            self._log(record, viewer, topics.START_SERVICE, reason)
+            return Answer(False, reason)
+        return await self._service(topics.START_SERVICE)(record, viewer, request)
 
     async def _missions(self, _: VehicleRecord, __: int, ___: Request) -> Answer:
         return Answer(True, more={"missions": await asyncio.to_thread(self._shelf.listed)})

@@ -173,6 +173,31 @@ def test_start_is_unlocked_by_the_preflight_alone() -> None:
     assert tick(record, 3.0)["can"]["resume"]
 
 
+def test_a_start_is_refused_by_the_preflight_the_state_and_another_mission() -> None:
+    record = VehicleRecord(0, "/auv")
+    record.progress.state, record.progress.status = "idle", {"digest": "a"}
+    record.set_course({"path": []}, PlanLines(False, ("turn too tight",)))
+    heard(record, 0.0)
+    assert record.start_refusal("a", 0.1) == "plan: turn too tight"
+    record.set_course({"path": []}, PLAN)
+    assert record.start_refusal("a", 0.1) == record.start_refusal(None, 0.1) == ""
+    assert "another mission" in record.start_refusal("b", 0.1)
+    assert record.start_refusal("a", 3.0).startswith("nodes: ")
+    record.progress.state = "running"
+    assert record.start_refusal("a", 0.1) == "the mission is running"
+
+
+def test_an_alarm_begins_at_a_mission_time() -> None:
+    record = VehicleRecord(0, "/auv")
+    heard(record, 0.0)
+    record.take_row(1000.0)
+    record.progress.state, record.progress.status = "running", {"begun at [s]": "990.0"}
+    record.progress.at(1000.0)
+    heard(record, 2.1, topics.GUIDANCE)
+    (alarms,) = texts(record.changes(2.2), "alarms")
+    assert [alarm["since"] for alarm in alarms["alarms"]] == [10.0]
+
+
 @pytest.mark.parametrize("state", ["idle", "complete", "aborted"])
 def test_a_vehicle_whose_odometry_has_stopped_may_not_start(state: str) -> None:
     record = VehicleRecord(0, "/auv")

@@ -12,6 +12,7 @@ import aiohttp
 import pytest
 
 from auv_sim.views.console.record.track_columns import COLUMNS
+from auv_sim.views.console.record.vehicle_record import VehicleRecord
 from auv_sim.views.console.record.wire_messages import ROWS_HEADER
 from auv_sim.views.console.web import page_server, viewer
 from page_bench import PageBench, asked, heard, page_bench
@@ -75,7 +76,7 @@ def test_two_browsers_and_a_late_one_see_the_same() -> None:
 def test_every_request_is_answered_with_its_number() -> None:
     async def check(bench: PageBench) -> None:
         browser = await bench.browser()
-        assert await asked(browser, id=7, do="start", vehicle=0) == {
+        assert await asked(browser, id=7, do="start", vehicle=0, namespace="/auv") == {
             "kind": "answer", "id": 7, "ok": True, "message": "start was called",
         }  # fmt: skip
         for request in (
@@ -88,8 +89,26 @@ def test_every_request_is_answered_with_its_number() -> None:
             await browser.send_str(text)
             assert not (await heard(browser, "answer", id=None))["ok"]
         assert bench.done == [("start", 1)]
-        answer = await asked(browser, id=9, do="resume", vehicle=0)
+        answer = await asked(browser, id=9, do="resume", vehicle=0, namespace="/auv")
         assert (answer["ok"], answer["message"]) == (False, "the console failed: OverflowError: of a bug")
+
+    on_bench(check)
+
+
+def test_a_request_for_another_vehicle_is_refused() -> None:
+    async def check(bench: PageBench) -> None:
+        browser = await bench.browser()
+        answer = await asked(browser, id=1, do="start", vehicle=0, namespace="/auv2")
+        assert answer["message"] == "vehicle 0: found namespace '/auv2', expected '/auv'"
+        for request in ({"do": "start"}, {"do": "hold"}, {"do": "abort", "namespace": "/auv2"},
+                        {"do": "missions", "namespace": "/auv2"}):  # fmt: skip
+            assert not (await asked(browser, id=2, vehicle=0, **request))["ok"]
+        assert bench.done == []
+        assert (await asked(browser, id=3, do="abort", vehicle=0))["ok"], "there is one vehicle"
+        bench.vehicles.append(VehicleRecord(1, "/auv2"))
+        assert not (await asked(browser, id=4, do="abort", vehicle=1))["ok"], "which one is not said"
+        assert (await asked(browser, id=5, do="abort", vehicle=1, namespace="/auv2"))["ok"]
+        assert bench.done == [("abort", 1), ("abort", 1)]
 
     on_bench(check)
 
@@ -101,7 +120,7 @@ def test_a_page_that_may_only_look_commands_nothing() -> None:
         for name in ("start", "abort", "hold"):
             answer = await asked(browser, id=1, do=name, vehicle=0)
             assert not answer["ok"]
-            assert "look" in answer["message"]
+            assert answer["message"] == "view only: commands need the control address"
         assert (await asked(browser, id=2, do="missions"))["ok"]
         assert bench.done == [("missions", 1)]
 
@@ -114,7 +133,7 @@ def test_an_abort_waits_for_no_other_request() -> None:
         browser = await bench.browser()
         bench.may_answer.clear()
         for k in range(viewer.MOST_PENDING + 1):
-            await browser.send_str(json.dumps({"id": k, "do": "start", "vehicle": 0}))
+            await browser.send_str(json.dumps({"id": k, "do": "start", "vehicle": 0, "namespace": "/auv"}))
         assert "not answered yet" in (await heard(browser, "answer", id=viewer.MOST_PENDING))["message"]
         assert (await asked(browser, id="stop", do="abort", vehicle=0))["ok"]
         bench.may_answer.set()

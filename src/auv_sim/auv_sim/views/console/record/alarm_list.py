@@ -14,14 +14,14 @@ class Alarm:
     Attributes:
         id: its number.
         text: for people.
-        since: mission time or stamp at which it began, s.
+        since: mission time at which it began, s; None before a mission.
         active: whether its condition lasts.
         acknowledged: by an operator.
     """
 
     id: int
     text: str
-    since: float
+    since: float | None
     active: bool = True
     acknowledged: bool = False
 
@@ -33,12 +33,12 @@ class AlarmList:
         self._alarms: dict[str, Alarm] = {}
         self._number = 0
 
-    def update(self, conditions: Mapping[str, str], since: float) -> bool:
+    def update(self, conditions: Mapping[str, str], since: float | None) -> bool:
         """Take the conditions that last now; return whether the list has changed.
 
         Args:
             conditions: key -> text.
-            since: for alarms that begin, s.
+            since: mission time for alarms that begin, s.
         """
         before = self.as_json()
         for key, text in conditions.items():

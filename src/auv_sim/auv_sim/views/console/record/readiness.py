@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from auv_msgs_py.contract import topics
@@ -73,6 +73,19 @@ def _plan(plan: PlanLines | None) -> dict[str, Any]:
 
 def _item(name: str, ok: bool, text: str) -> dict[str, Any]:
     return {"name": name, "ok": ok, "text": text}
+
+
+def start_refusal(checked: Mapping[str, Any], state: str) -> str:
+    """Return why a mission cannot be started; empty if it can.
+
+    Args:
+        checked: result of `preflight`.
+        state: of the mission.
+    """
+    failed = [f"{item['name']}: {item['text']}" for item in checked["items"] if not item["ok"]]
+    if failed or buttons(state, ready=True)["start"]:
+        return "; ".join(failed)
+    return f"the mission is {state or 'not heard yet'}"
 
 
 def buttons(state: str, ready: bool) -> dict[str, bool]:

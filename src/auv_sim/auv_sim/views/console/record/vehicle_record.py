@@ -139,7 +139,7 @@ class VehicleRecord:
         if events := self.events.after(self._sent_events):
             self._sent_events = self.events.last_number
             found.append(text_of("events", vehicle=self.index, events=events))
-        if self.alarms.update(self._conditions(now), self.seen.stamp) or self._has_acknowledged:
+        if self.alarms.update(self._conditions(now), self.progress.mission_time) or self._has_acknowledged:
             self._has_acknowledged = False
             found.append(self._alarm_message())
         tick = self.tick(now)
@@ -178,6 +178,19 @@ class VehicleRecord:
             covariance=seen.covariance, health=health_board.as_json(self.health.table(now)),
             preflight=ready, can=readiness.buttons(progress.state, ready["ready"]),
         )  # fmt: skip
+
+    def start_refusal(self, digest: object, now: float) -> str:
+        """Return why a start is refused; empty if it is not.
+
+        Args:
+            digest: of the mission that the page shows; None where it did not say.
+            now: steady time, s.
+        """
+        progress = self.progress
+        if digest is not None and digest != progress.status.get("digest"):
+            return "the page shows another mission than guidance has: look at the mission again"
+        checked = readiness.preflight(self.health, self.plan, progress.state, now)
+        return readiness.start_refusal(checked, progress.state)
 
     def _conditions(self, now: float) -> Mapping[str, str]:
         """Return what is an alarm now: key -> text."""

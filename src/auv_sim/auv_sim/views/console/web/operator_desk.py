@@ -6,14 +6,14 @@ import json
 from collections.abc import Awaitable, Callable, Mapping
 from typing import Any, NamedTuple
 
-from auv_msgs_py.values.errors import SuiteError, printable
+from auv_msgs_py.values.errors import SuiteError, printable, shortened
 from auv_sim.views.console.record.vehicle_record import VehicleRecord
 from auv_sim.views.console.record.wire_messages import text_of
 from auv_sim.views.console.web.viewer import MOST_PENDING, Viewer
 
 #: Longest request, bytes: a mission's text and more.
 LONGEST = 512_000
-_VIEW_ONLY = "this page may look, not command: open the address for control"
+_VIEW_ONLY = "view only: commands need the control address"
 
 
 class Answer(NamedTuple):
@@ -64,6 +64,7 @@ class OperatorDesk:
     async def _done(self, request: Mapping[str, Any], viewer: Viewer) -> Answer:
         name, index = request.get("do"), request.get("vehicle", 0)
         deed = self._looks.get(name) if isinstance(name, str) else None
+        is_command = deed is None
         if deed is None:
             deed = self._commands.get(name) if isinstance(name, str) else None
             if deed is None:
@@ -72,6 +73,8 @@ class OperatorDesk:
                 return Answer(False, _VIEW_ONLY)
         if type(index) is not int or not 0 <= index < len(self._vehicles):
             return Answer(False, f"no vehicle {index!r}"[:200])
+        needs_namespace = is_command and not (name == "abort" and len(self._vehicles) == 1)
+        self._require_namespace(index, request.get("namespace"), needs_namespace)
         if viewer.pending >= MOST_PENDING and name != "abort":
             return Answer(False, f"{viewer.pending} requests are not answered yet: try again")
         viewer.pending += 1
@@ -79,6 +82,14 @@ class OperatorDesk:
             return await deed(self._vehicles[index], viewer.number, request)
         finally:
             viewer.pending -= 1
+
+    def _require_namespace(self, index: int, namespace: Any, is_needed: bool) -> None:
+        """Refuse a request for another vehicle: a restarted console may number the vehicles anew."""
+        if namespace is None and not is_needed:
+            return
+        own = self._vehicles[index].namespace
+        if namespace != own:
+            raise RequestRefused(f"vehicle {index}: found namespace {namespace!r}, expected {own!r}"[:300])
 
 
 class RequestRefused(SuiteError):
@@ -89,9 +100,9 @@ def _parsed(text: str) -> dict[str, Any]:
     try:
         request = json.loads(text)
     except (ValueError, RecursionError):
-        raise RequestRefused("a request that is no JSON") from None
+        raise RequestRefused("found no JSON, expected a JSON object") from None
     if not isinstance(request, dict):
-        raise RequestRefused("a request that is no JSON object")
+        raise RequestRefused(f"found {shortened(text, 80)}, expected a JSON object")
     return request
 
 

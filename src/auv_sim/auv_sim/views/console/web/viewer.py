@@ -52,7 +52,7 @@ class Viewer:
 
         Args:
             messages: to send.
-            is_first: the whole record, which counts for nothing: however long it is, it has to get there.
+            is_first: the whole record, which is excluded from the limit.
         """
         for message in messages:
             self._queue.append(message)
