@@ -13,6 +13,7 @@ import aiohttp
 from aiohttp import ClientWebSocketResponse
 from aiohttp.test_utils import TestClient, TestServer
 
+from auv_sim.views.console.record.fault_log import FaultLog
 from auv_sim.views.console.record.vehicle_record import VehicleRecord
 from auv_sim.views.console.web.operator_desk import Answer, OperatorDesk
 from auv_sim.views.console.web.page_files import FRONT, PageFile
@@ -30,6 +31,7 @@ class PageBench:
 
     def __init__(self, view_only: bool = False, names: tuple[str, ...] = ()) -> None:
         self.vehicles = [VehicleRecord(0, "/auv")]
+        self.faults: list[str] = []
         self.done: list[tuple[str, int]] = []
         self.tokens = new_tokens(view_only)
         self.may_answer = asyncio.Event()
@@ -40,7 +42,9 @@ class PageBench:
         commands["resume"] = _failing
         files = {FRONT: PageFile(Path(__file__), "text/html")}
         desk = OperatorDesk(self.vehicles, looks, commands)
-        self.server = PageServer(self.vehicles, desk, self.guard, files)
+        self.server = PageServer(
+            self.vehicles, desk, self.guard, files, FaultLog(self.faults.append, lambda: 0.0)
+        )
         self.client: TestClient[Any, Any]
 
     def _deed(self, name: str) -> Callable[[VehicleRecord, int, Mapping[str, Any]], Awaitable[Answer]]:

@@ -30,6 +30,7 @@ from auv_sim.nodes.console.operator_deeds import OperatorDeeds
 from auv_sim.nodes.console.vehicle_calls import CallFailed, ServiceCaller
 from auv_sim.nodes.console.vehicle_feed import VehicleFeed
 from auv_sim.views.console.mission_desk import MissionFacts, MissionShelf, facts_of
+from auv_sim.views.console.record.fault_log import FaultLog
 from auv_sim.views.console.record.track_file import remove_stale
 from auv_sim.views.console.web.operator_desk import OperatorDesk
 from auv_sim.views.console.web.page_files import page_files
@@ -89,20 +90,26 @@ class ConsoleSession:
         cache: Path | None,
     ) -> None:
         self._caller = ServiceCaller(node)
-        self._deeds = OperatorDeeds(node, self._caller, shelf)
+        self._faults = FaultLog(node.get_logger().error, time.monotonic)
+        self._deeds = OperatorDeeds(node, self._caller, shelf, self._is_here)
         self._feeds: list[VehicleFeed] = []
         self._server: PageServer | None = None
         domain = int(os.environ.get("ROS_DOMAIN_ID") or 0)
-        self._graph = GraphFeed(node, options.namespaces, cache, domain, self._discovered, self._publish)
+        self._graph = GraphFeed(
+            node, options.namespaces, cache, domain, self._discovered, self._publish, self._faults
+        )
         sessions = PageSessions(cache / f"cookies-{port}.json" if cache is not None else None, time.time)
         guard = PageGuard(tokens, _names(options.address), sessions, port)
         records = self._graph.records
         desk = OperatorDesk(records, self._deeds.looks, self._deeds.commands)
-        self._server = PageServer(records, desk, guard, page_files())
+        self._server = PageServer(records, desk, guard, page_files(), self._faults)
 
     def _publish(self, messages: list[str | bytes]) -> None:
         if self._server is not None:
             self._server.publish(messages)
+
+    def _is_here(self, browser: int) -> bool:
+        return self._server is not None and self._server.has_viewer(browser)
 
     def _discovered(self, feed: VehicleFeed) -> None:
         self._feeds.append(feed)
@@ -120,12 +127,12 @@ class ConsoleSession:
         try:
             while not stop.requested:
                 begin = time.monotonic()
-                self._graph.poll()
+                with self._faults.guard("the look at the topics"):
+                    self._graph.poll()
                 await asyncio.sleep(max(0.0, begin + _POLL - time.monotonic()))
         finally:
             facts.cancel()
-            with contextlib.suppress(asyncio.CancelledError):
-                await facts
+            await asyncio.gather(facts, return_exceptions=True)
             await runner.cleanup()
             self._caller.close()
 
@@ -133,10 +140,14 @@ class ConsoleSession:
         """Read the file of each mission that guidance reports: joints, and the check of its plan."""
         while True:
             for feed in tuple(self._feeds):
-                if feed.course.needs_facts():
-                    with contextlib.suppress(CallFailed):  # guidance is gone: the next round tries again
-                        feed.course.take_facts(await self._facts(feed))
+                with self._faults.guard(f"{feed.record.namespace} mission"):
+                    if feed.course.needs_facts():
+                        await self._read_mission(feed)
             await asyncio.sleep(_RETRY)
+
+    async def _read_mission(self, feed: VehicleFeed) -> None:
+        with contextlib.suppress(CallFailed):  # guidance is gone: the next round tries again
+            feed.course.take_facts(await self._facts(feed))
 
     async def _facts(self, feed: VehicleFeed) -> MissionFacts:
         desk, digest = self._deeds.desk(feed.record.namespace), feed.course.digest

@@ -13,13 +13,16 @@ from rclpy.node import Node
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.values.errors import MessageRefused, printable
-from auv_sim.nodes.console.parameter_desk import plain_value
+from auv_sim.nodes.console.parameter_desk import NOT_SHOWN, plain_value
 from auv_sim.nodes.console.vehicle_feed import PolledReader, VehicleFeed
+from auv_sim.views.console.record.fault_log import FaultLog
 from auv_sim.views.console.record.vehicle_record import VehicleRecord
 from auv_sim.views.console.record.wire_messages import text_of
 
 #: Between two looks for vehicles, s.
 _LOOK = 1.0
+#: Most messages of a shared topic that are taken at a poll: a flood of them must not delay an abort.
+MOST_AT_ONCE = 40
 #: Depths of the queues of topics that all nodes publish.
 _LOG_DEPTH, _DEPTH = 200, 100
 _ROSOUT = Topic("/rosout", "rcl_interfaces/msg/Log", "every node", latched=True)
@@ -40,15 +43,17 @@ class GraphFeed:
         domain: ROS domain.
         discovered: called with each new vehicle.
         publish: sends a message to every browser.
+        faults: logs what fails.
     """
 
     def __init__(
         self, node: Node, namespaces: tuple[str, ...], tracks: Path | None, domain: int,
         discovered: Callable[[VehicleFeed], None], publish: Callable[[list[str | bytes]], None],
+        faults: FaultLog,
     ) -> None:  # fmt: skip
         self._node, self._tracks, self._domain = node, tracks, domain
         self._discovered, self._publish = discovered, publish
-        self._only = namespaces
+        self._only, self._faults = namespaces, faults
         self.records: list[VehicleRecord] = []
         self._feeds: dict[str, VehicleFeed] = {}
         self._looked_at = -_LOOK
@@ -66,15 +71,24 @@ class GraphFeed:
         now = time.monotonic()
         if now - self._looked_at >= _LOOK:
             self._looked_at = now
-            self._look_for_vehicles()
+            with self._faults.guard("the look for vehicles"):
+                self._look_for_vehicles()
         for feed in self._feeds.values():
             feed.poll()
         for polled, read in self._shared:
-            with contextlib.suppress(MessageRefused):
-                while (message := polled.take()) is not None:
-                    read(message)
+            self._take(polled, read)
         for feed in self._feeds.values():
-            feed.course.look()
+            with self._faults.guard(f"{feed.record.namespace} course"):
+                feed.course.look()
+
+    def _take(self, polled: PolledReader, read: Callable[[Any], None]) -> None:
+        """Read at most `MOST_AT_ONCE` messages of a topic."""
+        for _ in range(MOST_AT_ONCE):
+            with self._faults.guard(read.__name__), contextlib.suppress(MessageRefused):
+                message = polled.take()
+                if message is None:
+                    return
+                read(message)
 
     def _look_for_vehicles(self) -> None:
         if self._only:
@@ -87,8 +101,9 @@ class GraphFeed:
 
     def _add(self, namespace: str) -> None:
         record = VehicleRecord(len(self.records), namespace, self._tracks)
+        feed = VehicleFeed(self._node, record, self._domain, time.monotonic, self._faults)
         self.records.append(record)
-        feed = self._feeds[namespace] = VehicleFeed(self._node, record, self._domain, time.monotonic)
+        self._feeds[namespace] = feed
         self._discovered(feed)
 
     def _of(self, full_name: str) -> tuple[VehicleRecord | None, str]:
@@ -119,6 +134,8 @@ class GraphFeed:
         if record is None:
             return
         for parameter in (*event.new_parameters, *event.changed_parameters):
+            if parameter.name.startswith(NOT_SHOWN):  # a mission's text is long, and no gain
+                continue
             value = plain_value(parameter.value)
             message = text_of(
                 "parameters_changed", vehicle=record.index, node=name, name=parameter.name, value=value

@@ -5,7 +5,8 @@ from __future__ import annotations
 import asyncio
 import math
 import time
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from geometry_msgs.msg import PoseStamped
@@ -34,10 +35,15 @@ class OperatorDeeds:
         node: of the console; its log is the record of what was done.
         caller: of the services.
         shelf: of the missions.
+        is_here: returns whether a browser, by its number, is still there.
     """
 
-    def __init__(self, node: Node, caller: ServiceCaller, shelf: MissionShelf) -> None:
+    def __init__(
+        self, node: Node, caller: ServiceCaller, shelf: MissionShelf, is_here: Callable[[int], bool]
+    ) -> None:  # fmt: skip
         self._node, self._caller, self._shelf = node, caller, shelf
+        self._is_here = is_here
+        self._aborts: Counter[str] = Counter()
         self._desks: dict[str, ParameterDesk] = {}
 
     @property
@@ -52,7 +58,7 @@ class OperatorDeeds:
     def commands(self) -> dict[str, Deed]:
         """Requests that reach the vehicle, or what other browsers see."""
         return {
-            "start": self._start, "abort": self._service(topics.ABORT_SERVICE),
+            "start": self._start, "abort": self._abort,
             "hold": self._service(topics.HOLD_SERVICE), "resume": self._service(topics.RESUME_SERVICE),
             "load": self._load, "set": self._set, "goal": self._goal, "acknowledge": self._acknowledge,
         }  # fmt: skip
@@ -71,17 +77,32 @@ class OperatorDeeds:
         level = "warning" if failure else "info"
         record.events.add(text, self._node.get_name(), level, record.progress.mission_time, time.time())
 
+    def _may_send(self, record: VehicleRecord, viewer: int) -> Callable[[], bool]:
+        """Return what says whether a request of now still counts: no abort came, and its browser is there."""
+        namespace, aborts = record.namespace, self._aborts[record.namespace]
+        return lambda: self._aborts[namespace] == aborts and self._is_here(viewer)
+
+    async def _abort(self, record: VehicleRecord, viewer: int, _: Request) -> Answer:
+        """Abort, even if the browser leaves, and cancel what has not been sent to the vehicle yet."""
+        self._aborts[record.namespace] += 1
+        return await self._call(record, viewer, topics.ABORT_SERVICE, lambda: True)
+
     def _service(self, service: str) -> Deed:
         async def call(record: VehicleRecord, viewer: int, _: Request) -> Answer:
-            try:
-                done, message = await self._caller.trigger(record.namespace, service)
-            except CallFailed as error:
-                self._log(record, viewer, service, str(error))
-                raise
-            self._log(record, viewer, service, "" if done else message)
-            return Answer(done, message)
+            return await self._call(record, viewer, service, self._may_send(record, viewer))
 
         return call
+
+    async def _call(
+        self, record: VehicleRecord, viewer: int, service: str, may_send: Callable[[], bool]
+    ) -> Answer:  # fmt: skip
+        try:
+            done, message = await self._caller.trigger(record.namespace, service, may_send)
+        except CallFailed as error:
+            self._log(record, viewer, service, str(error))
+            raise
+        self._log(record, viewer, service, "" if done else message)
+        return Answer(done, message)
 
     async def _start(self, record: VehicleRecord, viewer: int, request: Request) -> Answer:
         reason = record.start_refusal(request.get("digest"), time.monotonic())
@@ -110,7 +131,9 @@ class OperatorDeeds:
         values = {"mission_text": text_in(request, "text")}
         if "start_at" in request:
             values["start_at"] = text_in(request, "start_at")
-        reason = await self.desk(record.namespace).set(topics.GUIDANCE, values)
+        reason = await self.desk(record.namespace).set(
+            topics.GUIDANCE, values, self._may_send(record, viewer)
+        )
         self._log(record, viewer, "load a mission", reason)
         return Answer(not reason, reason or "the mission is set")
 
@@ -122,7 +145,7 @@ class OperatorDeeds:
 
     async def _set(self, record: VehicleRecord, viewer: int, request: Request) -> Answer:
         node, name, value = text_in(request, "node"), text_in(request, "name"), request.get("value")
-        reason = await self.desk(record.namespace).set(node, {name: value})
+        reason = await self.desk(record.namespace).set(node, {name: value}, self._may_send(record, viewer))
         self._log(record, viewer, f"set {node} {name} {value!r}"[:300], reason)
         return Answer(not reason, reason)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterType, ParameterValue
@@ -28,7 +28,7 @@ NODES = (topics.GUIDANCE, topics.AUTOPILOT, topics.OBSERVER)
 #: Groups of gains. All others are limits, watchdogs and modes: they are shown apart.
 _GAINS = ("guidance.", "autopilot.", "pitch.", "observer.")
 #: Of the mission and the process rather than of the vehicle's behaviour.
-_NOT_SHOWN = ("mission", "mission_text", "start_at", *BUILT_IN)
+NOT_SHOWN = ("mission", "mission_text", "start_at", *BUILT_IN)
 #: Not written into a parameter file: the launcher sets them.
 _NOT_KEPT = ("vehicle", "lockstep", "recorded")
 _SERVICES = {
@@ -96,11 +96,16 @@ class ParameterDesk:
         response = await self._call(node, GetParameters, names=list(names))
         return [plain_value(value) for value in response.values]
 
-    async def set(self, node: str, values: Mapping[str, Any]) -> str:
+    async def set(self, node: str, values: Mapping[str, Any], may_send: Callable[[], bool]) -> str:
         """Set parameters of a node at once; return why they were refused, empty if they were not.
 
+        Args:
+            node: its name.
+            values: name -> value of JSON.
+            may_send: as of `ServiceCaller.call`.
+
         Raises:
-            CallFailed: the node does not answer.
+            CallFailed: the node does not answer, or the request may not be sent.
             RequestRefused: there is no such node or parameter, or a value does not fit its type.
         """
         if node not in SUITE:
@@ -111,7 +116,9 @@ class ParameterDesk:
             Parameter(name=name, value=converted(name, value, self._types.get((node, name), 0)))
             for name, value in values.items()
         ]
-        response = await self._call(node, SetParametersAtomically, parameters=parameters)
+        service = self._full(node, _SERVICES[SetParametersAtomically])
+        request = SetParametersAtomically.Request(parameters=parameters)
+        response = await self._caller.call(SetParametersAtomically, service, request, may_send)
         return "" if response.result.successful else str(response.result.reason)
 
     async def file(self) -> str:
@@ -130,7 +137,7 @@ class ParameterDesk:
 
     async def _rows(self, node: str) -> list[dict[str, Any]]:
         response = await self._call(node, ListParameters)
-        names = [name for name in response.result.names if not name.startswith(_NOT_SHOWN)]
+        names = [name for name in response.result.names if not name.startswith(NOT_SHOWN)]
         described = await self._described(node, names)
         values = await self.value(node, *names)
         defaults = {leaf.name: leaf.default for leaf in leaves(SUITE[node])}

@@ -1,4 +1,4 @@
-"""The topics of one vehicle, polled: their queues hold one message, so a fast mission costs no more."""
+"""The topics of one vehicle, polled: but for the state their queues hold one message, at any speed."""
 
 from __future__ import annotations
 
@@ -17,10 +17,13 @@ from auv_msgs_py.node.transport import decoder
 from auv_msgs_py.values.errors import MessageRefused
 from auv_sim.nodes.console.course_reader import CourseReader
 from auv_sim.nodes.console.readings_of_topics import Reader, TopicReader
+from auv_sim.views.console.record.fault_log import FaultLog
 from auv_sim.views.console.record.vehicle_record import VehicleRecord
 
 #: After a silence of this long another publisher may be there, s.
 _SILENCE = 2.0
+#: Queues that hold more than the newest message: a new state counts when it was heard twice.
+_DEPTHS = {topics.MISSION_STATE: qos.DEPTH}
 #: Odometries that are left out while the graph does not show their publisher.
 _MOST_LOOKS = 40
 
@@ -65,31 +68,46 @@ class VehicleFeed:
         record: of the vehicle.
         domain: ROS domain, part of the track's owner.
         clock: returns steady time, s.
+        faults: logs what fails.
     """
 
-    def __init__(self, node: Node, record: VehicleRecord, domain: int, clock: Callable[[], float]) -> None:
+    def __init__(
+        self, node: Node, record: VehicleRecord, domain: int, clock: Callable[[], float], faults: FaultLog
+    ) -> None:  # fmt: skip
         self.record = record
-        self._node, self._domain, self._clock = node, domain, clock
+        self._node, self._domain, self._clock, self._faults = node, domain, clock, faults
         self._reader = TopicReader(record, FrameTable(FrameIds()), clock)
         self.course = CourseReader(record)
         readers = {**self.course.readers(), **self._reader.readers()}
         self._polled: list[tuple[Topic, PolledReader, Reader]] = [
-            (topic, PolledReader(node, topic, topics.full_name(record.namespace, topic.name)), read)
-            for topic, read in readers.items()
+            (topic, self._polled_reader(topic), read) for topic, read in readers.items()
         ]
         self._publisher = ""
         self._heard_at, self._sought = 0.0, 0
 
+    def _polled_reader(self, topic: Topic) -> PolledReader:
+        name = topics.full_name(self.record.namespace, topic.name)
+        return PolledReader(self._node, topic, name, _DEPTHS.get(topic, 1))
+
     def poll(self) -> None:
         """Take what has arrived."""
         for topic, polled, read in self._polled:
-            with contextlib.suppress(MessageRefused):  # the control chain reports it
-                message = polled.take()
-                if message is None:
-                    continue
-                if topic is not topics.ODOM or self._is_identified():
-                    read(message)
-        self._reader.look()
+            for _ in range(_DEPTHS.get(topic, 1)):
+                with self._faults.guard(f"{self.record.namespace} {topic.name}"):
+                    if not self._take(topic, polled, read):
+                        break
+        with self._faults.guard(f"{self.record.namespace} state"):
+            self._reader.look()
+
+    def _take(self, topic: Topic, polled: PolledReader, read: Reader) -> bool:
+        """Read the next message of a topic; return whether there was one."""
+        with contextlib.suppress(MessageRefused):  # the control chain reports it
+            message = polled.take()
+            if message is None:
+                return False
+            if topic is not topics.ODOM or self._is_identified():
+                read(message)
+        return True
 
     def _is_identified(self) -> bool:
         """Return whether an odometry counts: its publisher is known, or was sought for long enough.

@@ -215,3 +215,21 @@ def test_a_browser_that_answers_no_ping_is_cut(monkeypatch: pytest.MonkeyPatch) 
         deaf.close()
 
     on_bench(check)
+
+
+def test_a_vehicle_that_makes_the_console_fail_keeps_no_other_from_the_browsers() -> None:
+    async def check(bench: PageBench) -> None:
+        def fail(_: float) -> list[str | bytes]:
+            raise OverflowError("of a bug")
+
+        bench.vehicles[0].changes = bench.vehicles[0].whole = fail  # type: ignore[method-assign]
+        bench.vehicles.append(VehicleRecord(1, "/auv2"))
+        browser = await bench.browser()
+        assert (await heard(browser, "tick"))["vehicle"] == 1
+        bench.vehicles[1].take_row(5.0)
+        assert (await heard(browser, "tick", now=5.0))["vehicle"] == 1, "the ticks go on"
+        assert bench.faults == [
+            f"the console failed at /auv {what}: OverflowError: of a bug" for what in ("changes", "record")
+        ]
+
+    on_bench(check)

@@ -11,6 +11,7 @@ from typing import Any
 
 from aiohttp import WSMsgType, web
 
+from auv_sim.views.console.record.fault_log import FaultLog
 from auv_sim.views.console.record.track_columns import COLUMNS
 from auv_sim.views.console.record.vehicle_record import VehicleRecord
 from auv_sim.views.console.record.wire_messages import PROTOCOL, text_of
@@ -40,6 +41,7 @@ class PageServer:
         desk: takes the requests of browsers.
         guard: judges every request.
         files: of the page, by name.
+        faults: logs what fails.
     """
 
     def __init__(
@@ -48,8 +50,10 @@ class PageServer:
         desk: OperatorDesk,
         guard: PageGuard,
         files: Mapping[str, PageFile],
+        faults: FaultLog,
     ) -> None:
         self._vehicles, self._desk, self._guard, self._files = vehicles, desk, guard, files
+        self._faults = faults
         self._started = secrets.token_hex(8)
         self._viewers: set[Viewer] = set()
         self._count = 0
@@ -71,6 +75,10 @@ class PageServer:
         """Number of open pages."""
         return len(self._viewers)
 
+    def has_viewer(self, number: int) -> bool:
+        """Return whether a browser is still there."""
+        return any(viewer.number == number for viewer in self._viewers)
+
     def publish(self, messages: Iterable[Message]) -> None:
         """Send messages to every browser."""
         found = list(messages)
@@ -86,7 +94,8 @@ class PageServer:
         """Send what has changed."""
         now = asyncio.get_running_loop().time()
         for vehicle in self._vehicles:
-            self.publish(vehicle.changes(now))
+            with self._faults.guard(f"{vehicle.namespace} changes"):
+                self.publish(vehicle.changes(now))
 
     @web.middleware
     async def _judge(self, request: web.Request, handler: _Handler) -> web.StreamResponse:
@@ -146,7 +155,8 @@ class PageServer:
         viewer.put([self._hello(viewer)])
         now = asyncio.get_running_loop().time()
         for vehicle in self._vehicles:
-            viewer.put(vehicle.whole(now), is_first=True)
+            with self._faults.guard(f"{vehicle.namespace} record"):
+                viewer.put(vehicle.whole(now), is_first=True)
         try:
             await self._listen(socket, viewer)
         finally:
