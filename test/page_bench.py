@@ -31,12 +31,13 @@ class PageBench:
 
     def __init__(self, view_only: bool = False, names: tuple[str, ...] = ()) -> None:
         self.vehicles = [VehicleRecord(0, "/auv")]
+        self.now = 0.0
         self.faults: list[str] = []
         self.done: list[tuple[str, int]] = []
         self.tokens = new_tokens(view_only)
         self.may_answer = asyncio.Event()
         self.may_answer.set()
-        self.guard = PageGuard(self.tokens, names, PageSessions(None, lambda: 0.0), 80)
+        self.guard = PageGuard(self.tokens, names, PageSessions(None, lambda: self.now))
         looks = {"missions": self._deed("missions")}
         commands = {name: self._deed(name) for name in ("start", "abort", "hold")}
         commands["resume"] = _failing
@@ -57,6 +58,10 @@ class PageBench:
         return act
 
     @property
+    def cookie_name(self) -> str:
+        return f"auv_console_{self.client.port}"
+
+    @property
     def origin(self) -> str:
         return str(self.client.make_url("/")).rstrip("/")
 
@@ -65,7 +70,7 @@ class PageBench:
         response = await self.client.get("/", params={"token": token}, allow_redirects=False)
         assert response.status == 303, await response.text()
         self.client.session.cookie_jar.clear()
-        return {"Cookie": f"{self.guard.cookie}={response.cookies[self.guard.cookie].value}"}
+        return {"Cookie": f"{self.cookie_name}={response.cookies[self.cookie_name].value}"}
 
     async def browser(self, token: str = "") -> ClientWebSocketResponse:
         """Open the socket as the page does."""

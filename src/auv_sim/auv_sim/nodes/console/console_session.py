@@ -99,7 +99,7 @@ class ConsoleSession:
             node, options.namespaces, cache, domain, self._discovered, self._publish, self._faults
         )
         sessions = PageSessions(cache / f"cookies-{port}.json" if cache is not None else None, time.time)
-        guard = PageGuard(tokens, _names(options.address), sessions, port)
+        guard = PageGuard(tokens, _names(options.address), sessions)
         records = self._graph.records
         desk = OperatorDesk(records, self._deeds.looks, self._deeds.commands)
         self._server = PageServer(records, desk, guard, page_files(), self._faults)

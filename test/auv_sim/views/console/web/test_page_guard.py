@@ -70,7 +70,7 @@ def test_a_token_becomes_a_cookie_and_leaves_the_address() -> None:
     async def check(bench: PageBench) -> None:
         response = await bench.client.get("/", params={"token": bench.tokens.control}, allow_redirects=False)
         assert (response.status, response.headers["Location"]) == (303, "/")
-        cookie = response.cookies[bench.guard.cookie]
+        cookie = response.cookies[bench.cookie_name]
         assert (cookie["httponly"], cookie["samesite"], cookie["path"]) == (True, "Strict", "/")
         assert cookie.value not in bench.tokens
         headers = await bench.cookie(bench.tokens.control)
@@ -83,7 +83,7 @@ def test_a_token_becomes_a_cookie_and_leaves_the_address() -> None:
         }
         assert "unsafe" not in page.headers["Content-Security-Policy"]
         assert page.headers["X-Content-Type-Options"] == "nosniff"
-        wrong = {"Cookie": f"{bench.guard.cookie}={cookie.value[:-1]}"}
+        wrong = {"Cookie": f"{bench.cookie_name}={cookie.value[:-1]}"}
         assert (await bench.client.get("/", headers=wrong)).status == 403
 
     on_bench(check)
@@ -124,18 +124,18 @@ def test_a_page_of_another_origin_gets_no_socket() -> None:
     ],
 )
 def test_hosts(names: tuple[str, ...], host: str, is_own: bool) -> None:
-    guard = PageGuard(new_tokens(False), names, PageSessions(None, lambda: 0.0), 8642)
+    guard = PageGuard(new_tokens(False), names, PageSessions(None, lambda: 0.0))
     assert guard.is_own_host(host) is is_own
 
 
 def test_view_only_takes_commands_from_no_one() -> None:
     sessions = PageSessions(None, lambda: 0.0)
-    with_control = PageGuard(Tokens("secret", "look"), (), sessions, 1)
+    with_control = PageGuard(Tokens("secret", "look"), (), sessions)
     cookie = with_control.session_of("secret")
     assert with_control.may_command(cookie) is True
     assert with_control.may_command(with_control.session_of("look")) is False
     assert with_control.may_command("other") is None
-    view_only = PageGuard(Tokens("", "look"), (), sessions, 1)
+    view_only = PageGuard(Tokens("", "look"), (), sessions)
     assert view_only.session_of("") is None
     assert view_only.session_of("secret") is None
     assert view_only.may_command(cookie) is False, "of a start that allowed it"
@@ -155,3 +155,45 @@ def test_cookies_outlive_a_restart_but_not_their_time(tmp_path: Path) -> None:
     assert PageSessions(file, lambda: now[0]).find(cookie) is None
     file.write_text("[1, 2]")
     assert PageSessions(file, lambda: now[0]).find(cookie) is None
+
+
+def test_two_tunnels_to_two_consoles_have_two_cookies() -> None:
+    async def check(bench: PageBench) -> None:
+        url, token = bench.client.make_url("/"), {"token": bench.tokens.control}
+        found = []
+        for host in ("localhost:9001", "localhost:9002", "[::1]:9003", "localhost"):
+            response = await bench.client.session.get(
+                url, params=token, headers={"Host": host}, allow_redirects=False
+            )
+            found += response.cookies
+        assert found == [f"auv_console_{port}" for port in (9001, 9002, 9003, 80)]
+
+    on_bench(check)
+
+
+def test_the_address_to_look_takes_no_control_away() -> None:
+    async def check(bench: PageBench) -> None:
+        look = {"token": bench.tokens.view}
+        for token, cookies in ((bench.tokens.control, 0), (bench.tokens.view, 1)):
+            headers = await bench.cookie(token)
+            response = await bench.client.get("/", params=look, headers=headers, allow_redirects=False)
+            assert (response.status, len(response.cookies)) == (303, cookies)
+
+    on_bench(check)
+
+
+def test_a_cookie_counts_anew_when_the_page_is_opened_or_connects() -> None:
+    async def check(bench: PageBench) -> None:
+        headers = await bench.cookie(bench.tokens.control)
+        bench.now += 0.9 * LIFETIME
+        page = await bench.client.get("/", headers=headers)
+        assert int(page.cookies[bench.cookie_name]["max-age"]) == LIFETIME
+        bench.now += 0.9 * LIFETIME
+        socket = await bench.client.ws_connect("/socket", headers={**headers, "Origin": bench.origin})
+        bench.now += 0.9 * LIFETIME
+        assert (await bench.client.get("/page/console.html", headers=headers)).status == 200
+        await socket.close()
+        bench.now += 0.2 * LIFETIME
+        assert (await bench.client.get("/", headers=headers)).status == 403
+
+    on_bench(check)

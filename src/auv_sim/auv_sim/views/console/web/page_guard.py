@@ -57,14 +57,21 @@ class PageGuard:
         tokens: of this start.
         names: of this machine beside the loopback's, without port.
         sessions: the cookies in force.
-        port: of the console; part of the cookie's name, as browsers send a cookie to every port of a host.
     """
 
-    def __init__(self, tokens: Tokens, names: Iterable[str], sessions: PageSessions, port: int) -> None:
+    def __init__(self, tokens: Tokens, names: Iterable[str], sessions: PageSessions) -> None:
         self._tokens, self._sessions = tokens, sessions
         self._names = {name.lower() for name in (*_LOOPBACK, *names)}
         self._takes_addresses = any(name in ("0.0.0.0", "[::]") for name in self._names)  # noqa: S104
-        self.cookie = f"auv_console_{port}"
+
+    @staticmethod
+    def cookie_name(host: str | None) -> str:
+        """Return the name of the cookie under a Host header, with its port.
+
+        Browsers send a cookie to every port of a host, and two tunnels to two consoles have one host.
+        """
+        port = (host or "").rpartition(":")[2]
+        return f"auv_console_{port if port.isdecimal() else 80}"
 
     def is_own_host(self, host: str | None) -> bool:
         """Return whether a Host header names this console; the port may be that of a tunnel."""
@@ -88,6 +95,15 @@ class PageGuard:
         control = hmac.compare_digest(given, self._tokens.control.encode()) and bool(self._tokens.control)
         view = hmac.compare_digest(given, self._tokens.view.encode())
         return self._sessions.begin(may_command=control) if control or view else None
+
+    def commands_already(self, token: str, cookie: str | None) -> bool:
+        """Return whether the owner of a cookie may command and gives the token to look."""
+        is_view = hmac.compare_digest(token.encode(), self._tokens.view.encode())
+        return is_view and self.may_command(cookie) is True
+
+    def renew(self, cookie: str) -> None:
+        """Let a cookie in force count from now."""
+        self._sessions.renew(cookie)
 
     def may_command(self, cookie: str | None) -> bool | None:
         """Return whether the owner of a cookie may command; None for an unknown cookie."""

@@ -105,27 +105,42 @@ class PageServer:
             return web.Response(status=405, text="405: GET only", headers={"Allow": "GET, HEAD"})
         token = request.query.get("token")
         if request.path == "/" and token is not None:
-            return self._enter(token)
+            return self._enter(request, token)
         if self._may_command(request) is None:
             return web.Response(status=403, text=_FORBIDDEN)
         return await handler(request)
 
-    def _enter(self, token: str) -> web.Response:
-        """Turn a token into a cookie, out of the address."""
+    def _enter(self, request: web.Request, token: str) -> web.Response:
+        """Turn a token into a cookie, out of the address; the one to look takes no control away."""
+        response = web.Response(status=303, headers={"Location": "/"})
+        if self._guard.commands_already(token, self._cookie(request)):
+            return response
         session = self._guard.session_of(token)
         if session is None:
             return web.Response(status=403, text=_FORBIDDEN)
-        response = web.Response(status=303, headers={"Location": "/"})
-        response.set_cookie(
-            self._guard.cookie, session, httponly=True, samesite="Strict", path="/", max_age=int(LIFETIME)
-        )
+        self._set_cookie(request, response, session)
         return response
 
-    def _may_command(self, request: web.Request) -> bool | None:
-        return self._guard.may_command(request.cookies.get(self._guard.cookie))
+    def _cookie(self, request: web.Request) -> str | None:
+        return request.cookies.get(self._guard.cookie_name(request.headers.get("Host")))
 
-    async def _front(self, _: web.Request) -> web.StreamResponse:
-        return self._content(FRONT)
+    def _set_cookie(self, request: web.Request, response: web.StreamResponse, cookie: str) -> None:
+        name = self._guard.cookie_name(request.headers.get("Host"))
+        response.set_cookie(name, cookie, httponly=True, samesite="Strict", path="/", max_age=int(LIFETIME))
+
+    def _renew(self, request: web.Request, response: web.StreamResponse) -> None:
+        cookie = self._cookie(request)
+        if cookie is not None:
+            self._guard.renew(cookie)
+            self._set_cookie(request, response, cookie)
+
+    def _may_command(self, request: web.Request) -> bool | None:
+        return self._guard.may_command(self._cookie(request))
+
+    async def _front(self, request: web.Request) -> web.StreamResponse:
+        response = self._content(FRONT)
+        self._renew(request, response)
+        return response
 
     async def _file(self, request: web.Request) -> web.StreamResponse:
         return self._content(request.match_info["name"])
@@ -146,6 +161,7 @@ class PageServer:
         if len(self._viewers) >= _MOST_VIEWERS:
             return web.Response(status=503, text="503: too many browsers")
         socket = web.WebSocketResponse(heartbeat=HEARTBEAT, max_msg_size=LONGEST, compress=False)
+        self._renew(request, socket)
         await socket.prepare(request)
         _bound_buffer(request.transport)
         self._count += 1

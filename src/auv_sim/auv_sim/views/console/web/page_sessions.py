@@ -9,7 +9,7 @@ import secrets
 from collections.abc import Callable
 from pathlib import Path
 
-#: A cookie counts for this long, s.
+#: A cookie counts for this long after the page was last opened or connected, s.
 LIFETIME = 12 * 3600.0
 #: Most cookies in force; the oldest one gives way.
 _MOST = 200
@@ -41,6 +41,15 @@ class PageSessions:
         """Return whether a cookie may command; None if it is not in force."""
         may_command, until = self._known.get(_digest(cookie), (False, 0.0))
         return may_command if until > self._clock() else None
+
+    def renew(self, cookie: str) -> None:
+        """Let a cookie in force count for `LIFETIME` from now."""
+        may_command = self.find(cookie)
+        if may_command is not None:
+            key = _digest(cookie)
+            del self._known[key]  # the newest ones stand last
+            self._known[key] = may_command, self._clock() + LIFETIME
+            self._write()
 
     def _write(self) -> None:
         if self._file is None:
