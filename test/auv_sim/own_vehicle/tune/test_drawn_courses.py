@@ -12,7 +12,14 @@ from hypothesis import strategies as st
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import vehicle
 from auv_sim.own_vehicle.tune.drawn_courses import drawn_course
-from auv_sim.own_vehicle.tune.ensemble import UNCERTAIN, check_simulated, ensemble, planar
+from auv_sim.own_vehicle.tune.ensemble import (
+    UNCERTAIN,
+    check_simulated,
+    drawn_hulls,
+    ensemble,
+    factors_of,
+    planar,
+)
 from hulls import DIVER, REMUS
 
 
@@ -37,10 +44,19 @@ def test_members_stay_within_the_spread() -> None:
 
 
 def test_a_coefficient_may_have_its_own_spread() -> None:
-    hulls = ensemble(REMUS, 4, 0.0, np.random.default_rng(3), {"Nuud": 0.2})
+    hulls = ensemble(REMUS, 4, 0.0, np.random.default_rng(3), {"Nuud": factors_of(0.2)})
     shares = [hull.coefficients.Nuud / REMUS.coefficients.Nuud for hull in hulls[1:]]
     assert max(abs(share - 1.0) for share in shares) > 0.02
     assert all(hull.coefficients.Yuv == REMUS.coefficients.Yuv for hull in hulls)
+
+
+def test_the_rudder_may_have_its_own_spread() -> None:
+    own = {"max_rate_deg_s": (0.5, 0.6), "dead_time": (2.0, 3.0)}
+    late = dataclasses.replace(REMUS, rudder=dataclasses.replace(REMUS.rudder, dead_time=0.1))
+    (drawn,) = drawn_hulls(late, 1, 0.0, np.random.default_rng(3), own)
+    assert 0.5 <= drawn.rudder.max_rate_deg_s / REMUS.rudder.max_rate_deg_s <= 0.6
+    assert 0.2 <= drawn.rudder.dead_time <= 0.3
+    assert drawn.hull == REMUS.hull
 
 
 def test_a_hull_without_coefficients_has_no_spread() -> None:

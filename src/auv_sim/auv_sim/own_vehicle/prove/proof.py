@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,22 +14,19 @@ from auv_sim.flight.batch import engine
 from auv_sim.flight.batch.scenarios import Courses
 from auv_sim.flight.scenario import Scenario
 from auv_sim.own_vehicle.prove.confidence import SHARE, largest_share, most_of
-from auv_sim.own_vehicle.tune.ensemble import ensemble
+from auv_sim.own_vehicle.tune.ensemble import Factors, drawn_hulls
 from auv_sim.own_vehicle.tune.gain_space import GainSet
 from auv_sim.own_vehicle.tune.objective import LIMIT_CYCLE
 from auv_sim.own_vehicle.tune.trial_flights import (
-    Amount,
     Conditions,
     Flight,
-    draw_flights,
     draw_sea_flights,
+    draw_starts,
     with_laws,
 )
 
 Numbers = npt.NDArray[np.float64]
 
-#: Hulls drawn; the flights take them in turn.
-HULLS = 50
 #: Stream of the draws: no search and no acceptance uses it.
 _STREAM = 7
 
@@ -41,7 +38,7 @@ class Proposition(NamedTuple):
         vehicle: as its file has it; gains and guidance assume it.
         conditions: delay, rates, sea.
         spread: half width of the uncertainty of coefficients, fin rate and dead time, a share.
-        own: half widths of single coefficients, shares.
+        own: factors of single numbers, as the vehicle file states them.
         flights: along courses in the sea; as many on lines.
         within: largest distance away from corners that is good enough, m.
         seed: of all draws.
@@ -50,7 +47,7 @@ class Proposition(NamedTuple):
     vehicle: Vehicle
     conditions: Conditions
     spread: float
-    own: Mapping[str, float]
+    own: Mapping[str, Factors]
     flights: int
     within: float
     seed: int
@@ -100,19 +97,17 @@ class Proof(NamedTuple):
 
 
 def draw_claim(claim: Proposition) -> list[Flight]:
-    """Draw all flights of a claim: in the sea along courses, then on lines."""
+    """Draw all flights of a claim: in the sea along courses, then on lines.
+
+    With a spread each flight along a course has a hull of its own, and so has each on a line: a bound over
+    flights on few hulls would not hold for other hulls.
+    """
     random = np.random.default_rng([claim.seed, _STREAM])
-    members = HULLS if claim.spread > 0.0 or claim.own else 1
-    hulls = ensemble(claim.vehicle, members, claim.spread, random, claim.own)
-    flights: list[Flight] = []
-    lines: list[Flight] = []
-    each = math.ceil(claim.flights / len(hulls))
-    rates = len(claim.conditions.steps)
-    for hull in hulls:
-        flights += draw_sea_flights(hull, claim.conditions, each, random)
-        amount = Amount(starts=math.ceil(each / rates), courses=0, legs=0, at_sea=0)
-        lines += draw_flights(hull, claim.conditions, amount, random)
-    return [*flights[: claim.flights], *lines[: claim.flights]]
+    hulls: Sequence[Vehicle] = [claim.vehicle] * claim.flights
+    if claim.spread > 0.0 or claim.own:
+        hulls = drawn_hulls(claim.vehicle, claim.flights, claim.spread, random, claim.own)
+    sea_flights = draw_sea_flights(hulls, claim.conditions, random)
+    return [*sea_flights, *draw_starts(hulls, claim.conditions, random)]
 
 
 def fly_proof(

@@ -36,7 +36,7 @@ def draw(target: Path, sentence: str, verdict: str, within: float, proofs: Mappi
     FigureCanvasAgg(figure)
     head = "\n".join(textwrap.wrap(sentence, _WIDTH))
     holds = next(iter(proofs.values())).holds(within)
-    figure.text(0.05, 0.965, verdict, color=GREEN if holds else RED, fontsize=15, va="top", weight="bold")
+    figure.text(0.05, 0.965, verdict, color=GREEN if holds else RED, fontsize=13, va="top", weight="bold")
     figure.text(0.05, 0.925, head, color=INK, fontsize=10, va="top", linespacing=1.5)
     grid = figure.add_gridspec(2, 2, left=0.08, right=0.97, top=0.79, bottom=0.07, hspace=0.34, wspace=0.22)
     off, whole, calm, activity = (figure.add_subplot(grid[k // 2, k % 2]) for k in range(4))

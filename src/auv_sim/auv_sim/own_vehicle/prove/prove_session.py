@@ -28,6 +28,7 @@ from auv_sim.own_vehicle.tune.gain_space import LAWS, OWN_LAW, GainSet, GainSpac
 from auv_sim.own_vehicle.tune.search import Budget, Problem, search
 from auv_sim.own_vehicle.tune.trial_flights import PROVEN_TURN, Conditions
 from auv_sim.own_vehicle.tune.tune_session import BASE, check_compiled, spread_of, steps_of
+from auv_sim.own_vehicle.verbs.gain_options import check_outputs
 from auv_sim.sim_parameters import SUITE
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, headed_table, progress_bar, wrote
@@ -41,6 +42,8 @@ def run(options: argparse.Namespace) -> int:
     own = vehicle.load(options.vehicle)
     check_simulated(own)
     make_directory(options.out)
+    inputs = [config_files.find("vehicles", options.vehicle)]
+    check_outputs(_outputs(options), inputs, options.overwrite)
     flown = planar(own) if options.in_plane else own
     gains, label = _gains_of(options, own)
     spread, widths = spread_of(options)
@@ -58,6 +61,11 @@ def run(options: argparse.Namespace) -> int:
                 claim, flights, flown_with, options.threads, partial(_advance, bar, task)
             )
     return _conclude(console, options, claim, own, proofs)
+
+
+def _outputs(options: argparse.Namespace) -> tuple[Path, Path]:
+    """Return page and summary."""
+    return options.out / "proof.png", options.out / "summary.json"
 
 
 def _gains_of(options: argparse.Namespace, own: Vehicle) -> tuple[GainSet, str]:
@@ -96,9 +104,15 @@ def sentence_of(claim: Proposition, label: str, proof: Proof) -> str:
     anywhere = "no distance" if math.isinf(proof.whole_bound) else f"{proof.whole_bound:.2f} m"
     uncertain = "with the coefficients of its file"
     if claim.own:
-        uncertain = "with every coefficient within the uncertainty that its file states"
+        uncertain = (
+            "on a hull drawn for each flight, planar coefficients, rudder rate and dead time within the "
+            "uncertainty that its file states, those without one as in the file"
+        )
     elif claim.spread > 0.0:
-        uncertain = f"with coefficients, fin rate and dead time off by up to {100.0 * claim.spread:g} %"
+        uncertain = (
+            "on a hull drawn for each flight, planar coefficients, rudder rate and dead time off by up to "
+            f"{100.0 * claim.spread:g} %"
+        )
     n, starts = len(proof.rms), len(proof.unrest)
     return (
         f"With the gains {label} on {claim.vehicle.name}, 99 % of the flights keep within {within} of the "
@@ -110,18 +124,28 @@ def sentence_of(claim: Proposition, label: str, proof: Proof) -> str:
     )
 
 
+def verdict_of(within: float, proof: Proof) -> str:
+    """Return what was asked for, whether it is proven, and the bounds, in one line."""
+    bound = "no distance" if math.isinf(proof.off_bound) else f"{proof.off_bound:.2f} m"
+    result = "Proven" if proof.holds(within) else "Not proven"
+    return (
+        f"{result}: 99 % within {within:g} m, limit cycles from at most 1 % of the starts "
+        f"(bounds: {bound}, {100.0 * proof.cycle_bound:.2f} %)"
+    )
+
+
 def _conclude(
     console: Console, options: argparse.Namespace, claim: Proposition, own: Vehicle, proofs: dict[str, Proof]
 ) -> int:
     label, proof = next(iter(proofs.items()))
     holds, sentence = proof.holds(claim.within), sentence_of(claim, label, proof)
-    verdict = f"{'Proven' if holds else 'Not proven'}: 99 % within {claim.within:g} m, no limit cycle"
+    verdict = verdict_of(claim.within, proof)
     console.print(_table(proofs))
     console.print(sentence, soft_wrap=False)
     console.print(verdict, style="bold green" if holds else "bold red")
     if claim.flights < flights_needed():
         console.print(f"notice {claim.flights} flights bound nothing: 99 % at 95 % need {flights_needed()}")
-    page, summary = options.out / "proof.png", options.out / "summary.json"
+    page, summary = _outputs(options)
     proof_page.draw(page, sentence, verdict, claim.within, proofs)
     write_text(summary, _json(options, sentence, holds, proofs))
     wrote(console, page, "the page")
@@ -130,9 +154,9 @@ def _conclude(
         rest = ["--params", options.params] if options.params else []
         go_on(console, "Fly them", to_type("mission.py", "--vehicle", options.vehicle, *map(str, rest)))
     else:
-        go_on(
-            console, "Tune", to_type("vehicle.py", "tune", options.vehicle, "--delay", f"{options.delay:g}")
-        )
+        rest = ["--overwrite"] if Path("tuned.yaml").exists() else []
+        line = to_type("vehicle.py", "tune", options.vehicle, "--delay", f"{options.delay:g}", *rest)
+        go_on(console, "Tune", line)
     return EXIT_DONE if holds else EXIT_FAILED
 
 

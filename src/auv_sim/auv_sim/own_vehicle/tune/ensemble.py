@@ -19,8 +19,14 @@ UNCERTAIN = (
     "Xuu", "Xud", "Xvr", "Xrr", "Yvv", "Yvd", "Yrr", "Yrd", "Yur", "Yuv", "Yuud",
     "Nvv", "Nvd", "Nrr", "Nrd", "Nur", "Nuv", "Nuud",
 )  # fmt: skip
-#: Draws after which a spread is refused that leaves no hull that can exist and turns steadily.
+#: Settings of the rudder that vary with them.
+RUDDER = ("max_rate_deg_s", "dead_time")
+#: Comments of a number that is unknown in its size, and the factor within which it then may be wrong.
+_UNKNOWN, _UNKNOWN_FACTOR = ("not known from these data", "stable and unstable hulls exist"), 2.0
+#: Draws in a row without a hull that can exist and turns steadily, after which a spread is refused.
 _MOST_DRAWS = 200
+#: Smallest and largest factor of a number.
+Factors = tuple[float, float]
 
 
 def planar(vehicle: Vehicle) -> Vehicle:
@@ -47,61 +53,98 @@ def check_simulated(vehicle: Vehicle) -> None:
         raise ConfigurationError(f"{vehicle.name}: hull", "nothing", expected)
 
 
-def spread_of_file(file: Path) -> dict[str, float]:
-    """Return the uncertainty that the comments of a vehicle file give its coefficients, as shares.
+def factors_of(share: float) -> Factors:
+    """Return the factors of an uncertainty with a half width (a share)."""
+    return 1.0 / (1.0 + share), 1.0 + share
 
-    `(x2)` is a factor of 2 either way, `(12 %)` a share, as `vehicle.py new` and `identify` write them.
+
+def spread_of_file(file: Path) -> dict[str, Factors]:
+    """Return the uncertainty that the comments of a vehicle file state, as factors.
+
+    `(x2)` is a factor of 2 either way, `(12 %)` a share, `+- 0.3` a half width in the number's own unit,
+    `assumed: 0.02 to 0.3` a range, as `vehicle.py new` and `identify` write them. A coefficient of which a
+    comment states only that it is unknown has a factor of 2.
+
+    Returns:
+        Planar coefficients by name, and the rudder's `max_rate_deg_s` and `dead_time`.
     """
-    found = {}
+    found, section = {}, ""
     for line in file.read_text(encoding="utf-8").splitlines():
-        match = re.match(r"\s+(\w+): *\S+ +#.*\((?:x([0-9.]+)|([0-9.]+) %)\)", line)
-        if match and match[1] in UNCERTAIN:
-            found[match[1]] = float(match[2]) - 1.0 if match[2] else 0.01 * float(match[3])
+        key = re.match(r"(\w+):", line)
+        section = key[1] if key else section
+        number = re.match(r"\s+(\w+): *([-+0-9.eE]+) +#(.*)", line)
+        if number and number[1] in {"hull": UNCERTAIN, "rudder": RUDDER}.get(section, ()):
+            factors = _stated(float(number[2]), number[3])
+            if factors is not None:
+                found[number[1]] = factors
     return found
+
+
+def _stated(value: float, comment: str) -> Factors | None:
+    """Return the factors that a comment states for a value; None where it states none."""
+    if match := re.search(r"\((?:x([0-9.]+)|([0-9.]+) %)\)", comment):
+        return factors_of(float(match[1]) - 1.0 if match[1] else 0.01 * float(match[2]))
+    if any(words in comment for words in _UNKNOWN):
+        return factors_of(_UNKNOWN_FACTOR - 1.0)
+    if value and (match := re.search(r"assumed: ([0-9.]+) to ([0-9.]+)", comment)):
+        return float(match[1]) / value, float(match[2]) / value
+    if value and (match := re.search(r"\+- ([0-9.]+(?:e[-+]?[0-9]+)?)", comment)):
+        return factors_of(float(match[1]) / abs(value))
+    return None
 
 
 def ensemble(
     vehicle: Vehicle, members: int, spread: float, random: np.random.Generator,
-    own: Mapping[str, float] | None = None,
+    own: Mapping[str, Factors] | None = None,
 ) -> list[Vehicle]:  # fmt: skip
-    """Return the vehicle itself and further hulls that it may be.
+    """Return the vehicle itself and further hulls that it may be: `members` with it; see `drawn_hulls`."""
+    return [vehicle, *drawn_hulls(vehicle, members - 1, spread, random, own)]
+
+
+def drawn_hulls(
+    vehicle: Vehicle, number: int, spread: float, random: np.random.Generator,
+    own: Mapping[str, Factors] | None = None,
+) -> list[Vehicle]:  # fmt: skip
+    """Draw hulls that a vehicle may be, independent of each other.
 
     Args:
         vehicle: as its file has it.
-        members: how many, the vehicle included.
+        number: how many.
         spread: half width of the uncertainty of every coefficient, of the rudder's rate and of its dead time,
             a share: from 1/(1 + spread) to 1 + spread times, drawn evenly in its logarithm.
         random: where the numbers come from.
-        own: half widths of single coefficients, shares, in place of `spread`.
+        own: factors of single numbers, as of `spread_of_file`, in place of `spread`.
 
     Raises:
         ConfigurationError: a spread for a hull without coefficients, or one within which no hull turns.
     """
-    if members > 1 and vehicle.hull is None and (spread > 0.0 or own):
+    if number > 0 and vehicle.hull is None and (spread > 0.0 or own):
         found = "a hull that the simulator has as a program"
-        raise ConfigurationError(f"{vehicle.name}: --spread", found, "coefficients to vary, or --members 1")
-    hulls = [vehicle]
-    for _ in range(_MOST_DRAWS):
-        if len(hulls) >= members:
-            return hulls
+        raise ConfigurationError(f"{vehicle.name}: --spread", found, "coefficients to vary, or no spread")
+    hulls: list[Vehicle] = []
+    failed = 0
+    while len(hulls) < number:
         drawn = _drawn(vehicle, spread, random, own or {})
         if drawn is not None:
             hulls.append(drawn)
-    raise ConfigurationError(
-        f"{vehicle.name}: --spread", f"{100 * spread:g} %", "one within which hulls turn"
-    )
+        failed = failed + 1 if drawn is None else 0
+        if failed >= _MOST_DRAWS:
+            width = "that of the file" if own else f"{100 * spread:g} %"
+            raise ConfigurationError(f"{vehicle.name}: --spread", width, "one within which hulls turn")
+    return hulls
 
 
 def _drawn(
-    vehicle: Vehicle, spread: float, random: np.random.Generator, own: Mapping[str, float]
+    vehicle: Vehicle, spread: float, random: np.random.Generator, own: Mapping[str, Factors]
 ) -> Vehicle | None:
     hull = vehicle.coefficients
 
-    def factor(width: float) -> float:
-        return math.exp(math.log1p(width) * random.uniform(-1.0, 1.0))
+    def factor(name: str) -> float:
+        low, high = map(math.log, own.get(name, factors_of(spread)))
+        return math.exp(random.uniform(low, high))
 
-    factors = {name: factor(own.get(name, spread)) for name in UNCERTAIN}
-    rate, late = factor(spread), factor(spread)
+    factors = {name: factor(name) for name in UNCERTAIN}
+    rate, late = map(factor, RUDDER)
     try:
         other: Hull = dataclasses.replace(
             hull, **{name: getattr(hull, name) * factor for name, factor in factors.items()}

@@ -90,6 +90,7 @@ class GainSpace:
         delay: from a measurement to the arrival of its command, s; the dead time of the fins is added.
         step: between two odometries, s.
         law: of `LAWS`.
+        whole: the diving vehicle of which `vehicle` is the planar part: its planes have the rule's gains.
 
     Attributes:
         fastest: u0/R of the steady turn, rad/s.
@@ -99,13 +100,16 @@ class GainSpace:
 
     def __init__(
         self, vehicle: Vehicle, guidance: PathFollowerConfig, delay: float, step: float,
-        law: str = OWN_LAW,
+        law: str = OWN_LAW, whole: Vehicle | None = None,
     ) -> None:  # fmt: skip
         self.vehicle, self._guidance, self._law = vehicle, guidance, LAWS[law]
         self.response: FinResponse = response_of(vehicle)
         self.delay = max(delay + vehicle.rudder.dead_time + 0.5 * step, 0.02)
         self.fastest = self.response.speed / tightest_turn(vehicle).radius
         self.ruled: RuledGains = gains_for(vehicle, delay, step)
+        if whole is not None:
+            both = gains_for(whole, delay, step)
+            self.ruled = self.ruled._replace(pitch=both.pitch, notices=both.notices)
         self.first = self._clipped(self._point_of_rule())
 
     def _point_of_rule(self) -> Vector:

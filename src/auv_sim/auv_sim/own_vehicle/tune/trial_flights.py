@@ -99,20 +99,33 @@ def draw_flights(
 def _on_lines(
     vehicle: Vehicle, conditions: Conditions, starts: int, random: np.random.Generator
 ) -> list[Flight]:
-    thrust, late, turn = thrust_of(vehicle), conditions.delay, tightest_turn(vehicle)
+    return [
+        _on_line(vehicle, conditions.delay, step, random) for step in conditions.steps for _ in range(starts)
+    ]
+
+
+def _on_line(vehicle: Vehicle, late: float, step: float, random: np.random.Generator) -> Flight:
+    """Draw one start beside a line, and up to `LATER` more delay than `late` (s)."""
+    thrust, turn = thrust_of(vehicle), tightest_turn(vehicle)
     whole, speed = late + vehicle.rudder.dead_time, vehicle.speed_at(thrust)
-    flights = []
-    for step in conditions.steps:
-        for _ in range(starts):
-            beside = random.uniform(-1.0, 1.0) * BESIDE * turn.radius
-            heading, rate = random.uniform(-math.pi, math.pi), random.uniform(-1.0, 1.0) * TURNING * turn.rate
-            scenario = Scenario(
-                path=LINE, vehicle=vehicle, thrust=thrust, step=step, time_limit=LINE_TIME,
-                initial=start_at(vehicle, beside, heading, speed, rate),
-                command_delay=late + random.uniform(0.0, LATER) * whole,
-            )  # fmt: skip
-            flights.append(Flight(scenario, True))
-    return flights
+    beside = random.uniform(-1.0, 1.0) * BESIDE * turn.radius
+    heading, rate = random.uniform(-math.pi, math.pi), random.uniform(-1.0, 1.0) * TURNING * turn.rate
+    scenario = Scenario(
+        path=LINE, vehicle=vehicle, thrust=thrust, step=step, time_limit=LINE_TIME,
+        initial=start_at(vehicle, beside, heading, speed, rate),
+        command_delay=late + random.uniform(0.0, LATER) * whole,
+    )  # fmt: skip
+    return Flight(scenario, True)
+
+
+def draw_starts(
+    hulls: Sequence[Vehicle], conditions: Conditions, random: np.random.Generator
+) -> list[Flight]:
+    """Draw one start beside a line for each hull; the odometry rates have equal shares of them."""
+    each = math.ceil(len(hulls) / len(conditions.steps))
+    return [
+        _on_line(hull, conditions.delay, conditions.steps[k // each], random) for k, hull in enumerate(hulls)
+    ]
 
 
 def _along_courses(
@@ -132,12 +145,15 @@ def _along_courses(
 
 
 def draw_sea_flights(
-    vehicle: Vehicle, conditions: Conditions, number: int, random: np.random.Generator
+    hulls: Sequence[Vehicle], conditions: Conditions, random: np.random.Generator
 ) -> list[Flight]:
-    """Draw flights in the sea, in a further current: courses with sharp and rounded corners, and surveys."""
+    """Draw one flight for each hull, in the sea and a further current.
+
+    In turn the courses have sharp corners, rounded corners, and the parallel legs of a survey.
+    """
     kinds: tuple[Kind, ...] = ("sharp", "rounded", "survey")
     further = PROVEN_LEGS, STRONGEST, conditions.sea, random, PROVEN_TURN
-    return [_along(vehicle, conditions, kinds[k % len(kinds)], *further) for k in range(number)]
+    return [_along(hull, conditions, kinds[k % len(kinds)], *further) for k, hull in enumerate(hulls)]
 
 
 def _along(

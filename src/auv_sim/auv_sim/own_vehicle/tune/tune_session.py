@@ -17,13 +17,13 @@ from auv_path_following.vehicle import Vehicle
 from auv_sim.command_line import EXIT_DONE, to_type
 from auv_sim.flight.batch.compiled import COMPILED
 from auv_sim.own_vehicle.tune import tuned_file, tuned_picture
-from auv_sim.own_vehicle.tune.ensemble import check_simulated, ensemble, planar, spread_of_file
+from auv_sim.own_vehicle.tune.ensemble import Factors, check_simulated, ensemble, planar, spread_of_file
 from auv_sim.own_vehicle.tune.gain_space import GainSet, GainSpace, ratios_at
 from auv_sim.own_vehicle.tune.gain_verdict import GainVerdict, Held, judge
 from auv_sim.own_vehicle.tune.sampled_loop import LARGEST_FACTOR, Margins
 from auv_sim.own_vehicle.tune.search import Budget, Problem, search
 from auv_sim.own_vehicle.tune.trial_flights import Amount, Conditions, draw_flights, with_laws
-from auv_sim.own_vehicle.verbs.gain_options import FROM_FILE
+from auv_sim.own_vehicle.verbs.gain_options import FROM_FILE, check_outputs
 from auv_sim.sim_parameters import SUITE
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, headed_table, progress_bar, wrote
@@ -38,11 +38,20 @@ _PICTURE = 3
 
 
 def run(options: argparse.Namespace) -> int:
-    """Tune; return the exit code: 0 also where the rule's gains stay."""
+    """Tune; return the exit code: 0 also where the rule's gains stay.
+
+    Raises:
+        ConfigurationError: vehicle, sea or --out do not fit.
+    """
     check_compiled("tune")
     console = terminal(options.quiet)
     own = vehicle.load(options.vehicle)
     check_simulated(own)
+    picture = options.out.with_suffix(".png")
+    if options.out.suffix.lower() == ".png":
+        raise ConfigurationError("--out", f"{options.out}", "a parameter file; the picture stands beside it")
+    inputs = [config_files.find("vehicles", options.vehicle)]
+    check_outputs((options.out, picture), inputs, options.overwrite)
     base = params_file.load(config_files.find("params", BASE), SUITE)
     problem = problem_of(options, own, base)
     _explain(console, problem)
@@ -55,14 +64,14 @@ def run(options: argparse.Namespace) -> int:
         bar.advance(task)
     _report(console, verdict)
     gains = problem.space.gains(verdict.point) if verdict.accepted else problem.space.rule()
-    comments = _comments(options, own, problem, verdict)
+    comments = comments_of(options, own, problem, verdict)
     written = tuned_file.write(options.out, gains, base, comments)
-    picture = options.out.with_suffix(".png")
     _draw(picture, own, problem, written, verdict, found.history)
     wrote(console, options.out, "gains: `mission.py --params` flies them")
     wrote(console, picture, "a held-out course, before and after")
     rest = ["--delay", f"{options.delay:g}"] if options.delay else []
     rest += ["--spread", str(options.spread)] if options.spread else []
+    rest += ["--overwrite"] if Path("proof/proof.png").exists() else []
     line = to_type(
         "vehicle.py", "prove", options.vehicle, "--params", str(options.out), "--sea", options.sea, *rest
     )
@@ -88,7 +97,8 @@ def problem_of(options: argparse.Namespace, own: Vehicle, base: dict[str, Any]) 
     """
     step = 1.0 / options.rate
     flown = planar(own)
-    space = GainSpace(flown, base[topics.GUIDANCE].guidance, options.delay, step)
+    guidance = base[topics.GUIDANCE].guidance
+    space = GainSpace(flown, guidance, options.delay, step, whole=own if own.dives else None)
     random = np.random.default_rng([options.seed, 2])
     spread, own_widths = spread_of(options)
     hulls = ensemble(flown, options.members, spread, random, own_widths)
@@ -103,8 +113,8 @@ def steps_of(rate: float, slowest: float) -> tuple[float, ...]:
     return steps or (1.0 / rate,)
 
 
-def spread_of(options: argparse.Namespace) -> tuple[float, dict[str, float]]:
-    """Return the uncertainty as a share, and that of single coefficients.
+def spread_of(options: argparse.Namespace) -> tuple[float, dict[str, Factors]]:
+    """Return the uncertainty as a share, and the factors of single numbers.
 
     Raises:
         ConfigurationError: the vehicle file states none.
@@ -114,7 +124,8 @@ def spread_of(options: argparse.Namespace) -> tuple[float, dict[str, float]]:
     file = config_files.find("vehicles", options.vehicle)
     widths = spread_of_file(file)
     if not widths:
-        raise ConfigurationError(f"{file}: hull", "no coefficient with its uncertainty", "--spread PERCENT")
+        found = "no number with its uncertainty as a comment"
+        raise ConfigurationError(f"{file}: --spread file", found, "such comments, or --spread PERCENT")
     return 0.0, widths
 
 
@@ -140,7 +151,7 @@ def _report(console: Console, verdict: GainVerdict) -> None:
     for reason in verdict.why:
         console.print(f"not accepted: {reason}", markup=False)
     table = headed_table(
-        "Held-out flights, against the rule's gains", ("hull",),
+        "Held-out flights of the gains found, against the rule's", ("hull",),
         ("flights", "distance", "off corners", "rudder travel", "late yaw rate °/s", "the rule's"),
     )  # fmt: skip
     for k, held in enumerate(verdict.held):
@@ -170,7 +181,10 @@ def words_of(margins: Margins) -> str:
     )
 
 
-def _comments(options: argparse.Namespace, own: Vehicle, problem: Problem, verdict: GainVerdict) -> list[str]:
+def comments_of(
+    options: argparse.Namespace, own: Vehicle, problem: Problem, verdict: GainVerdict
+) -> list[str]:  # fmt: skip
+    """Return the paragraphs at the head of the file: the command, the margins, the held-out flights."""
     words = {
         "--delay": options.delay, "--rate": options.rate, "--slowest": options.slowest, "--sea": options.sea,
         "--spread": options.spread, "--members": options.members, "--generations": options.generations,
@@ -188,7 +202,8 @@ def _comments(options: argparse.Namespace, own: Vehicle, problem: Problem, verdi
         f"Delay {1e3 * (options.delay + own.rudder.dead_time):.0f} ms, of which the fin's dead time "
         f"{1e3 * own.rudder.dead_time:.0f} ms. Margins {words_of(verdict.margins)}.",
     ]
-    for k, held in enumerate(verdict.held):
+    # Those of gains that are not in the file would be read as the file's.
+    for k, held in enumerate(verdict.held if verdict.accepted else ()):
         distance, off, travel = held.ratios
         name = "the vehicle" if k == 0 else f"drawn hull {k}"
         comments.append(

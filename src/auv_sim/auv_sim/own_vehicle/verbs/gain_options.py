@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import argparse
 import os
+from collections.abc import Iterable
+from pathlib import Path
 
+from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_sim.command_line import at_least_one, not_negative, positive, whole
 
@@ -32,19 +35,39 @@ def add_conditions(p: argparse.ArgumentParser) -> None:
     )
     p.add_argument(
         "--slowest", type=positive, default=10.0, metavar="HZ",
-        help="no limit cycle down to this rate (default: 10)",
+        help="slowest rate of the flights on lines (default: 10)",
     )  # fmt: skip
     p.add_argument(
         "--sea", default="moderate", metavar="FILE", help=f"file or one of: {seas} (default: moderate)"
     )
     p.add_argument(
         "--spread", type=spread, default=0.0, metavar="PERCENT",
-        help="uncertainty of coefficients, fin rate and dead time, half width (0); or `file`: of each "
-        "coefficient, as the comments of the vehicle file state it",
+        help="uncertainty of planar coefficients, rudder rate and dead time, half width (0); or `file`: of "
+        "each as the comments of the vehicle file state it",
     )  # fmt: skip
     p.add_argument("--seed", type=whole, default=0, metavar="N", help="of all draws (default: 0)")
     p.add_argument(
         "--threads", type=at_least_one, default=os.cpu_count() or 1, metavar="N",
         help="flights at the same time (default: all cores)",
     )  # fmt: skip
+    p.add_argument("--overwrite", action="store_true", help="replace files that exist")
     p.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
+
+
+def check_outputs(files: Iterable[Path], inputs: Iterable[Path], overwrite: bool) -> None:
+    """Check that files may be written, before their content is computed.
+
+    Args:
+        files: to write.
+        inputs: which are read, and never replaced.
+        overwrite: whether other files that exist are replaced.
+
+    Raises:
+        ConfigurationError: one is an input, or exists.
+    """
+    read = {os.path.realpath(file) for file in inputs}
+    for file in files:
+        if os.path.realpath(file) in read:
+            raise ConfigurationError("--out", f"{file}, which is read", "another file")
+        if file.is_file() and not overwrite:
+            raise ConfigurationError("--out", f"{file}, which exists", "a new file, or --overwrite")

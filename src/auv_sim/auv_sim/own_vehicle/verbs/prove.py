@@ -2,7 +2,8 @@
 
 Flies drawn courses in a sea, in further currents, on hulls within the uncertainty of their coefficients, and
 hard starts on straight lines. 99 % of the flights keep within the distance that it prints, at 95 %
-confidence. Exit code 0: within the distance asked for, and no limit cycle; 1: not.
+confidence. Exit code 0: within the distance asked for, and limit cycles from at most 1 % of the starts, at
+the same confidence; 1: not.
 """
 
 from __future__ import annotations

@@ -1,0 +1,82 @@
+"""What `tune` takes from the vehicle, writes about its gains, and does not overwrite."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import pytest
+
+from auv_msgs_py.settings import params_file
+from auv_path_following import config_files, vehicle
+from auv_path_following.control.pitch_plane import pitch_gains
+from auv_path_following.control.rule.gain_rule import gains_for
+from auv_sim.cli.vehicles.vehicle_command import main, parser
+from auv_sim.own_vehicle.tune import tuned_file
+from auv_sim.own_vehicle.tune.gain_verdict import GainVerdict, Held
+from auv_sim.own_vehicle.tune.objective import CostTerms, Ratios
+from auv_sim.own_vehicle.tune.sampled_loop import Margins
+from auv_sim.own_vehicle.tune.tune_session import comments_of, problem_of
+from auv_sim.sim_parameters import SUITE
+from hulls import DIVER, REMUS
+
+BASE = params_file.load(config_files.find("params", "robust"), SUITE)
+
+
+def options_of(*words: str) -> argparse.Namespace:
+    return parser(["tune"]).parse_args(["tune", *words])
+
+
+def test_planes_of_a_diver_get_the_gains_of_the_rule(tmp_path: Path) -> None:
+    """The search flies the planar part, the file is for the whole vehicle."""
+    ruled = gains_for(DIVER, 0.05, 0.05).pitch
+    assert ruled is not None
+    space = problem_of(options_of("remus100_6dof", "--delay", "0.05"), DIVER, BASE).space
+    assert not space.vehicle.dives
+    for k, gains in enumerate((space.rule(), space.gains(space.first))):
+        written = tuned_file.write(tmp_path / f"{k}.yaml", gains, BASE, [])
+        assert written.pitch.nism.k5 == pytest.approx(ruled.autopilot.nism.k5, rel=1e-4)
+        assert written.pitch.nism.k5 != pytest.approx(pitch_gains().nism.k5, rel=1e-2)
+        assert written.pitch.reference.bandwidth == pytest.approx(
+            ruled.autopilot.reference.bandwidth, rel=1e-4
+        )
+        assert written.guidance.vertical.lookahead == pytest.approx(ruled.lookahead, rel=1e-4)
+
+
+@pytest.mark.parametrize("accepted", [True, False])
+def test_flights_of_rejected_gains_are_not_in_the_file_of_the_rule(accepted: bool) -> None:
+    options = options_of("remus100")
+    problem = problem_of(options, REMUS, BASE)
+    margins = Margins(2.0, 2.0, 0.1, True)
+    held = Held(CostTerms(0.2, 0.0, 0.0, 0.0, 0.0, 0.0), Ratios(1.2, 1.3, 0.9), 0.01, 0.01, 67, 0)
+    why = () if accepted else ("no less distance than with the rule",)
+    verdict = GainVerdict(accepted, 1.0, problem.space.first, why, (held,), margins, margins)
+    text = "\n".join(comments_of(options, REMUS, problem, verdict))
+    assert ("Held out" in text) is accepted
+    assert ("Not accepted: no less distance" in text) is not accepted
+
+
+@pytest.mark.parametrize(
+    ("out", "others", "error"),
+    [
+        ("own.yaml", ["--overwrite"], "own.yaml, which is read, expected another file"),
+        ("./own.yaml", [], "own.yaml, which is read, expected another file"),
+        ("gains.png", [], "gains.png, expected a parameter file"),
+        ("there.yaml", [], "there.yaml, which exists, expected a new file, or --overwrite"),
+        ("drawn.yaml", [], "drawn.png, which exists, expected a new file, or --overwrite"),
+    ],
+)
+def test_a_file_is_not_overwritten_unasked(
+    tmp_path: Path, monkeypatch, capsys, out: str, others: list[str], error: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    own = config_files.find("vehicles", "remus100").read_text(encoding="utf-8")
+    Path("own.yaml").write_text(own, encoding="utf-8")
+    Path("there.yaml").write_text("mine", encoding="utf-8")
+    Path("drawn.png").write_text("mine", encoding="utf-8")
+    assert main(["tune", "own.yaml", "--out", out, "--generations", "1", *others]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert error in line
+    assert Path("own.yaml").read_text(encoding="utf-8") == own
+    assert Path("there.yaml").read_text(encoding="utf-8") == Path("drawn.png").read_text() == "mine"
+    assert vehicle.load("own.yaml").name == vehicle.load("remus100").name
