@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import pytest
 
+from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import SPATIAL_STOP, Navigation, SpatialNavigation
 from auv_path_following import vehicle
 from auv_sim.own_vehicle.manoeuvres import program_file
@@ -64,6 +66,44 @@ def test_the_way_down_from_the_surface_is_no_bound_left() -> None:
     assert run.over == ""
     run.step(LEVEL._replace(z=21.0), 1.0)
     assert "21.0 m deep" in run.over
+
+
+@pytest.mark.parametrize("depth", [9.0, 12.0])
+def test_a_diver_that_does_not_reach_its_depth_is_stopped(depth: float) -> None:
+    """Whether it stays within `dive` of the depth or not, no manoeuvre begins elsewhere."""
+    run = ManoeuvreRun(DIVER, TWO, ManoeuvreBounds(dive=1.5), 10.0)
+    away = LEVEL._replace(z=depth)
+    for _ in range(60):
+        assert run.step(away, 1.0).thrust > 0.0
+    assert run.step(away, 1.0) == SPATIAL_STOP
+    assert f"not level at the depth of 10 m within 60 s, but {depth:.1f} m deep" in run.over
+
+
+def test_once_the_depth_is_reached_the_smallest_bound_applies() -> None:
+    run = ManoeuvreRun(DIVER, TWO, ManoeuvreBounds(dive=0.2), 10.0)
+    away = LEVEL._replace(z=10.4)
+    assert run.step(away, 1.0).thrust > 0.0  # on the way down, which is over within 0.5 m
+    assert run.step(away, 1.0) == SPATIAL_STOP
+    assert "10.4 m deep, more than 0.2 m" in run.over
+
+
+@pytest.mark.parametrize("heard", [20.0, math.inf])
+def test_an_altitude_that_is_lost_stops_a_diver(heard: float) -> None:
+    run = begun(dives=True)
+    assert run.step(LEVEL, 0.1).thrust > 0.0  # a vehicle without an altimeter flies
+    assert run.step(LEVEL, 0.1, heard).thrust > 0.0
+    assert run.step(LEVEL, 0.1) == SPATIAL_STOP
+    assert "no altitude any more" in run.over
+
+
+@pytest.mark.parametrize(("depth", "found"), [(100.5, "100.5 m"), (96.0, "96 m, stepped to 101 m")])
+def test_a_depth_beyond_the_vehicles_is_refused(depth: float, found: str, tmp_path: Path) -> None:
+    legs = "[{straight: {seconds: 5, depth_step: -1}}, {straight: {seconds: 5, depth_step: 6}}]"
+    (tmp_path / "steps.yaml").write_text(f"{{version: 1, name: steps, legs: {legs}}}")
+    program = program_file.load(str(tmp_path / "steps.yaml"))
+    expected = f"depth: found {found}, expected depths from 0 to depth.max, 100 m"
+    with pytest.raises(ConfigurationError, match=expected):
+        ManoeuvreRun(DIVER, program, ManoeuvreBounds(), depth)
 
 
 def test_a_speed_that_no_vehicle_has_counts_as_lost_navigation() -> None:

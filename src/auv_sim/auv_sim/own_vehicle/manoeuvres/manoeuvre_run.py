@@ -6,16 +6,19 @@ import math
 from typing import Any, NamedTuple
 
 from auv_msgs_py.settings.schema import setting, settings
+from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import SPATIAL_STOP, SpatialCommand, SpatialNavigation
 from auv_path_following.vehicle import Vehicle
-from auv_sim.own_vehicle.manoeuvres.legs import manoeuvres_of
-from auv_sim.own_vehicle.manoeuvres.manoeuvring import Flown, manoeuvre, manoeuvring_begins
+from auv_sim.own_vehicle.manoeuvres.legs import SUBMERGE, manoeuvres_of
+from auv_sim.own_vehicle.manoeuvres.manoeuvring import Flown, is_at_depth, manoeuvre, manoeuvring_begins
 from auv_sim.own_vehicle.manoeuvres.program_file import Program
 
 #: Depth that a vehicle which dives holds, m.
 DEPTH = 10.0
 #: Speed over ground beyond that of full thrust and this current counts as lost navigation, m/s.
 _CURRENT = 1.5
+#: Largest distance from the start, m.
+LARGEST_BOX = 5000.0
 #: Time over which the speed over ground is taken, s.
 _SPEED_OVER = 1.0
 
@@ -25,7 +28,7 @@ class ManoeuvreBounds:
     """Bounds of a program; when one is left, rudder and planes go to neutral and thrust to 0."""
 
     box: float = setting(
-        200.0, "largest distance from the start, to north and to east", unit="m", gt=0.0, le=5000.0
+        200.0, "largest distance from the start, to north and to east", unit="m", gt=0.0, le=LARGEST_BOX
     )
     dive: float = setting(
         8.0, "largest distance from the held depth once it was reached", unit="m", gt=0.0, le=100.0
@@ -57,20 +60,32 @@ class ManoeuvreRun:
         rows: every step.
         over: why it ended; empty while it goes on.
         complete: whether it ended because all legs were flown.
+        sounded: whether an altitude was ever measured; from then on its loss ends the program.
 
     Raises:
-        ConfigurationError: the vehicle cannot fly the program.
+        ConfigurationError: the vehicle cannot fly the program, or a held depth is beyond its own.
     """
 
     def __init__(self, vehicle: Vehicle, program: Program, bounds: ManoeuvreBounds, depth: float) -> None:
         self._vehicle, self._bounds, self._depth = vehicle, bounds, depth
         self._config = manoeuvres_of(program, vehicle)
+        if vehicle.dives:
+            self._check_depths()
         self._state: Flown | None = None
         self._time = 0.0
         self._reached = not vehicle.dives
         self.rows: list[ManoeuvreRow] = []
         self.over = ""
-        self.complete = False
+        self.complete = self.sounded = False
+
+    def _check_depths(self) -> None:
+        largest, held = self._vehicle.depth.max, self._depth
+        for leg in self._config.legs:
+            held += leg.depth_step
+            if not 0.0 <= held <= largest:
+                stepped = "" if held == self._depth else f", stepped to {held:g} m"
+                expected = f"depths from 0 to depth.max, {largest:g} m"
+                raise ConfigurationError("depth", f"{self._depth:g} m{stepped}", expected)
 
     @property
     def begun(self) -> bool:
@@ -100,13 +115,15 @@ class ManoeuvreRun:
         Args:
             navigation: `Navigation` or `SpatialNavigation`, NED.
             dt: since the last one, s.
-            altitude: range to the bottom, m; NaN where it is not measured.
+            altitude: range to the bottom, m; infinite without an echo; NaN where it is not measured.
         """
         n = in_space(navigation)
         if self._state is None:
             self._state, dt = manoeuvring_begins(n, self._depth), 0.0
         self._time += dt
-        self.stop(self._left(n, altitude))
+        self.sounded = self.sounded or not math.isnan(altitude)
+        if not self.over:
+            self.stop(self._left(n, dt, altitude))
         command = SPATIAL_STOP
         if not self.over:
             self._state, command = manoeuvre(self._config, self._state, n, dt)
@@ -116,7 +133,7 @@ class ManoeuvreRun:
         self.rows.append(ManoeuvreRow(self._time, self._state.leg, n, command))
         return command
 
-    def _left(self, n: SpatialNavigation, altitude: float) -> str:
+    def _left(self, n: SpatialNavigation, dt: float, altitude: float) -> str:
         """Return which bound is left; empty: none."""
         assert self._state is not None
         b, home = self._bounds, self._state
@@ -129,16 +146,21 @@ class ManoeuvreRun:
             return f"{self._time:.0f} s, longer than the program"
         if (speed := self._speed(n)) > (fastest := self._vehicle.top_speed + _CURRENT):
             return f"a speed over ground of {speed:.1f} m/s, above {fastest:.1f} m/s"
-        return self._left_below(n, altitude) if self._vehicle.dives else ""
+        return self._left_below(n, dt, altitude) if self._vehicle.dives else ""
 
-    def _left_below(self, n: SpatialNavigation, altitude: float) -> str:
+    def _left_below(self, n: SpatialNavigation, dt: float, altitude: float) -> str:
         assert self._state is not None
-        b, held = self._bounds, self._state.depth
-        self._reached = self._reached or abs(n.z - held) < b.dive
+        b, held, leg = self._bounds, self._state.depth, self._config.legs[self._state.leg]
+        submerges = leg.kind == SUBMERGE
+        self._reached = self._reached or not submerges or abs(n.z - held) < b.dive
+        if submerges and self._state.time + dt >= leg.seconds - 1e-9 and not is_at_depth(self._state, n):
+            return f"not level at the depth of {held:g} m within {leg.seconds:g} s, but {n.z:.1f} m deep"
         if n.z > self._vehicle.depth.max:
             return f"{n.z:.1f} m deep, deeper than depth.max, {self._vehicle.depth.max:g} m"
         if self._reached and abs(n.z - held) > b.dive:
             return f"{n.z:.1f} m deep, more than {b.dive:g} m from the held depth of {held:g} m"
+        if self.sounded and math.isnan(altitude):
+            return "no altitude any more, which had been measured"
         if altitude < b.altitude:
             return f"{altitude:.1f} m above the bottom, below {b.altitude:g} m"
         if abs(n.theta) > math.radians(b.pitch_deg):

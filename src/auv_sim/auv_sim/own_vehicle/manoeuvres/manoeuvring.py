@@ -112,7 +112,13 @@ def _is_over(leg: Leg, state: Flown, n: SpatialNavigation) -> bool:
         return abs(state.turned) >= leg.limit
     if leg.kind == PLANE_STEP:
         return abs(n.theta - state.pitch) >= leg.limit
-    return leg.kind == SUBMERGE and abs(n.z - state.depth) < _AT_DEPTH and abs(n.theta) < _LEVEL
+    return leg.kind == SUBMERGE and is_at_depth(state, n)
+
+
+@pure
+def is_at_depth(state: Flown, n: SpatialNavigation) -> bool:
+    """Return whether the way to the held depth is over: the vehicle is there, and level."""
+    return abs(n.z - state.depth) < _AT_DEPTH and abs(n.theta) < _LEVEL
 
 
 @pure
