@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import struct
 import time
 from collections.abc import Callable
@@ -104,6 +105,44 @@ def test_a_fault_stops_the_executor_at_once(domain: int) -> None:
         stop.withdraw()
         node.destroy_node()
         rclpy.try_shutdown()
+
+
+@pytest.mark.parametrize("ignored", [False, True])
+def test_a_lost_terminal_requests_a_stop_unless_it_is_ignored(ignored: bool) -> None:
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN if ignored else signal.SIG_DFL)
+    try:
+        stop = StopRequest()
+        try:
+            assert callable(signal.getsignal(signal.SIGHUP)) != ignored  # else it would end the tests
+            signal.raise_signal(signal.SIGHUP)
+            assert stop.requested != ignored
+        finally:
+            stop.withdraw()
+    finally:
+        signal.signal(signal.SIGHUP, before)
+
+
+def test_an_error_in_one_node_leaves_the_others_to_be_closed_in_their_order(domain: int) -> None:
+    ended: list[str] = []
+
+    class Broken(SuiteNode):
+        def close(self) -> None:
+            ended.append(self.get_name())
+            raise ValueError(self.get_name())
+
+        def destroy_node(self) -> None:
+            ended.append(f"{self.get_name()} destroyed")
+            super().destroy_node()
+
+    def node(name: str) -> SuiteNode:
+        made = Broken(name, NodeParameters, use_global_arguments=False)
+        made.finished = True
+        return made
+
+    with pytest.raises(ValueError, match="second"):
+        run_nodes([lambda: node("first"), lambda: node("second")], ["--ros-args"])
+    assert ended == ["first", "first destroyed", "second", "second destroyed"]
+    assert not rclpy.ok()
 
 
 def test_a_parameter_file_that_is_not_there_costs_one_line(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import gc
 import signal
 import sys
@@ -34,13 +35,17 @@ _GRACE = 5.0
 
 
 class StopRequest:
-    """SIGINT and SIGTERM set a flag; ROS stays up, so that work under way can be finished."""
+    """SIGINT, SIGTERM and SIGHUP set a flag; ROS stays up, so that work under way can be finished.
+
+    SIGHUP comes when the terminal is lost, over ssh for example; `nohup` has it ignored, and it stays so.
+    """
 
     def __init__(self) -> None:
         self.requested = False
-        self._before = {
-            number: signal.signal(number, self._request) for number in (signal.SIGINT, signal.SIGTERM)
-        }
+        signals = [signal.SIGINT, signal.SIGTERM]
+        if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
+            signals.append(signal.SIGHUP)
+        self._before = {number: signal.signal(number, self._request) for number in signals}
 
     def withdraw(self) -> None:
         """Restore the previous signal handlers."""
@@ -61,7 +66,8 @@ def spin(nodes: Sequence[SuiteNode], stop: StopRequest) -> int:
     while not stop.requested and not any(node.fault or node.finished for node in nodes):
         _spin_some(executor, nodes)
     deadline = time.monotonic() + _GRACE
-    while any(node.busy() for node in nodes) and time.monotonic() < deadline:
+    # Not `any`, which asks until the first that is: a node may end its work in `busy`.
+    while sum(node.busy() for node in nodes) and time.monotonic() < deadline:
         executor.spin_once(timeout_sec=0.02)
     for node in nodes:
         if node.fault:
@@ -138,9 +144,15 @@ def run_nodes(factories: Sequence[Callable[[], SuiteNode]], args: Sequence[str] 
         print(error, file=sys.stderr)
         return EXIT_BAD_INPUT
     finally:
-        for node in nodes:
-            node.close()
-            node.destroy_node()
+        _clean_up(nodes, watchers)
+
+
+def _clean_up(nodes: Sequence[SuiteNode], watchers: Sequence[Node]) -> None:
+    """Close the nodes in their order, and shut ROS down; an error in one does not keep the next from it."""
+    with contextlib.ExitStack() as last_first:
+        last_first.callback(rclpy.try_shutdown)
         for watcher in watchers:
-            watcher.destroy_node()
-        rclpy.try_shutdown()
+            last_first.callback(watcher.destroy_node)
+        for node in reversed(nodes):
+            last_first.callback(node.destroy_node)
+            last_first.callback(node.close)

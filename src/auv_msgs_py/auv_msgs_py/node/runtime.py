@@ -185,7 +185,7 @@ class SuiteNode(Node):  # type: ignore[misc]
         return self._answers.waiting_for()
 
     def busy(self) -> bool:
-        """Return whether messages are left to handle after a stop was requested."""
+        """Return whether messages are left to handle after a stop was requested; called again and again."""
         return False
 
     def close(self) -> None:

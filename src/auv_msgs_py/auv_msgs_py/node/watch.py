@@ -64,18 +64,20 @@ class ClockWatch:
         return self._now > 0.0 and steady - self._since > self.bound
 
 
-def second_publishers(node: Any, names: Sequence[str]) -> str:
+def second_publishers(node: Any, names: Sequence[str], of_one_name: bool = False) -> str:
     """Return which of these topics several nodes publish, as a text: the contract has one publisher for each.
 
     Args:
         node: rclpy's, for its view of the graph.
         names: of the topics, relative.
+        of_one_name: whether several publishers of one node name count as well.
     """
     found = []
     for name in names:
         if node.count_publishers(name) > 1:
             infos = node.get_publishers_info_by_topic(node.resolve_topic_name(name))
-            nodes = sorted({topics.full_name(info.node_namespace, info.node_name) for info in infos})
-            if len(nodes) > 1:
-                found.append(f"{name} is published by {', '.join(nodes)}")
+            nodes = Counter(topics.full_name(info.node_namespace, info.node_name) for info in infos)
+            if len(nodes) > 1 or (of_one_name and len(infos) > 1):
+                texts = [f"{n} ({count} times)" if count > 1 else n for n, count in sorted(nodes.items())]
+                found.append(f"{name} is published by {', '.join(texts)}")
     return "; ".join(found)

@@ -7,10 +7,14 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import pydantic
 import pytest
 
 from auv_sim.bags.content.recorded_manoeuvres import manoeuvres_in
 from auv_sim.cli.vehicles import vehicle_command
+from auv_sim.own_vehicle.manoeuvres.manoeuvre_run import ManoeuvreBounds
+from auv_sim.own_vehicle.verbs.manoeuvres import BOX, CURRENT, SPEED
+from auv_sim.sim_parameters import ConstantCurrent, PlantParameters
 
 PROGRAM = """
 version: 1
@@ -46,6 +50,8 @@ def test_a_rehearsal_is_recorded_for_identification(tmp_path: Path) -> None:
         (["--yes-the-vehicle-may-move"], "--yes-the-vehicle-may-move"),
         (["--no-sim", "--controller-model", "remus100"], "--controller-model"),
         (["--program", "two_minutes_dive"], "two_minutes_dive: legs"),
+        (["--vehicle", "remus100_6dof", "--depth", "101"], "depth: found 101 m"),
+        (["--sea", "nowhere"], "nowhere: found no such sea file"),
     ],
 )
 def test_nothing_moves_without_consent_or_with_options_that_do_not_fit(
@@ -57,3 +63,33 @@ def test_nothing_moves_without_consent_or_with_options_that_do_not_fit(
     (line,) = capsys.readouterr().err.splitlines()
     assert line.startswith(where)
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("option", ["--box", "--current", "--speed", "--depth"])
+@pytest.mark.parametrize("value", ["-6000", "6000.5", "nan", "inf", "-inf", "1e400", "far"])
+def test_a_number_that_no_parameter_takes_costs_one_line(
+    option: str, value: str, capsys: pytest.CaptureFixture[str], tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    monkeypatch.chdir(tmp_path)
+    # A leading minus belongs to the value.
+    words = [option, value, value] if option == "--current" else [f"{option}={value}"]
+    try:
+        code = vehicle_command.main(["manoeuvres", "--vehicle", "remus100_6dof", *words])
+    except SystemExit as end:
+        code = end.code  # type: ignore[assignment]
+    assert code == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert value in line or option in line
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_ranges_of_the_options_are_those_of_the_parameters() -> None:
+    for box in BOX:
+        assert ManoeuvreBounds(box=box)
+    for settings, key, (low, high) in ((ConstantCurrent, "Vx", CURRENT), (PlantParameters, "speed", SPEED)):
+        for value in (low, high):
+            assert settings(**{key: value})
+        for value in (low - 0.1, high + 0.1):
+            with pytest.raises(pydantic.ValidationError):
+                settings(**{key: value})

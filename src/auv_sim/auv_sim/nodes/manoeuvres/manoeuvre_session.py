@@ -16,17 +16,18 @@ from typing import Any
 
 from rich.console import Console
 
-from auv_msgs_py.node.run import run_nodes
+from auv_msgs_py.node.run import EXIT_BAD_INPUT, run_nodes
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_path_following import vehicle as vehicle_file
 from auv_path_following.vehicle import Vehicle
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, make_directory, to_type
 from auv_sim.launch.processes.domains import free_domain
-from auv_sim.nodes.manoeuvres.manoeuvres_node import ManoeuvresNode
+from auv_sim.nodes.manoeuvres.manoeuvres_node import INTERRUPTED, ManoeuvresNode
 from auv_sim.own_vehicle.manoeuvres import program_file
 from auv_sim.own_vehicle.manoeuvres.manoeuvre_run import ManoeuvreBounds, ManoeuvreRun
 from auv_sim.terminal import console, go_on, progress_bar, wrote
+from auv_sim.vehicle import sea
 
 CONSENT = "--yes-the-vehicle-may-move"
 
@@ -44,6 +45,8 @@ def fly(options: argparse.Namespace) -> int:
     hull = vehicle_file.load(options.model)
     program = program_file.load(options.program)
     rehearsal = ManoeuvreRun(hull, program, ManoeuvreBounds(box=options.box), options.depth)
+    if options.sea is not None:
+        sea.load(options.sea)
     if options.no_sim:
         _ask(options, hull, rehearsal.duration)
     elif options.consent:
@@ -57,12 +60,13 @@ def fly(options: argparse.Namespace) -> int:
     out, made = console(options.quiet), list[ManoeuvresNode]()
     with _progress(out, program.name, made):
         code = run_nodes(_nodes(options, hull, directory, made), [])
-    if not made:
+    if not made or code == EXIT_BAD_INPUT:
         return code
     run = made[0].run
     _show(out, options, hull, run, directory)
-    if run.over == "interrupted":
-        raise KeyboardInterrupt("interrupted: zero commands were sent")
+    if code == EXIT_DONE and run.over == INTERRUPTED:
+        sent = "zero commands were sent" if run.begun else "nothing was sent"
+        raise KeyboardInterrupt(f"interrupted: {sent}")
     return EXIT_DONE if run.complete else EXIT_FAILED
 
 
@@ -110,6 +114,8 @@ def _nodes(
         "vehicle": file, "program": program,
         "consent": True, "depth": options.depth, "bounds.box": options.box, "use_sim_time": simulated,
     }  # fmt: skip
+    if simulated:
+        flying["look_around"] = 0.0
     recording = {
         "directory": str(directory / "bag"), "sternplanes": hull.dives, "use_sim_time": simulated,
     }  # fmt: skip
@@ -118,7 +124,8 @@ def _nodes(
         made.append(_node(ManoeuvresNode, options.namespace, flying))
         return made[0]
 
-    factories: list[Callable[[], Any]] = [partial(_node, RecorderNode, options.namespace, recording), flyer]
+    # The one that flies is closed first: nothing that another does may delay its zeros.
+    factories: list[Callable[[], Any]] = [flyer, partial(_node, RecorderNode, options.namespace, recording)]
     if simulated:
         north, east = options.current
         plant: dict[str, Any] = {

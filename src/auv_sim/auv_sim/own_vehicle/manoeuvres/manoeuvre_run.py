@@ -17,8 +17,6 @@ from auv_sim.own_vehicle.manoeuvres.program_file import Program
 DEPTH = 10.0
 #: Speed over ground beyond that of full thrust and this current counts as lost navigation, m/s.
 _CURRENT = 1.5
-#: Largest distance from the start, m.
-LARGEST_BOX = 5000.0
 #: Time over which the speed over ground is taken, s.
 _SPEED_OVER = 1.0
 
@@ -28,7 +26,7 @@ class ManoeuvreBounds:
     """Bounds of a program; when one is left, rudder and planes go to neutral and thrust to 0."""
 
     box: float = setting(
-        200.0, "largest distance from the start, to north and to east", unit="m", gt=0.0, le=LARGEST_BOX
+        200.0, "largest distance from the start, to north and to east", unit="m", gt=0.0, le=5000.0
     )
     dive: float = setting(
         8.0, "largest distance from the held depth once it was reached", unit="m", gt=0.0, le=100.0

@@ -2,17 +2,32 @@
 
 On the simulator it is a rehearsal. With --no-sim the vehicle's driver has to run; the command then asks
 before anything moves. Rudder and planes go to neutral and thrust to 0 when a bound is left, navigation is
-lost, another node sends commands, or on Ctrl-C.
+lost, another node sends commands, the terminal is lost, or on Ctrl-C.
 """
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from pathlib import Path
 
-from auv_sim.command_line import Parser, finite, not_negative, positive, ros_namespace, whole
+from auv_sim.command_line import Parser, finite, not_negative, ros_namespace, whole
 
 _BOX, _DEPTH, _SPEED = 200.0, 10.0, 10.0
+#: Ranges of the parameters that the options set: box, m; current, m/s; speed.
+BOX, CURRENT, SPEED = (1.0, 5000.0), (-5.0, 5.0), (0.01, 1000.0)
+
+
+def within(low: float, high: float) -> Callable[[str], float]:
+    """Return the parser of a number in a range, with its ends."""
+
+    def number(text: str) -> float:
+        value = finite(text)
+        if not low <= value <= high:
+            raise argparse.ArgumentTypeError(f"found {text}, expected a number from {low:g} to {high:g}")
+        return value
+
+    return number
 
 
 def add_arguments(parser: Parser) -> None:
@@ -27,7 +42,7 @@ def add_arguments(parser: Parser) -> None:
         help=f"to hold, of a vehicle that dives (default {_DEPTH:g})",
     )  # fmt: skip
     parser.add_argument(
-        "--box", type=positive, default=_BOX, metavar="M",
+        "--box", type=within(*BOX), default=_BOX, metavar="M",
         help=f"largest distance from the start to north and east (default {_BOX:g})",
     )  # fmt: skip
     parser.add_argument(
@@ -42,9 +57,9 @@ def add_arguments(parser: Parser) -> None:
     )  # fmt: skip
     rehearsal.add_argument("--sea", metavar="FILE", help="sea file, or a shipped name")
     rehearsal.add_argument("--seed", type=whole, default=0, help="of the sea")
-    rehearsal.add_argument("--current", type=finite, nargs=2, default=(0.0, 0.0), metavar=("VX", "VY"),
-                           help="constant, towards north and east, m/s")  # fmt: skip
-    rehearsal.add_argument("--speed", type=positive, default=_SPEED, metavar="N",
+    rehearsal.add_argument("--current", type=within(*CURRENT), nargs=2, default=(0.0, 0.0),
+                           metavar=("VX", "VY"), help="constant, towards north and east, m/s")  # fmt: skip
+    rehearsal.add_argument("--speed", type=within(*SPEED), default=_SPEED, metavar="N",
                            help=f"times real time (default {_SPEED:g})")  # fmt: skip
     real = parser.add_argument_group("on your vehicle")
     real.add_argument("--no-sim", action="store_true", help="fly the vehicle whose driver runs")
