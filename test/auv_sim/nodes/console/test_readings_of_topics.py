@@ -18,6 +18,7 @@ from auv_msgs_py.contract.spatial_conversions import fill_spatial_odometry
 from auv_msgs_py.values.errors import MessageRefused
 from auv_msgs_py.values.types import Navigation, SpatialNavigation
 from auv_sim.nodes.console.readings_of_topics import TopicReader
+from auv_sim.views.console.record.track_columns import NAMES
 from auv_sim.views.console.record.vehicle_record import VehicleRecord
 
 ENU, NED = ("map", "base_link"), ("map_ned", "base_link_frd")
@@ -122,3 +123,45 @@ def test_a_lone_word_of_another_publisher_changes_no_state(reading: Reading) -> 
     for word in ("aborted", "aborted"):
         reading.hear(topics.MISSION_STATE, String(data=word))
     assert reading.record.progress.state == "aborted"
+
+
+def _row(reading: Reading, stamp: int) -> Any:
+    message = odometry(ENU)
+    fill_odometry(message, Navigation(0.0, 0.0, 0.0, 0.0), 1.0, 0.0, stamp * 1_000_000_000)
+    reading.hear(topics.ODOM, message)
+    return dict(zip(NAMES, reading.record.history.rows[-1].tolist(), strict=True))
+
+
+def test_a_measurement_that_no_longer_comes_is_left_out_of_the_rows(reading: Reading) -> None:
+    current = Vector3Stamped()
+    current.vector.x = 0.25
+    reading.hear(topics.CURRENT_ESTIMATE, current)
+    reading.hear(topics.DISTANCE_TO_GO, Float64(data=5.0))
+    for k in range(9):
+        reading.hear(topics.RUDDER_CMD, Float64(data=0.5))
+        row = _row(reading, k + 1)
+        is_old = k > 4
+        assert math.isnan(row["current_east"]) == is_old
+        assert (reading.record.seen.current is None) == is_old
+        assert math.isnan(reading.record.progress.to_go) == is_old
+        assert row["rudder"] == 0.5
+        reading.now += 0.5
+
+
+def test_a_pause_makes_no_measurement_old(reading: Reading) -> None:
+    reading.hear(topics.RUDDER_CMD, Float64(data=0.5))
+    for k in range(2):
+        assert _row(reading, k + 1)["rudder"] == 0.5
+        reading.now += 600.0
+
+
+def test_a_new_simulation_begins_without_the_measurements_of_the_last(reading: Reading) -> None:
+    reading.hear(topics.RUDDER_CMD, Float64(data=0.5))
+    reading.record.seen.current = 1.0, 0.0, 0.0
+    _row(reading, 100)
+    _row(reading, 1)
+    row = _row(reading, 2)
+    assert reading.record.epoch == 2
+    assert math.isnan(row["rudder"])
+    assert row["x"] == 0.0
+    assert reading.record.seen.current is None

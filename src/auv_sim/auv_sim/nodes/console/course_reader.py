@@ -16,11 +16,12 @@ from auv_sim.views.console.record.vehicle_record import VehicleRecord
 _MOST_POINTS = 8000
 #: `sensor_msgs/msg/NavSatStatus.STATUS_NO_FIX`: the mission has no origin.
 _NO_FIX = -1
+_CHECKING = PlanLines(False, ("the plan is being checked",))
 _NOT_CHECKED = PlanLines(True, ("the mission's file is not on this machine: its check was the vehicle's",))
 
 
 class CourseReader:
-    """Collects the course of the present mission.
+    """Collects the course of the present mission; until its file was checked its plan refuses a start.
 
     Args:
         record: of the vehicle.
@@ -74,7 +75,7 @@ class CourseReader:
                 },
                 "dives": facts.dives if facts is not None and is_right else any(p[2] for p in self._path),
             },
-            facts.plan if facts is not None and is_right and facts.plan is not None else _NOT_CHECKED,
+            _CHECKING if self.needs_facts() else (facts and facts.plan) or _NOT_CHECKED,
         )  # fmt: skip
 
     def _on_path(self, message: Any) -> None:

@@ -15,7 +15,7 @@ from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.values.errors import MessageRefused
 from auv_msgs_py.values.types import SpatialNavigation
 from auv_sim.nodes.console.ground_velocity import over_ground
-from auv_sim.views.console.record.health_board import OK
+from auv_sim.views.console.record.health_board import OK, SILENT_AFTER
 from auv_sim.views.console.record.readiness import NAVIGATION
 from auv_sim.views.console.record.vehicle_record import VehicleRecord
 
@@ -29,6 +29,18 @@ _PLAIN = {
     topics.DESIRED_PITCH: ("pitch_ref", -1.0),  # on the wire positive is bow down
     topics.DESIRED_DEPTH: ("depth_ref", 1.0),
 }
+#: Topic -> columns that it fills; those of the odometry are new in every row.
+_COLUMNS = {topic: (column,) for topic, (column, _) in _PLAIN.items()} | {
+    topics.DISTANCE_TO_GO: ("s",),
+    topics.WATER_VELOCITY: ("u",),
+    topics.PATH_ERROR: ("xe", "ye"),
+    topics.PATH_ERROR_3D: ("ze",),
+    topics.CURRENT_ESTIMATE: ("current_east", "current_north"),
+    topics.ALTITUDE: ("altitude",),
+    topics.TRUE_ODOM: ("true_x", "true_y", "true_z"),
+}
+#: A longer gap between two odometries is a pause, s.
+_PAUSE = 1.0
 
 
 class TopicReader:
@@ -43,12 +55,15 @@ class TopicReader:
     def __init__(self, record: VehicleRecord, frames: FrameTable, clock: Callable[[], float]) -> None:
         self._record, self._frames, self._clock = record, frames, clock
         self._word = MissionWord()
-        self._length = math.nan
+        #: Topic -> `_flown` at its last message.
+        self._heard: dict[Topic, float] = {}
+        #: Steady time while odometry came, s: a simulator that pauses makes no measurement old.
+        self._flown, self._odometry_at = 0.0, math.inf
 
     def readers(self) -> dict[Topic, Reader]:
         """Return what takes the messages of each topic; the odometry, which makes a row, comes last."""
         found: dict[Topic, Reader] = {topic: self._plain(*column) for topic, column in _PLAIN.items()}
-        return found | {
+        found |= {
             topics.MISSION_STATE: self._on_state,
             topics.MISSION_STATUS: self._on_status,
             topics.DISTANCE_TO_GO: self._on_to_go,
@@ -61,6 +76,28 @@ class TopicReader:
             topics.TRUE_ODOM: self._on_truth,
             topics.ODOM: self._on_odometry,
         }
+        return {topic: self._noted(topic, read) for topic, read in found.items()}
+
+    def _noted(self, topic: Topic, reader: Reader) -> Reader:
+        def read(message: Any) -> None:
+            reader(message)
+            self._heard[topic] = self._flown
+
+        return read
+
+    def _forget_old(self) -> None:
+        """Leave what has not come for `SILENT_AFTER` s out of the rows that follow."""
+        now = self._clock()
+        self._flown += min(max(now - self._odometry_at, 0.0), _PAUSE)
+        self._odometry_at = now
+        for topic, heard in list(self._heard.items()):
+            if self._flown - heard > SILENT_AFTER and topic is not topics.ODOM:
+                del self._heard[topic]
+                self._record.forget(_COLUMNS.get(topic, ()))
+                if topic is topics.VIRTUAL_POINT:
+                    self._record.seen.virtual_point = None
+                elif topic is topics.CURRENT_ESTIMATE:
+                    self._record.seen.current = None
 
     def _plain(self, name: str, factor: float) -> Reader:
         values = self._record.values
@@ -121,6 +158,7 @@ class TopicReader:
     def _on_odometry(self, message: Any) -> None:
         stamp = stamp_of(message.header.stamp, topics.ODOM.name) * 1e-9
         at = self._navigation(message, topics.ODOM)
+        self._forget_old()
         record, frames = self._record, self._frames
         convention = frames.of_pose(topics.ODOM.name, message.header.frame_id, message.child_frame_id)
         linear = message.twist.twist.linear

@@ -48,5 +48,7 @@ COLUMNS = (
     TrackColumn("true_z", "m", "true up"),
 )
 NAMES = tuple(column.name for column in COLUMNS)
+#: Columns that every odometry fills.
+OF_ODOMETRY = ("x", "y", "z", "yaw", "pitch", "ve", "vn")
 #: Name -> position in a row.
 PLACE = {name: k for k, name in enumerate(NAMES)}

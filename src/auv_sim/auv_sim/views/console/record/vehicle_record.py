@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +19,7 @@ from auv_sim.views.console.record.health_board import ERROR, SILENT, HealthBoard
 from auv_sim.views.console.record.history import History
 from auv_sim.views.console.record.mission_progress import MissionProgress
 from auv_sim.views.console.record.readiness import CHAIN, NAVIGATION, PlanLines
+from auv_sim.views.console.record.track_columns import NAMES, OF_ODOMETRY
 from auv_sim.views.console.record.track_file import TrackFile
 from auv_sim.views.console.record.wire_messages import rows_message, text_of
 
@@ -86,6 +87,7 @@ class VehicleRecord:
             self.seen.stamp = self.t0 + float(rows[-1, 0])
             self.epoch, self._is_epoch_new = self.epoch + 1, True
         elif self.history.taken:
+            self.forget(NAMES)
             self._begin(math.nan)
 
     def take_row(self, stamp: float) -> bool:
@@ -102,6 +104,7 @@ class VehicleRecord:
             if not (stamp > self._older):
                 self._older = stamp
                 return False
+            self.forget(name for name in NAMES if name not in OF_ODOMETRY)
             self._begin(stamp)
         self._older = math.nan
         if math.isnan(self.t0):
@@ -111,7 +114,16 @@ class VehicleRecord:
         self._fresh.append(row.copy())
         return True
 
+    def forget(self, columns: Iterable[str]) -> None:
+        """Leave the values of some columns out of the rows that follow."""
+        for name in columns:
+            self.values.pop(name, None)
+            if name == "s":
+                self.progress.to_go = math.nan
+
     def _begin(self, stamp: float) -> None:
+        if self.history.taken:  # what was seen is of another time
+            self.seen = Sighting()
         self.history, self._fresh, self._halved = History(), [], 0
         self.epoch, self.t0, self._is_epoch_new = self.epoch + 1, stamp, True
         self.seen.stamp = math.nan
