@@ -16,6 +16,7 @@ from auv_sim.nodes.console.vehicle_calls import PATIENCE, CallFailed, ServiceCal
 from auv_sim.views.console.record.health_board import OK
 from auv_sim.views.console.record.readiness import CHAIN, NAVIGATION, PlanLines
 from auv_sim.views.console.record.vehicle_record import VehicleRecord
+from auv_sim.views.console.web.operator_desk import Answer
 
 
 class Services:
@@ -119,3 +120,31 @@ def test_a_start_that_the_preflight_forbids_is_not_sent(monkeypatch: pytest.Monk
     record.set_course({}, PlanLines(False, ("turn too tight",)))
     answer = graph.run(deeds.commands["start"](record, 1, {}))  # type: ignore[arg-type]
     assert (answer.ok, answer.message, graph.sent) == (False, "plan: turn too tight", [])
+
+
+def test_plans_are_checked_one_at_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    graph = Services(monkeypatch, ready_at=0.0)
+    deeds = OperatorDeeds(graph, ServiceCaller(graph), None, lambda _: True)  # type: ignore[arg-type]
+    may_end = asyncio.Event()
+
+    async def check(text: str, hull: str) -> dict[str, Any]:
+        await may_end.wait()
+        return {"ok": True, "lines": [f"{text} of {hull}"]}
+
+    async def value(*_: str) -> list[str]:
+        return ["remus100"]
+
+    monkeypatch.setattr(operator_deeds.plan_apart, "checked_text", check)
+    monkeypatch.setattr(deeds.desk("/auv"), "value", value)
+    assert "check" not in deeds.looks, "a page that may only look starts no process"
+
+    async def both() -> list[Answer]:
+        ask = deeds.commands["check"]
+        first = asyncio.create_task(ask(ready_vehicle(), 1, {"text": "a"}))  # type: ignore[arg-type]
+        await asyncio.sleep(0.0)
+        second = await ask(ready_vehicle(), 2, {"text": "b"})
+        may_end.set()
+        return [await first, second, await ask(ready_vehicle(), 2, {"text": "c"})]
+
+    answers = graph.run(both())
+    assert [answer.message for answer in answers] == ["a of remus100", "a check is running", "c of remus100"]

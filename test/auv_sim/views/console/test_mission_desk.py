@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import math
 from pathlib import Path
 
@@ -10,7 +11,8 @@ import pytest
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files, vehicle
 from auv_path_following.missions import mission_file
-from auv_sim.views.console.mission_desk import MissionShelf, check_text, facts_of, joints_of
+from auv_sim.views.console import plan_apart
+from auv_sim.views.console.mission_desk import MissionShelf, check_text, draft_of, facts_of, joints_of
 
 LINE = """\
 version: 1
@@ -43,6 +45,25 @@ def test_any_text_gets_a_line(text: str) -> None:
     found = check_text(text, "remus100")
     assert (found.ok, len(found.lines)) == (False, 1)
     assert found.lines[0].isprintable()
+
+
+def test_a_draft_is_thinned_and_ends_with_its_path() -> None:
+    draft = draft_of(LINE.replace("length: 50", "length: 33333.33333"), "remus100")
+    assert len(draft["path"]) <= 8000
+    assert draft["path"][-1] == [0.0, 33333.333, 0.0, 33333.333]
+
+
+def test_a_check_in_its_own_process_has_the_same_result(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = asyncio.run(plan_apart.checked_text(LINE, "remus100"))
+    assert found == {
+        "ok": True, "lines": list(check_text(LINE, "remus100").lines), "course": draft_of(LINE, "remus100"),
+    }  # fmt: skip
+    digest = mission_file.read_text(LINE).digest
+    asked = (digest, "", LINE, "remus100")
+    assert asyncio.run(plan_apart.facts_of(*asked)) == facts_of(*asked)
+    monkeypatch.setattr(plan_apart, "LONGEST", 0.0)
+    with pytest.raises(plan_apart.CheckFailed, match="longer than 0 s"):
+        asyncio.run(plan_apart.checked_text(LINE, "remus100"))
 
 
 def test_joints_lie_on_the_path_and_end_with_it() -> None:

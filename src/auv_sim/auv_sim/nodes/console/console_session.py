@@ -29,8 +29,11 @@ from auv_sim.nodes.console.graph_feed import GraphFeed
 from auv_sim.nodes.console.operator_deeds import OperatorDeeds
 from auv_sim.nodes.console.vehicle_calls import CallFailed, ServiceCaller
 from auv_sim.nodes.console.vehicle_feed import VehicleFeed
-from auv_sim.views.console.mission_desk import MissionFacts, MissionShelf, facts_of
+from auv_sim.views.console import plan_apart
+from auv_sim.views.console.mission_desk import MissionFacts, MissionShelf
+from auv_sim.views.console.plan_apart import CheckFailed
 from auv_sim.views.console.record.fault_log import FaultLog
+from auv_sim.views.console.record.readiness import PlanLines
 from auv_sim.views.console.record.track_file import remove_stale
 from auv_sim.views.console.web.operator_desk import OperatorDesk
 from auv_sim.views.console.web.page_files import page_files
@@ -152,7 +155,10 @@ class ConsoleSession:
     async def _facts(self, feed: VehicleFeed) -> MissionFacts:
         desk, digest = self._deeds.desk(feed.record.namespace), feed.course.digest
         values = await desk.value(topics.GUIDANCE, "mission", "mission_text", "vehicle")
-        return await asyncio.to_thread(facts_of, digest, *values)
+        try:
+            return await plan_apart.facts_of(digest, *values)
+        except CheckFailed as error:
+            return MissionFacts(digest, [], False, PlanLines(False, (str(error),)))
 
 
 def serve(options: ConsoleOptions) -> int:

@@ -18,7 +18,7 @@ from auv_msgs_py.contract.frames import quaternion_of_yaw
 from auv_msgs_py.values.errors import printable
 from auv_sim.nodes.console.parameter_desk import ParameterDesk
 from auv_sim.nodes.console.vehicle_calls import CallFailed, ServiceCaller
-from auv_sim.views.console import mission_desk
+from auv_sim.views.console import plan_apart
 from auv_sim.views.console.mission_desk import MissionShelf
 from auv_sim.views.console.record.vehicle_record import VehicleRecord
 from auv_sim.views.console.web.operator_desk import Answer, Deed, number_in, text_in
@@ -44,23 +44,25 @@ class OperatorDeeds:
         self._node, self._caller, self._shelf = node, caller, shelf
         self._is_here = is_here
         self._aborts: Counter[str] = Counter()
+        self._is_checking = False
         self._desks: dict[str, ParameterDesk] = {}
 
     @property
     def looks(self) -> dict[str, Deed]:
         """Requests that change nothing."""
         return {
-            "missions": self._missions, "mission_text": self._mission_text, "check": self._check,
+            "missions": self._missions, "mission_text": self._mission_text,
             "parameters": self._parameters, "parameter_file": self._parameter_file,
         }  # fmt: skip
 
     @property
     def commands(self) -> dict[str, Deed]:
-        """Requests that reach the vehicle, or what other browsers see."""
+        """Requests that reach the vehicle or what other browsers see, and the check, which takes time."""
         return {
             "start": self._start, "abort": self._abort,
             "hold": self._service(topics.HOLD_SERVICE), "resume": self._service(topics.RESUME_SERVICE),
             "load": self._load, "set": self._set, "goal": self._goal, "acknowledge": self._acknowledge,
+            "check": self._check,
         }  # fmt: skip
 
     def desk(self, namespace: str) -> ParameterDesk:
@@ -118,14 +120,16 @@ class OperatorDeeds:
         return Answer(True, more={"text": self._shelf.text_of(text_in(request, "name"))})
 
     async def _check(self, record: VehicleRecord, _: int, request: Request) -> Answer:
-        (hull,) = await self.desk(record.namespace).value(topics.GUIDANCE, "vehicle")
-        # A long mission takes seconds: the topics and the other browsers do not wait for it.
-        text = text_in(request, "text")
-        found = await asyncio.to_thread(mission_desk.check_text, text, hull)
-        more: dict[str, Any] = {"lines": list(found.lines)}
-        if found.ok:
-            more["course"] = await asyncio.to_thread(mission_desk.draft_of, text, hull)
-        return Answer(found.ok, found.lines[0] if found.lines else "", more)
+        """Check a mission's text; one at a time, as each has a process."""
+        if self._is_checking:
+            return Answer(False, "a check is running")
+        self._is_checking = True
+        try:
+            (hull,) = await self.desk(record.namespace).value(topics.GUIDANCE, "vehicle")
+            found = await plan_apart.checked_text(text_in(request, "text"), hull)
+        finally:
+            self._is_checking = False
+        return Answer(found.pop("ok"), next(iter(found["lines"]), ""), found)
 
     async def _load(self, record: VehicleRecord, viewer: int, request: Request) -> Answer:
         values = {"mission_text": text_in(request, "text")}

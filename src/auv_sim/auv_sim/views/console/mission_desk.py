@@ -21,6 +21,8 @@ from auv_sim.views.console.record.readiness import PlanLines
 
 #: Largest distance of the points of a course that is drawn, m.
 _DRAWN = 2.0
+#: Most points and joints of a draft.
+_MOST_POINTS, _MOST_JOINTS = 8000, 2000
 #: Longest mission text, characters.
 _LONGEST = 400_000
 
@@ -114,8 +116,11 @@ def draft_of(text: str, hull: str) -> dict[str, Any]:
     mission = mission_file.read_text(text, model, "mission")
     north, east, _ = mission.path.polyline(_DRAWN)
     way = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(north), np.diff(east)))])
-    points = np.stack([east, north, np.zeros_like(way), way], axis=1)
-    return {"path": points.tolist(), "joints": joints_of(mission, model), "dives": model.dives}
+    points = np.stack([east, north, np.zeros_like(way), way], axis=1).round(3)
+    step = math.ceil(len(points) / _MOST_POINTS)
+    kept = points[(len(points) - 1) % step :: step]  # the last point among them
+    joints = joints_of(mission, model)[:_MOST_JOINTS]
+    return {"path": kept.tolist(), "joints": joints, "dives": model.dives}
 
 
 def _headline(mission: Mission, findings: Findings) -> str:
