@@ -84,3 +84,12 @@ def test_poles_and_speeds_of_known_hulls() -> None:
     assert speed_of(c, 6.48) == pytest.approx(2.0)
     assert pole_of(c, 2.0) == pytest.approx(1.33, abs=0.01)
     assert pole_of(combinations_of(random_vehicle(1, stable=True).coefficients), 2.0) < 0.0
+
+
+@pytest.mark.parametrize("zeros", [("Xrr",), ("Nvv", "Nvd"), ("Yrr", "Yrd", "Xvr")])
+def test_coefficients_that_a_file_leaves_at_zero_have_a_prior(zeros: tuple[str, ...]) -> None:
+    sparse = dataclasses.replace(REMUS.coefficients, **dict.fromkeys(zeros, 0.0))
+    prior = prior_of(sparse)
+    assert np.diag(prior.root).min() > 0.0
+    whole = prior_of(REMUS.coefficients)
+    assert prior.mean == pytest.approx(whole.mean) and prior.root == pytest.approx(whole.root)

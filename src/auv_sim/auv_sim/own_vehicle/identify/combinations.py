@@ -12,8 +12,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from auv_path_following import vehicle as vehicle_file
 from auv_path_following.vehicle import Hull
 
+#: Where a vehicle's file has no coefficients, they are those of this vehicle, scaled.
+REFERENCE = "remus100"
 Numbers = NDArray[np.float64]
 
 
@@ -143,15 +146,20 @@ _INERTIA = ("m", "Izz")
 def prior_of(hull: Hull, seed: int = 0) -> Prior:
     """Return what is assumed before any data: each coefficient of a similar hull within a factor of two.
 
+    A coefficient that a file leaves at 0 is drawn around that of the REMUS 100, scaled to the same mass.
+
     Args:
         hull: a known one of about this size: see `scaled_hull`.
         seed: of the draws.
     """
+    reference = vehicle_file.load(REFERENCE).coefficients
+    similar = scaled_hull(reference, (hull.m / reference.m) ** (1.0 / _POWERS["m"]))
     generator = np.random.default_rng(seed)
     values: dict[str, Any] = {}
     for field in dataclasses.fields(hull):
         value = getattr(hull, field.name)
         if isinstance(value, float):
+            value = value or getattr(similar, field.name)
             largest = 0.5 if field.name in _INERTIA else 1.0
             values[field.name] = value * 2.0 ** generator.uniform(-largest, largest, _DRAWS)
     drawn = np.array(_combined(values, hull.surge_coupling))

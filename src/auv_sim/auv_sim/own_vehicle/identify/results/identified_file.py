@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import math
 from typing import Any
 
+from auv_path_following.abilities import DepthRange
 from auv_path_following.vehicle import Hull, Rudder, Vehicle
 from auv_sim.own_vehicle.identify.combinations import hull_with
 from auv_sim.own_vehicle.identify.identification import Identified
@@ -26,18 +28,18 @@ def identified_text(vehicle: Vehicle, known: Hull, found: Identified, source: st
         source: names of the recordings.
     """
     rows = [
-        f"# Identified from {source}.",
+        f"# Identified from {' '.join(source.split())}.",
         "# Comments are 95 % intervals. They include what no recording shows: the scale of the log, the bias",
         "# of the thrust. Masses are assumed; the hull moves by the identified accelerations in any case.",
+        "# (x2) is the factor within which a coefficient is assumed that these data do not show.",
         f"name: {_text(vehicle.name)}",
-        f"length: {vehicle.length:g}  # m",
-        f"thrust_max: {vehicle.thrust_max:g}  # {vehicle.thrust_symbol}",
+        f"length: {_value(vehicle.length)}  # m",
+        f"thrust_max: {_value(vehicle.thrust_max)}  # {vehicle.thrust_symbol}",
     ]
     if vehicle.thrust_unit != "N":
-        table = ", ".join(f"[{a:.5g}, {b:.4g}]" for a, b in vehicle.thrust_table)
         rows += [
             f"thrust_unit: {vehicle.thrust_unit}",
-            f"thrust_table: [{table}]  # {vehicle.thrust_unit}, N",
+            f"thrust_table: {_value(vehicle.thrust_table)}  # {vehicle.thrust_unit}, N",
         ]
     return (
         "\n".join([*rows, *_rudder(vehicle.rudder, found), *_planes(vehicle), *_hull(vehicle, known, found)])
@@ -46,7 +48,7 @@ def identified_text(vehicle: Vehicle, known: Hull, found: Identified, source: st
 
 
 def _text(name: str) -> str:
-    return "'" + name.replace("'", "''") + "'"
+    return json.dumps(name, ensure_ascii=False)
 
 
 def _rudder(rudder: Rudder, found: Identified) -> list[str]:
@@ -56,18 +58,18 @@ def _rudder(rudder: Rudder, found: Identified) -> list[str]:
     return [
         f"rudder:  # in a sea file: {{dead_band_deg: {math.degrees(found.dead_band):.2g}, "
         f"backlash_deg: {play:.2g}}}, the latter +- {off:.1g}",
-        f"  max_angle_deg: {rudder.max_angle_deg:g}",
-        f"  max_rate_deg_s: {rudder.max_rate_deg_s:.4g}  # +- {math.degrees(REACH * sd[RATE]):.2g}",
-        f"  dead_time: {rudder.dead_time:.3f}  # s, +- {REACH * sd[DEAD_TIME]:.1g}",
+        f"  max_angle_deg: {_value(rudder.max_angle_deg)}",
+        f"  max_rate_deg_s: {_value(rudder.max_rate_deg_s)}  # +- {math.degrees(REACH * sd[RATE]):.2g}",
+        f"  dead_time: {_value(rudder.dead_time)}  # s, +- {REACH * sd[DEAD_TIME]:.1g}",
     ]
 
 
 def _planes(vehicle: Vehicle) -> list[str]:
-    """Return stern planes, depth and pitching as the known vehicle has them."""
+    """Return stern planes, depth, and pitching with the speed at which it was measured."""
     rows: list[str] = []
-    for name in ("sternplanes", "depth", "pitching"):
+    for name in ("sternplanes", "depth", "cruise", "pitching"):
         part = getattr(vehicle, name)
-        if part is not None and vehicle.dives:
+        if part is not None and (vehicle.dives or part != DepthRange()):
             rows += [f"{name}:", *_mapping(part, "  ")]
     return rows
 
@@ -78,13 +80,12 @@ def _mapping(part: Any, indent: str) -> list[str]:
 
 
 def _value(value: Any) -> str:
-    return (
-        str(value).lower()
-        if isinstance(value, bool)
-        else f"{value:.6g}"
-        if isinstance(value, float)
-        else str(value)
-    )
+    """Return a value as YAML that is read as the same value."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, tuple):
+        return "[" + ", ".join(map(_value, value)) + "]"
+    return repr(value).removesuffix(".0")
 
 
 def _hull(vehicle: Vehicle, known: Hull, found: Identified) -> list[str]:
@@ -93,7 +94,7 @@ def _hull(vehicle: Vehicle, known: Hull, found: Identified) -> list[str]:
         value = getattr(hull, field.name)
         if isinstance(value, float) and not isinstance(value, bool):
             note = "assumed" if field.name in _ASSUMED else _interval(field.name, value, known, found)
-            rows.append(f"  {field.name}: {value:.5g}  # {note}")
+            rows.append(f"  {field.name}: {_value(value)}  # {note}")
     rows.append("  surge_coupling: true")
     if hull.vertical is not None:
         rows += ["  vertical:  # masses as assumed", *_mapping(hull.vertical, "    ")]
@@ -107,4 +108,4 @@ def _interval(name: str, value: float, known: Hull, found: Identified) -> str:
     )
     off = REACH * found.spread.total(gradient)
     share = 100.0 * off / abs(value) if value else math.inf
-    return f"+- {off:.2g}" + (f" ({share:.0f} %)" if share < 100.0 else ": not known from these data")
+    return f"+- {off:.2g}" + (f" ({share:.0f} %)" if share < 100.0 else " (x2): not known from these data")

@@ -3,16 +3,27 @@
 from __future__ import annotations
 
 import dataclasses
+from typing import Any, TypeVar
 
 import numpy as np
+import pydantic
+from pydantic_core import PydanticCustomError
 
+from auv_msgs_py.settings.explanations import readable
+from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import vehicle as vehicle_file
+from auv_path_following.abilities import DepthRange
 from auv_path_following.vehicle import Hull, Vehicle
-from auv_sim.own_vehicle.identify.combinations import Combinations, Numbers, hull_with, scaled_hull
+from auv_path_following.vertical_hull import VerticalHull, check_planes
+from auv_sim.own_vehicle.identify.combinations import (
+    REFERENCE,
+    Combinations,
+    Numbers,
+    hull_with,
+    scaled_hull,
+)
 from auv_sim.own_vehicle.identify.dive.dive_combinations import DiveCombinations, vertical_with
 
-#: Where a vehicle's file has no coefficients, they are those of this vehicle, scaled to its length.
-_REFERENCE = "remus100"
 #: Shares of the largest thrust at which a thrust table is written.
 _SHARES = (0.2, 0.4, 0.6, 0.8, 1.0)
 
@@ -21,7 +32,7 @@ def known_hull(vehicle: Vehicle) -> Hull:
     """Return the vehicle's own hull, or a similar one of its length."""
     if vehicle.hull is not None:
         return vehicle.hull
-    reference = vehicle_file.load(_REFERENCE)
+    reference = vehicle_file.load(REFERENCE)
     return scaled_hull(reference.coefficients, vehicle.length / reference.length)
 
 
@@ -67,6 +78,8 @@ def identified_vehicle(
     """Return the vehicle with identified coefficients; it moves by them with the masses of `hull`.
 
     Where the thrust has no newtons, the mass ahead is assumed too, and the file gets a table of newtons.
+    Identified numbers are rounded to the digits of the file. `depth.minimum_speed` rises to the lowest speed
+    at which the identified planes hold a depth.
 
     Args:
         vehicle: what is known.
@@ -74,23 +87,66 @@ def identified_vehicle(
         c: identified combinations, for forces by `forces`.
         rate_deg_s, dead_time: of the rudder, deg/s and s.
         dive: identified combinations of heave and pitch.
+
+    Raises:
+        ConfigurationError: no vehicle file can hold what was identified.
     """
     table = vehicle.thrust_table
     if vehicle.thrust_unit != "N" and not table:
         mass = hull.m - hull.Xud
-        thrusts = vehicle.thrust_max * np.array(_SHARES)
-        newtons = forces(vehicle, hull, thrusts) * c.X1 * mass
-        table = tuple((float(a), float(b)) for a, b in zip(thrusts, newtons, strict=True))
+        thrusts = [rounded(share * vehicle.thrust_max, 6) for share in _SHARES[:-1]] + [vehicle.thrust_max]
+        newtons = forces(vehicle, hull, np.array(thrusts)) * c.X1 * mass
+        table = tuple((a, rounded(float(b), 4)) for a, b in zip(thrusts, newtons, strict=True))
         c = c._replace(X1=1.0 / mass)
-    found = hull_with(c, hull)
-    if dive is not None and found.vertical is not None:
-        found = dataclasses.replace(found, vertical=vertical_with(dive, hull.m, found.vertical))
-    rudder = dataclasses.replace(
-        vehicle.rudder, max_rate_deg_s=rate_deg_s, dead_time=min(max(dead_time, 0.0), 2.0)
-    )
-    spatial = found.vertical is not None and vehicle.sternplanes is not None
-    return dataclasses.replace(
-        vehicle, hull=found if spatial else dataclasses.replace(found, vertical=None), rudder=rudder,
-        thrust_table=table, cruise=None, turning=None, params=None, simulated_as=None,
-        sternplanes=vehicle.sternplanes if spatial else None, pitching=vehicle.pitching if spatial else None,
-    )  # fmt: skip
+    try:
+        found, depth = _rounded_hull(hull_with(c, hull), hull, 5), vehicle.depth
+        if dive is not None and hull.vertical is not None:
+            vertical = _rounded_hull(vertical_with(dive, hull.m, hull.vertical), hull.vertical, 6)
+            found, depth = dataclasses.replace(found, vertical=vertical), held_depth(vehicle, vertical)
+        late = round(float(min(max(dead_time, 0.0), 2.0)), 3)
+        rudder = dataclasses.replace(vehicle.rudder, max_rate_deg_s=rounded(rate_deg_s, 4), dead_time=late)
+        return dataclasses.replace(
+            vehicle, hull=found, rudder=rudder, thrust_table=table, depth=depth, turning=None, params=None,
+            simulated_as=None, cruise=None if vehicle.pitching is None else vehicle.cruise,
+        )  # fmt: skip
+    except pydantic.ValidationError as error:
+        raise readable(error, f"{vehicle.name}: as identified", Vehicle) from None
+
+
+def rounded(value: float, digits: int) -> float:
+    """Return a number rounded to significant digits."""
+    return float(f"{value:.{digits}g}")
+
+
+T = TypeVar("T", Hull, VerticalHull)
+
+
+def _rounded_hull(found: T, known: T, digits: int) -> T:
+    """Return coefficients, those that differ from the known ones rounded."""
+    values: dict[str, Any] = {}
+    for field in dataclasses.fields(found):
+        value = getattr(found, field.name)
+        if isinstance(value, float) and value != getattr(known, field.name):
+            values[field.name] = rounded(value, digits)
+    return dataclasses.replace(found, **values)
+
+
+def held_depth(vehicle: Vehicle, vertical: VerticalHull) -> DepthRange:
+    """Return the vehicle's range of depth with a speed at which planes hold an identified hull.
+
+    Raises:
+        ConfigurationError: they do at no speed up to full thrust, or the hull sinks.
+    """
+    assert vehicle.sternplanes is not None
+    depth, fastest = vehicle.depth, vehicle.top_speed
+    while True:
+        try:
+            check_planes(vertical, vehicle.sternplanes.max_angle_deg, depth)
+        except PydanticCustomError as error:
+            slowest = round(1.02 * depth.minimum_speed + 0.005, 2)
+            if slowest > fastest:
+                found, expected = (str((error.context or {})[key]) for key in ("found", "expected"))
+                raise ConfigurationError(f"{vehicle.name}: as identified", found, expected) from None
+            depth = dataclasses.replace(depth, minimum_speed=slowest)
+        else:
+            return depth

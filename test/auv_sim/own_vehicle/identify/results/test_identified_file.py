@@ -1,0 +1,108 @@
+"""The identified vehicle and its file: what is written loads, and is the same vehicle."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from auv_msgs_py.settings import yaml_file
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following import vehicle as vehicle_file
+from auv_path_following.abilities import Cruise, Pitching, Turning
+from auv_path_following.vehicle import Rudder, Vehicle
+from auv_sim.own_vehicle.identify.combinations import Combinations, combinations_of
+from auv_sim.own_vehicle.identify.dive.dive_combinations import DiveCombinations, dive_combinations_of
+from auv_sim.own_vehicle.identify.identification import Identified
+from auv_sim.own_vehicle.identify.intervals import Covariances
+from auv_sim.own_vehicle.identify.results.identified_file import identified_text
+from auv_sim.own_vehicle.identify.results.known_vehicle import identified_vehicle, known_hull
+from auv_sim.own_vehicle.identify.unknowns import ALL, DEAD_TIME, HALF_PLAY, LATENCY, RATE
+
+REMUS = vehicle_file.load("remus100")
+DIVER = vehicle_file.load("remus100_6dof")
+C = combinations_of(REMUS.coefficients)
+assert DIVER.hull is not None and DIVER.hull.vertical is not None
+VERTICAL = DIVER.hull.vertical
+DIVE = dive_combinations_of(DIVER.hull.m, VERTICAL)
+MEASURED = Vehicle(
+    name="O'Neill: \"two\"", length=2.1, thrust_max=1234.56, thrust_unit="rpm",
+    rudder=Rudder(max_angle_deg=25.123456, max_rate_deg_s=15.0),
+    cruise=Cruise(thrust=1000.0, speed=1.71, speeds=((500.25, 0.8123456), (1000.0, 1.71))),
+    turning=Turning(radius=9.0),
+)  # fmt: skip
+PITCHING = dataclasses.replace(
+    MEASURED, sternplanes=Rudder(max_angle_deg=20.0, max_rate_deg_s=12.3456789),
+    depth=dataclasses.replace(DIVER.depth, max=123.456789, minimum_speed=1.05),
+    pitching=Pitching(rate_deg_s=5.0, climb_deg=21.0),
+)  # fmt: skip
+
+
+def found_with(c: Combinations, share: float) -> Identified:
+    """An identification of these combinations, each with this relative standard deviation."""
+    physical = np.zeros(ALL)
+    physical[: len(c)] = c
+    physical[[RATE, DEAD_TIME, HALF_PLAY, LATENCY]] = 0.3, 0.1234, 0.001, 0.1
+    spread = Covariances(np.diag((share * physical) ** 2), np.zeros((ALL, ALL)), np.zeros((2, ALL)))
+    rest: Any = None
+    return Identified(physical, spread, 0.0, rest, rest, rest, ())
+
+
+@given(
+    known=st.sampled_from([REMUS, DIVER, MEASURED, PITCHING]),
+    factors=st.lists(st.floats(0.9, 1.1), min_size=len(C), max_size=len(C)),
+    share=st.sampled_from([0.05, 3.0]),
+)
+@settings(max_examples=25, deadline=None)
+def test_what_is_written_loads_and_is_the_same_vehicle(
+    known: Vehicle, factors: list[float], share: float
+) -> None:
+    hull = known_hull(known)
+    c = Combinations(*(float(a * b) for a, b in zip(combinations_of(hull), factors, strict=True)))
+    dive = None if hull.vertical is None else DIVE._replace(Muud=factors[0] * DIVE.Muud)
+    new = identified_vehicle(known, hull, c, 17.18873, 0.1234567, dive)
+    text = identified_text(new, hull, found_with(c, share), "a bag")
+    assert yaml_file.checked(yaml_file.parse_text(text, "x"), Path("x"), Vehicle) == new
+    assert new.sternplanes == known.sternplanes and new.pitching == known.pitching
+    assert new.hull is not None and new.hull.Nuud == pytest.approx(factors[-1] * hull.Nuud, rel=0.3)
+
+
+def test_a_width_that_the_data_do_not_show_is_a_factor_of_two() -> None:
+    text = identified_text(REMUS, REMUS.coefficients, found_with(C, 3.0), "a bag")
+    (line,) = (line for line in text.splitlines() if line.startswith("  Nuud:"))
+    assert line.endswith("(x2): not known from these data")
+
+
+def test_measured_pitching_stays_with_the_speed_at_which_it_was_measured() -> None:
+    new = identified_vehicle(PITCHING, known_hull(PITCHING), C, 15.0, 0.1)
+    assert (new.pitching, new.cruise, new.depth) == (PITCHING.pitching, PITCHING.cruise, PITCHING.depth)
+    assert identified_vehicle(MEASURED, known_hull(MEASURED), C, 15.0, 0.1).cruise is None
+
+
+def identified_dive(**changes: float) -> Vehicle:
+    dive: DiveCombinations = DIVE._replace(**changes)
+    return identified_vehicle(DIVER, DIVER.coefficients, combinations_of(DIVER.coefficients), 15.0, 0.1, dive)
+
+
+def test_weaker_planes_raise_the_lowest_speed() -> None:
+    weak = identified_dive(Muud=0.3 * DIVE.Muud, Zuud=0.3 * DIVE.Zuud)
+    assert DIVER.depth.minimum_speed < weak.depth.minimum_speed < DIVER.top_speed
+    assert identified_dive().depth == DIVER.depth
+
+
+@pytest.mark.parametrize(
+    ("changes", "found"),
+    [
+        ({"Zcos": -2.0 * DIVE.Zcos}, "below W"),
+        ({"Zcos": 60.0 * DIVE.Zcos, "Muud": 0.1 * DIVE.Muud}, "stern planes at depth.minimum_speed"),
+    ],
+)
+def test_a_hull_that_no_file_can_hold_costs_one_line(changes: dict[str, float], found: str) -> None:
+    with pytest.raises(ConfigurationError, match=found) as error:
+        identified_dive(**changes)
+    assert "as identified" in error.value.where
