@@ -60,7 +60,7 @@ def _odometry(flown: Manoeuvred, k: int, at: int, ned: bool) -> Any:
 
 def write_manoeuvres(
     directory: Path, flown: Manoeuvred, names: Mapping[str, str] = NAMES, ned: bool = False,
-    repeated: bool = True,
+    repeated: bool = True, late: float = 0.0,
 ) -> Path:  # fmt: skip
     """Write a recording; return its directory.
 
@@ -70,6 +70,7 @@ def write_manoeuvres(
         names: of the topics; one left out is not recorded.
         ned: frames NED and FRD in place of ENU and FLU.
         repeated: whether every odometry comes with the last velocity through the water; else new ones alone.
+        late: time by which every command is logged later, s.
     """
     side, body = (1.0, "base_link_frd") if ned else (-1.0, "base_link")
     last = np.searchsorted(flown.water_t, flown.t + 1e-6) - 1
@@ -89,5 +90,5 @@ def write_manoeuvres(
                 stamped = "geometry_msgs/msg/TwistWithCovarianceStamped"
                 put("velocity_through_water", at, _made(stamped, _header(at, body), twist))
             for name, column in (("rudder_cmd", flown.rudder), ("thrust_cmd", flown.thrust)):
-                put(name, at + 1_000_000, _made("std_msgs/msg/Float64", float(column[k])))
+                put(name, at + 1_000_000 + round(late * 1e9), _made("std_msgs/msg/Float64", float(column[k])))
     return directory

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from auv_path_following import config_files
 from auv_path_following import vehicle as vehicle_file
 from auv_sim.bags.content.recorded_manoeuvres import manoeuvres_in
 from auv_sim.cli.vehicles import vehicle_command
@@ -17,6 +18,7 @@ from auv_sim.own_vehicle.identify.study.simulated_data import planar_data
 from auv_sim.own_vehicle.identify.water_current import mean_current
 from auv_sim.own_vehicle.manoeuvres import program_file
 from auv_sim.own_vehicle.manoeuvres.manoeuvre_flight import Manoeuvred, simulate
+from auv_sim.own_vehicle.verbs.identify_checks import check_target
 from auv_sim.vehicle import sea as sea_file
 from manoeuvre_bag import NAMES, write_manoeuvres
 
@@ -97,6 +99,82 @@ def test_a_straight_run_is_refused_and_names_what_is_missing(
     assert vehicle_command.main(["identify", str(bag), "--out", str(tmp_path / "x.yaml")]) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert "zig-zags" in line
+
+
+@pytest.mark.parametrize("late", [0.02, 3.0])
+def test_commands_stand_at_the_time_of_their_log(flown: Manoeuvred, tmp_path: Path, late: float) -> None:
+    """Also where their number happens to be that of the odometries."""
+    short = _first(flown, 400)
+    found = manoeuvres_in(write_manoeuvres(tmp_path / "bag", short, late=late)).rudder
+    due = short.t + (0.0 if late < 0.05 else late + 0.001)  # one that answers its odometry has its stamp
+    kept = due <= short.t[-1]
+    assert found.t == pytest.approx(due[kept], abs=1e-6)
+    assert found.value == pytest.approx(short.rudder[kept])
+
+
+def test_commands_after_the_odometry_are_missing(
+    flown: Manoeuvred, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bag = write_manoeuvres(tmp_path / "bag", _first(flown, 200), late=1000.0)
+    line = _refused(["identify", str(bag), "--out", str(tmp_path / "x.yaml")], capsys)
+    assert "no rudder_cmd" in line and "while the odometry runs" in line
+
+
+@pytest.fixture(scope="module")
+def recorded(flown: Manoeuvred, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_manoeuvres(tmp_path_factory.mktemp("recorded") / "bag", flown, repeated=False)
+
+
+@pytest.mark.parametrize(
+    ("words", "where"),
+    [
+        (["--left-out", "0", "10000"], "--left-out: found 0 s of manoeuvres"),
+        (["--left-out", "50", "10"], "--left-out: found 50 10"),
+        (["--left-out", "9000", "9999"], "--left-out: found 9000 9999"),
+        (["--topic", "rudder_cmd=/auv/odom", "--topic", "thrust_cmd=/auv/odom"], "--topic thrust_cmd: "),
+        (["--topic", "odom=/auv/a", "--topic", "odom=/auv/b"], "--topic odom: found /auv/a and /auv/b"),
+        (["--log-latency", "1e9"], "--log-latency: found 1e+09 s"),
+        (["--dead-band", "90"], "--dead-band: found 90 deg"),
+        (["--rudder-rate", "1e-300"], "--rudder-rate: found 1e-300 deg/s"),
+        (["--log-scale", "1e300"], "--log-scale: found 1e+300"),
+    ],
+)
+def test_options_that_fit_no_recording_cost_one_line(
+    recorded: Path, tmp_path: Path, words: list[str], where: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    line = _refused(["identify", str(recorded), "--out", str(tmp_path / "x.yaml"), *words], capsys)
+    assert line.startswith(where)
+
+
+def test_swapped_topics_are_swapped_back(flown: Manoeuvred, tmp_path: Path) -> None:
+    swapped = NAMES | {"rudder_cmd": NAMES["thrust_cmd"], "thrust_cmd": NAMES["rudder_cmd"]}
+    short = _first(flown, 200)
+    bag = write_manoeuvres(tmp_path / "bag", short, swapped)
+    names = {"rudder_cmd": NAMES["thrust_cmd"], "thrust_cmd": NAMES["rudder_cmd"]}
+    assert manoeuvres_in(bag, names).rudder.value == pytest.approx(short.rudder)
+
+
+def test_no_file_is_lost(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    mine = tmp_path / "mine.yaml"
+    mine.write_text((config_files.find("vehicles", "remus100")).read_text())
+    (tmp_path / "drawn.png").write_text("a picture")
+    before = {file.name: file.read_text() for file in tmp_path.iterdir()}
+    for out, words, found in [
+        ("mine.yaml", [], "which is read"),
+        ("mine.yaml", ["--overwrite"], "which is read"),
+        ("drawn.yaml", [], "drawn.png, which exists"),
+        ("drawn.png", ["--overwrite"], "the name of a picture"),
+    ]:
+        given = ["identify", str(tmp_path / "bag"), "--vehicle", str(mine), "--out", str(tmp_path / out)]
+        assert found in _refused([*given, *words], capsys)
+    assert {file.name: file.read_text() for file in tmp_path.iterdir()} == before
+    check_target(tmp_path / "drawn.yaml", [mine], True)
+
+
+def _refused(words: list[str], capsys: pytest.CaptureFixture[str]) -> str:
+    assert vehicle_command.main(words) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    return line
 
 
 def test_no_recording_costs_one_line(capsys: pytest.CaptureFixture[str]) -> None:

@@ -93,7 +93,9 @@ def manoeuvres_in(
 
 
 def _missing(path: Path, topic: Topic) -> ConfigurationError:
-    expected = f"messages on {topic.name} ({topic.type}), or --topic {topic.name}=NAME with another topic"
+    expected = (
+        f"messages on {topic.name} ({topic.type}) while the odometry runs, or --topic {topic.name}=NAME"
+    )
     return ConfigurationError(str(path), f"no {topic.name}", expected)
 
 
@@ -101,23 +103,26 @@ def _renamed(bag: Bag, names: Mapping[str, str]) -> Bag:
     """Return the bag with topics under their names of the wire contract.
 
     Raises:
-        ConfigurationError: there is no such topic.
+        ConfigurationError: there is no such topic, or one has two names.
     """
-    renamed = dict(bag.topics)
-    odometry = bag.odometry
+    sources: dict[str, str] = {}
     for name, other in names.items():
         full = "/" + other.strip("/")
         if full not in bag.topics:
             listed = ", ".join(sorted(bag.topics)) or "none"
             raise ConfigurationError(f"--topic {name}", full, f"a topic of {bag.path}: {listed}")
-        if name == topics.ODOM.name:
-            odometry = full
-            continue
-        for key in [key for key in renamed if key.rsplit("/", 1)[-1] == name and key != full]:
-            del renamed[key]
-        topic = renamed.pop(full)
+        if full in sources.values():
+            raise ConfigurationError(f"--topic {name}", f"{full}, which is given twice", "a topic of its own")
+        sources[name] = full
+    odometry = sources.pop(topics.ODOM.name, bag.odometry)
+    renamed = {
+        key: topic
+        for key, topic in bag.topics.items()
+        if key not in sources.values() and key.rsplit("/", 1)[-1] not in sources
+    }
+    for name, full in sources.items():
         own = full.rsplit("/", 1)[0] + "/" + name
-        renamed[own] = dataclasses.replace(topic, name=own)
+        renamed[own] = dataclasses.replace(bag.topics[full], name=own)
     return dataclasses.replace(bag, topics=renamed, odometry=odometry)
 
 
@@ -194,10 +199,10 @@ def _is_ned(frames: tuple[tuple[str, ...], ...]) -> bool:
 
 
 def _commands(bag: Bag, topic: RecordedTopic | None, odom: _Decoded) -> TimedCommands | None:
-    """Return commands on the odometry's clock.
+    """Return commands on the odometry's clock; None where there are none while the odometry runs.
 
-    A command without a stamp that answers each odometry belongs to its stamp (lockstep); others to the time
-    by the log's clock, between the odometries around it.
+    Where one command is logged after each odometry and before the next one, it belongs to that odometry's
+    stamp (lockstep); others to the time by the log's clock, between the odometries around it.
     """
     if topic is None or not topic.count:
         return None
@@ -211,7 +216,7 @@ def _commands(bag: Bag, topic: RecordedTopic | None, odom: _Decoded) -> TimedCom
             log_ns.append(topic.log_ns[at])
             values.append(float(decoder(data).data))
     value, stamps = np.array(values), odom.columns.stamp_ns * 1e-9
-    if value.size == stamps.size:
+    if _answers_each(np.array(log_ns, np.int64), odom.log_ns):
         t = stamps
     else:
         logged = (np.array(log_ns) - odom.log_ns[0]) * 1e-9
@@ -219,5 +224,14 @@ def _commands(bag: Bag, topic: RecordedTopic | None, odom: _Decoded) -> TimedCom
         growing = np.append(True, np.diff(np.maximum.accumulate(own)) > 0.0)
         t = np.interp(logged, own[growing], stamps[growing], left=np.nan, right=np.nan)
     kept = np.isfinite(t) & np.isfinite(value)
+    if not kept.any():
+        return None
     order = np.argsort(t[kept], kind="stable")
     return TimedCommands(t[kept][order], value[kept][order])
+
+
+def _answers_each(commands_ns: NDArray[np.int64], odometry_ns: NDArray[np.int64]) -> bool:
+    """Return whether each odometry has one command, logged between it and the next odometry."""
+    if commands_ns.size != odometry_ns.size:
+        return False
+    return bool((commands_ns >= odometry_ns).all() and (commands_ns[:-1] < odometry_ns[1:]).all())

@@ -66,6 +66,15 @@ def _since(t: Numbers, begin: float) -> NDArray[np.bool_]:
     return rows
 
 
+def shared_time(data: PlanarData) -> float:
+    """Return how long odometry, both commands and the velocity through the water all exist, s."""
+    streams = (data.t, data.water_t, data.rudder_t, data.thrust_t)
+    if not all(times.size for times in streams):
+        return 0.0
+    begin, end = max(times[0] for times in streams), min(data.t[-1], data.water_t[-1])
+    return max(float(end - begin), 0.0)
+
+
 class Grid(NamedTuple):
     """The arrays that `planar_filter.planar_innovations` reads, one entry for each node."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import time
 from collections.abc import Callable, Sequence
@@ -12,6 +13,7 @@ import numpy as np
 from rich.table import Table
 
 from auv_msgs_py.settings.result_files import write_text
+from auv_sim.command_line import at_least_one, whole
 from auv_sim.own_vehicle.identify.results.identification_tables import IDENTIFIED
 from auv_sim.own_vehicle.identify.study.identified_cases import Case, Judged, outcome_of
 from auv_sim.studies.pool import each
@@ -40,6 +42,25 @@ class Row(NamedTuple):
     worst: str
     target: str
     met: bool
+
+
+def add_study_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the study."""
+    parser.add_argument(
+        "--study", type=at_least_one, metavar="N",
+        help="instead of recordings: identify N simulated vehicles with random hulls, and judge by the truth",
+    )  # fmt: skip
+    parser.add_argument("--first", type=whole, default=0, metavar="SEED", help="of the study's first vehicle")
+    parser.add_argument(
+        "--program", default="eight_minutes", metavar="FILE", help="of the study (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--sea", default="moderate", metavar="FILE", help="of the study (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--workers", type=at_least_one, default=2, metavar="N", help="processes of the study (2)"
+    )
+    parser.add_argument("--page", type=Path, metavar="FILE", help="page with the study's figures, to renew")
 
 
 def study(count: int, first: int, program: str, sea: str, workers: int, out: Path, page: Path | None) -> int:

@@ -20,7 +20,7 @@ from auv_path_following import config_files
 from auv_path_following import vehicle as vehicle_file
 from auv_path_following.vehicle import Hull, Vehicle
 from auv_sim.bags.content.recorded_manoeuvres import READ
-from auv_sim.command_line import at_least_one, not_negative, positive, say, target, to_type, whole
+from auv_sim.command_line import not_negative, positive, say, target, to_type
 from auv_sim.own_vehicle.identify.combinations import COUNT
 from auv_sim.own_vehicle.identify.dive.dive_combinations import DiveCombinations
 from auv_sim.own_vehicle.identify.dive.dive_data import DiveData
@@ -44,10 +44,11 @@ from auv_sim.own_vehicle.identify.results.known_vehicle import (
     in_plane,
     known_hull,
 )
-from auv_sim.own_vehicle.identify.time_grid import PlanarData
+from auv_sim.own_vehicle.identify.time_grid import PlanarData, shared_time
 from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, LATENCY, RATE, DataSheet, typed
 from auv_sim.own_vehicle.identify.water_current import mean_current
-from auv_sim.own_vehicle.verbs.identification_study import study
+from auv_sim.own_vehicle.verbs.identification_study import add_study_arguments, study
+from auv_sim.own_vehicle.verbs.identify_checks import check_options, check_target
 from auv_sim.own_vehicle.verbs.recordings_read import ENOUGH, LAST, divided, read
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, progress_bar, wrote
@@ -68,6 +69,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--out", type=target, metavar="FILE", default=Path("identified.yaml"),
         help="vehicle file to write, and a picture beside it (default: %(default)s)",
     )  # fmt: skip
+    parser.add_argument("--overwrite", action="store_true", help="replace files that exist")
     parser.add_argument(
         "--log-latency", type=not_negative, metavar="S",
         help="age of a velocity through the water at its stamp (default: found from the data)",
@@ -82,31 +84,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         f"(default: its last {LAST:g} s where there are {ENOUGH:g} s in all)",
     )  # fmt: skip
     _add_sheet(parser)
-    _add_study(parser)
+    add_study_arguments(parser)
     topics = ", ".join(topic.name for topic in READ)
     parser.add_argument(
         "--topic", action="append", default=[], metavar="NAME=TOPIC",
         help=f"other name of a topic; NAME is one of {topics}",
     )  # fmt: skip
     parser.add_argument("--namespace", metavar="NAME", help="which vehicle, where there are several")
-
-
-def _add_study(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--study", type=at_least_one, metavar="N",
-        help="instead of recordings: identify N simulated vehicles with random hulls, and judge by the truth",
-    )  # fmt: skip
-    parser.add_argument("--first", type=whole, default=0, metavar="SEED", help="of the study's first vehicle")
-    parser.add_argument(
-        "--program", default="eight_minutes", metavar="FILE", help="of the study (default: %(default)s)"
-    )
-    parser.add_argument(
-        "--sea", default="moderate", metavar="FILE", help="of the study (default: %(default)s)"
-    )
-    parser.add_argument(
-        "--workers", type=at_least_one, default=2, metavar="N", help="processes of the study (2)"
-    )
-    parser.add_argument("--page", type=Path, metavar="FILE", help="page with the study's figures, to renew")
 
 
 def _add_sheet(parser: argparse.ArgumentParser) -> None:
@@ -136,13 +120,18 @@ def run(arguments: argparse.Namespace) -> int:
     if not arguments.bag:
         raise ConfigurationError("BAG", "no recording", "at least one, or --study N")
     vehicle = vehicle_file.load(arguments.vehicle)
+    inputs = [config_files.find("vehicles", arguments.vehicle), *arguments.bag]
+    check_target(arguments.out, inputs, arguments.overwrite)
+    check_options(arguments, vehicle)
     hull = known_hull(vehicle)
     recorded = read(arguments.bag, arguments.topic, arguments.namespace, vehicle, hull)
     recordings = [one.plane for one in recorded]
     where = ", ".join(map(str, arguments.bag))
     check_excitation(recordings, where)
     used, left_out = divided(recordings, arguments.left_out)
-    for remark in remarks(recordings, vehicle):
+    if left_out is not None:
+        check_excitation(used, where if arguments.left_out is None else "--left-out")
+    for remark in remarks(used, vehicle):
         say(f"notice {remark}", error=True)
     sheet = _sheet(arguments, vehicle)
     band = None if arguments.dead_band is None else math.radians(arguments.dead_band)
@@ -191,6 +180,10 @@ def report(
         vehicle, hull, typed(found.physical), math.degrees(found.physical[RATE]), found.physical[DEAD_TIME],
         None if dive is None else DiveCombinations(*map(float, dive.physical[:COUNT])),
     )  # fmt: skip
+    if new.depth != vehicle.depth:
+        slowest, known = new.depth.minimum_speed, vehicle.depth.minimum_speed
+        say(f"notice depth.minimum_speed: {slowest:g} m/s; below it the identified planes hold no depth, "
+            f"{known:g} m/s before", error=True)  # fmt: skip
     names = ", ".join(path.name for path in arguments.bag)
     write_text(arguments.out, identified_text(new, hull, found, names))
     picture = arguments.out.with_suffix(".png")
@@ -226,7 +219,7 @@ def _sheet(arguments: argparse.Namespace, vehicle: Vehicle) -> DataSheet:
 
 
 def _predicted(left_out: PlanarData | None, found: Identified) -> tuple[Channels | None, list[Prediction]]:
-    if left_out is None or left_out.water_t.size < 10:
+    if left_out is None or left_out.water_t.size < 10 or shared_time(left_out) < 1.0:
         return None, []
     channels = channels_of([left_out], found.scaling.sheet, found.dead_band, found.channels.latency)
     return channels, predictions_of(channels, found.physical)

@@ -43,7 +43,11 @@ def read(
     Raises:
         ConfigurationError: as `manoeuvres_in`; also an unknown name in `topics`.
     """
-    names = dict(map(_renaming, topics))
+    names: dict[str, str] = {}
+    for name, other in map(_renaming, topics):
+        if name in names:
+            raise ConfigurationError(f"--topic {name}", f"{names[name]} and {other}", "one topic")
+        names[name] = other
     found = []
     for path in bags:
         recorded = manoeuvres_in(path, names, namespace)
@@ -94,7 +98,15 @@ def diving(recorded: Manoeuvring, vehicle: Vehicle, hull: Hull) -> DiveData | No
 def divided(
     recordings: list[PlanarData], left_out: list[float] | None
 ) -> tuple[list[PlanarData], PlanarData | None]:
-    """Return recordings without the part that is left out, and that part."""
+    """Return recordings without the part that is left out, and that part.
+
+    Args:
+        recordings: in the plane.
+        left_out: begin and end of the part of the last recording, s from its begin; None: the last part.
+
+    Raises:
+        ConfigurationError: the part lies outside the recording, or ends before it begins.
+    """
     last = recordings[-1]
     begin, end = last.t[0], last.t[-1]
     if left_out is None:
@@ -102,9 +114,15 @@ def divided(
         if total < ENOUGH:
             return recordings, None
         first, until = end - LAST, end
-    elif left_out[1] <= left_out[0]:
+    elif left_out == [0.0, 0.0]:
         return recordings, None
     else:
+        if not left_out[0] < min(left_out[1], end - begin):
+            found, expected = (
+                " ".join(f"{x:g}" for x in left_out),
+                f"begin and end within 0 to {end - begin:.0f} s",
+            )
+            raise ConfigurationError("--left-out", found, expected)
         first, until = begin + left_out[0], begin + left_out[1]
     parts = [last.between(begin - 1.0, first), last.between(until, end + 1.0)]
     kept = [part for part in parts if part.t.size and part.t[-1] - part.t[0] > 10.0]

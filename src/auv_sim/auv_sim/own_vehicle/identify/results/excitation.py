@@ -10,10 +10,12 @@ import numpy as np
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.vehicle import Vehicle
 from auv_sim.own_vehicle.identify.combinations import Numbers
-from auv_sim.own_vehicle.identify.time_grid import PlanarData
+from auv_sim.own_vehicle.identify.time_grid import PlanarData, shared_time
 
 #: Least duration (s), new samples of the log, deviation of the rudder (deg) and rms yaw rate (deg/s).
 _LEAST_TIME, _LEAST_SAMPLES, _LEAST_RUDDER, _LEAST_RATE = 40.0, 50, 1.0, 1.0
+#: Least time with all measurements and commands in each recording, more than a log's latency, s.
+_LEAST_TOGETHER = 5.0
 _EXPECTED = "zig-zags and circles: `vehicle.py manoeuvres` flies them"
 
 
@@ -23,6 +25,11 @@ def check_excitation(recordings: Sequence[PlanarData], where: str) -> None:
     Raises:
         ConfigurationError: too short, too few samples, or hardly any motion; names the missing manoeuvre.
     """
+    for data in recordings:
+        together = shared_time(data)
+        if together < _LEAST_TOGETHER:
+            found = f"{data.name}: {together:.0f} s with odometry, commands and velocity through the water"
+            raise ConfigurationError(where, found, f"at least {_LEAST_TOGETHER:.0f} s in each recording")
     time = sum(_duration(data) for data in recordings)
     if time < _LEAST_TIME:
         raise ConfigurationError(where, f"{time:.0f} s of manoeuvres", f"at least {_LEAST_TIME:.0f} s")

@@ -91,13 +91,7 @@ def identified_vehicle(
     Raises:
         ConfigurationError: no vehicle file can hold what was identified.
     """
-    table = vehicle.thrust_table
-    if vehicle.thrust_unit != "N" and not table:
-        mass = hull.m - hull.Xud
-        thrusts = [rounded(share * vehicle.thrust_max, 6) for share in _SHARES[:-1]] + [vehicle.thrust_max]
-        newtons = forces(vehicle, hull, np.array(thrusts)) * c.X1 * mass
-        table = tuple((a, rounded(float(b), 4)) for a, b in zip(thrusts, newtons, strict=True))
-        c = c._replace(X1=1.0 / mass)
+    table, c = _with_newtons(vehicle, hull, c)
     try:
         found, depth = _rounded_hull(hull_with(c, hull), hull, 5), vehicle.depth
         if dive is not None and hull.vertical is not None:
@@ -111,6 +105,19 @@ def identified_vehicle(
         )  # fmt: skip
     except pydantic.ValidationError as error:
         raise readable(error, f"{vehicle.name}: as identified", Vehicle) from None
+
+
+def _with_newtons(
+    vehicle: Vehicle, hull: Hull, c: Combinations
+) -> tuple[tuple[tuple[float, float], ...], Combinations]:
+    """Return the table of newtons, and the combinations for it."""
+    if vehicle.thrust_unit == "N" or vehicle.thrust_table:
+        return vehicle.thrust_table, c
+    mass = hull.m - hull.Xud
+    thrusts = [rounded(share * vehicle.thrust_max, 6) for share in _SHARES[:-1]] + [vehicle.thrust_max]
+    newtons = forces(vehicle, hull, np.array(thrusts)) * c.X1 * mass
+    rows = ((a, rounded(float(b), 4)) for a, b in zip(thrusts, newtons, strict=True))
+    return tuple(rows), c._replace(X1=1.0 / mass)
 
 
 def rounded(value: float, digits: int) -> float:

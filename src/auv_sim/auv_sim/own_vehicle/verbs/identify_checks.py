@@ -1,0 +1,56 @@
+"""Checks of `vehicle.py identify` before any work: numbers that no vehicle has, files that would be lost."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following.vehicle import Vehicle
+
+#: Largest latency of a log (s), error by a data sheet (per cent), and range of a rudder's rate (deg/s).
+_LATENCY, _PERCENT, _RATE = 2.0, 50.0, (0.1, 1000.0)
+
+
+def check_options(o: argparse.Namespace, vehicle: Vehicle) -> None:
+    """Check the numbers among the options.
+
+    Raises:
+        ConfigurationError: one that no vehicle has.
+    """
+    _within("--log-latency", o.log_latency, 0.0, _LATENCY, "s")
+    _within("--dead-band", o.dead_band, 0.0, 0.5 * vehicle.rudder.max_angle_deg, "deg")
+    _within("--log-scale", o.log_scale, 0.0, _PERCENT, "per cent")
+    _within("--thrust-bias", o.thrust_bias, 0.0, _PERCENT, "per cent")
+    _within("--rudder-rate", o.rudder_rate, *_RATE, "deg/s")
+
+
+def _within(option: str, value: float | None, least: float, most: float, unit: str) -> None:
+    if value is not None and not least <= value <= most:
+        raise ConfigurationError(option, f"{value:g} {unit}", f"{least:g} to {most:g} {unit}")
+
+
+def check_target(out: Path, inputs: Sequence[Path], overwrite: bool) -> None:
+    """Check that the vehicle file and the picture beside it replace nothing that is needed.
+
+    Args:
+        out: the vehicle file.
+        inputs: files and directories that are read.
+        overwrite: whether files of an earlier identification are replaced.
+
+    Raises:
+        ConfigurationError: a file is an input, or exists, or is the picture.
+    """
+    picture = out.with_suffix(".png")
+    if out.suffix.lower() == picture.suffix:
+        raise ConfigurationError(
+            "--out", f"{out}, the name of a picture", "a vehicle file, such as mine.yaml"
+        )
+    for taken in (out, picture):
+        if any(taken.resolve() == path.resolve() for path in inputs):
+            raise ConfigurationError("--out", f"{taken}, which is read", "another file")
+        if taken.is_dir():
+            raise ConfigurationError("--out", f"{taken}, a directory", "a file that can be written")
+        if taken.is_file() and not overwrite:
+            raise ConfigurationError("--out", f"{taken}, which exists", "a new file, or --overwrite")
