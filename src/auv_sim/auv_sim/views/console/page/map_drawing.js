@@ -46,7 +46,8 @@ export function mapGrid(g, view, w, h) {
   g.textAlign = "center"; g.textBaseline = "bottom";
   for (const v of es) g.fillText(v.toFixed(ed), at(0, v)[0], h - 2);
   g.textAlign = "left"; g.textBaseline = "middle";
-  for (const v of ns) g.fillText(v.toFixed(nd), 3, at(v, 0)[1] - 7);
+  /* The name of the axis stands in the corner. */
+  for (const v of ns) if (at(v, 0)[1] > 28) g.fillText(v.toFixed(nd), 3, at(v, 0)[1] - 7);
   g.textBaseline = "bottom"; g.textAlign = "right"; g.fillText("east y (m)", w - 4, h - 16);
   g.textAlign = "left"; g.textBaseline = "top"; g.fillText("north x (m)", 4, 4);
 }
@@ -81,9 +82,9 @@ export function currentArrow(g, x, y, north, east, up = 0, halo = false) {
   g.textAlign = "center"; g.textBaseline = "top";
   const text = `current ${speed.toFixed(2)} m/s`, turn = Math.atan2(east, north) - up;
   if (halo) {
-    g.strokeStyle = c.card; g.lineWidth = 5; g.lineJoin = "round"; g.strokeText(text, 0, 30);
-    g.save(); g.rotate(turn); g.lineWidth = 9; g.beginPath(); g.moveTo(0, 26); g.lineTo(0, -22); g.stroke(); g.restore();
-    g.strokeStyle = c.green;
+    g.strokeStyle = c.card; g.globalAlpha = 0.7; g.lineWidth = 3; g.lineJoin = "round"; g.strokeText(text, 0, 30);
+    g.save(); g.rotate(turn); g.lineWidth = 5; g.beginPath(); g.moveTo(0, 25); g.lineTo(0, -22); g.stroke(); g.restore();
+    g.strokeStyle = c.green; g.globalAlpha = 1;
   }
   g.fillText(text, 0, 30); g.rotate(turn); g.lineWidth = 2.5;
   g.beginPath(); g.moveTo(0, 24); g.lineTo(0, -16); g.stroke();
