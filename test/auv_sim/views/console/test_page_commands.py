@@ -202,6 +202,9 @@ async def test_a_viewer_has_no_commands(tab: Tab, fake: FakeConsole) -> None:
     await tab.open(f"http://127.0.0.1:{fake.port}/")
     await tab.until("document.getElementById('commands').hidden")
     assert await tab.value("document.getElementById('view-only').offsetParent !== null")
+    await tab.click("#open-mission")
+    await tab.type("#mission-text", "version: 1\nthrust: 5\n")
+    assert await tab.value("document.getElementById('check').disabled")
 
 
 @on_page()

@@ -91,7 +91,7 @@ function draw() {
   if (main) {
     drawVehicle(g, at, main, true); drawAtCursor(g, at, main);
     const current = main.tick && main.tick.current;
-    if (current) currentArrow(g, w - 62, 52, current[1], current[0], view.up, true);
+    if (current) currentArrow(g, w - 62, 34, current[1], current[0], view.up, true);
   }
   ruler(g, at, measure.from, measure.to || (measure.on && pointer && placeAt(view, w, h, ...pointer)));
   scaleBar(g, w, h, view);

@@ -82,7 +82,7 @@ export function currentArrow(g, x, y, north, east, up = 0, halo = false) {
   g.textAlign = "center"; g.textBaseline = "top";
   const text = `current ${speed.toFixed(2)} m/s`, turn = Math.atan2(east, north) - up;
   if (halo) {
-    g.strokeStyle = c.card; g.globalAlpha = 0.7; g.lineWidth = 3; g.lineJoin = "round"; g.strokeText(text, 0, 30);
+    g.strokeStyle = c.card; g.globalAlpha = 0.5; g.lineWidth = 3; g.lineJoin = "round"; g.strokeText(text, 0, 30);
     g.save(); g.rotate(turn); g.lineWidth = 5; g.beginPath(); g.moveTo(0, 25); g.lineTo(0, -22); g.stroke(); g.restore();
     g.strokeStyle = c.green; g.globalAlpha = 1;
   }

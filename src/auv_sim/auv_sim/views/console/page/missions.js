@@ -48,10 +48,12 @@ function changed() {
 const passed = () => checked !== null && checked.text === text.value && checked.namespace === flights.namespace;
 
 function buttons() {
-  const v = shown(), flying = v && v.tick && v.tick.state === "running";
-  $("check").disabled = busy || !text.value.trim();
-  $("load").disabled = busy || !passed();
-  $("load").title = $("load").disabled ? "Check the text first" : "";
+  const v = shown(), flying = v && v.tick && v.tick.state === "running", may = Boolean(flights.hello && flights.hello.may_command);
+  const view = flights.hello && !may ? "This page may look, not command" : "";
+  $("check").disabled = busy || !may || !text.value.trim();
+  $("check").title = view || "Ctrl+Enter";
+  $("load").disabled = busy || !may || !passed();
+  $("load").title = view || ($("load").disabled ? "Check the text first" : "");
   write($("load-note"), flying ? "Guidance takes a mission while idle, complete, aborted or on hold." : "");
 }
 
