@@ -5,15 +5,18 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any
 
+import pytest
+
 from auv_sim.launch.fleet.fleet_stand_by import FleetStandBy
 from auv_sim.launch.operation.flown_missions import FlownMissions
+from auv_sim.launch.outcome import MissionFailed
 
 
 class Heard:
     """A vehicle's monitor: it hears of a mission when it is looked at, and can be aborted."""
 
     def __init__(self, digest: str, *states: str) -> None:
-        self.missions, self.s, self.state = FlownMissions(), 0.5, "idle"
+        self.missions, self.s, self.to_go, self.state = FlownMissions(), 0.5, 40.0, "idle"
         self.is_aborted = False
         self._digest, self._states = digest, list(states)
 
@@ -44,8 +47,11 @@ def test_each_vehicle_has_the_outcome_of_its_last_mission() -> None:
     interrupt = SimpleNamespace(requested=False)
     said: list[str] = []
     shown: dict[str, str] = {}
+    others: dict[str, Any] = {}
     progress: Any = SimpleNamespace(
-        say=said.append, update=lambda label, s, time, wall, state: shown.update({label: state})
+        say=said.append,
+        update=lambda label, s, time, wall, state: shown.update({label: state}),
+        update_other=lambda label, *other: others.update({label: other}),
     )
     members = {
         label: SimpleNamespace(mission=SimpleNamespace(digest=digest))
@@ -65,6 +71,26 @@ def test_each_vehicle_has_the_outcome_of_its_last_mission() -> None:
     }  # fmt: skip
     assert outcomes["three"].other == "mission other"
     assert all(monitor.is_aborted for monitor in monitors.values())
-    assert shown == {"one": "complete", "two": "running", "three": "aborted", "four": "idle"}
+    assert shown == {"one": "complete", "two": "running", "four": "idle"}
+    assert others == {"three": ("mission other", 100.0, 40.0, 4.0, "aborted")}
     assert "one: mission a: complete, flown 50.0 % of 100.0 m in 4.0 s" in said
     assert any("one clock" in line for line in said)
+
+
+def test_flown_missions_are_reported_when_a_process_has_ended() -> None:
+    said: list[str] = []
+    monitor = Heard("a", "running", "complete")
+    progress: Any = SimpleNamespace(say=said.append, update=lambda *_: None)
+    looks = iter(range(3))
+
+    def look(_: float) -> None:
+        monitor.look(0.0)
+        if next(looks) == 2:
+            raise MissionFailed("a node has ended")
+
+    members = {"one": SimpleNamespace(mission=SimpleNamespace(digest="a"))}
+    plan: Any = SimpleNamespace(members=members, lockstep=False)
+    interrupt: Any = SimpleNamespace(requested=False)
+    with pytest.raises(MissionFailed):
+        FleetStandBy(plan, {"one": monitor}, progress, interrupt, look).run()
+    assert said[-1] == "one: mission a: complete, flown 50.0 % of 100.0 m in 4.0 s"

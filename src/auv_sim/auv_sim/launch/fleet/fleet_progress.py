@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 from rich.console import Console
+from rich.markup import escape
 
 from auv_path_following.curves.composite import CompositePath
 from auv_sim.launch.progress_display import Bars, place_on
@@ -37,4 +39,12 @@ class FleetProgress(Bars):
         i, flown = place_on(path, s)
         speed = mission_time / wall_time if wall_time > 0.0 else 0.0
         text = f"{label}: subpath {i + 1}/{path.n}  {mission_time:6.1f} s  x{speed:.0f}  {ended}"
-        self._bar.update(self._tasks[label], completed=flown, description=text)
+        self._bar.update(self._tasks[label], total=path.length, completed=flown, description=text)
+
+    def update_other(
+        self, label: str, name: str, length: float, to_go: float, mission_time: float, state: str
+    ) -> None:
+        """Show another mission than the planned one: name, length and rest of its path (m), time (s)."""
+        flown = min(max(length - to_go, 0.0), length) if math.isfinite(to_go) else 0.0
+        text = f"{label}: {name} {flown:.0f}/{length:.0f} m  {mission_time:6.1f} s  {state}"
+        self._bar.update(self._tasks[label], total=length, completed=flown, description=escape(text))

@@ -35,20 +35,32 @@ class FleetStandBy:
         if self._plan.lockstep:
             self._progress.say("the vehicles share one clock: it goes on once every mission has been started")
         self._progress.say("Ctrl-C ends the nodes")
-        while not self._interrupt.requested:
-            self._look(0.1)
+        under_way = {}
+        try:
+            while not self._interrupt.requested:
+                self._look(0.1)
+                for label, monitor in self._monitors.items():
+                    self._show(label, monitor)
             for label, monitor in self._monitors.items():
-                self._show(label, monitor)
-        outcomes = {}
-        for label, monitor in self._monitors.items():
-            is_under_way = stand_by.stop(monitor)
-            for mission in monitor.missions.flown:
-                self._progress.say(f"{label}: {mission.line}")
-            digest = self._plan.members[label].mission.digest
-            outcomes[label] = stand_by.outcome_of(monitor.missions, is_under_way, digest)
-        return outcomes
+                under_way[label] = stand_by.stop(monitor)
+        finally:
+            for label, monitor in self._monitors.items():
+                for mission in monitor.missions.flown:
+                    self._progress.say(f"{label}: {mission.line}")
+        return {
+            label: stand_by.outcome_of(self._monitors[label].missions, is_under_way, self._digest(label))
+            for label, is_under_way in under_way.items()
+        }
+
+    def _digest(self, label: str) -> str:
+        return self._plan.members[label].mission.digest
 
     def _show(self, label: str, monitor: Any) -> None:
         last = monitor.missions.last
+        if last is not None and last.digest != self._digest(label):
+            self._progress.update_other(
+                label, last.name, last.length, monitor.to_go, last.duration, monitor.state
+            )
+            return
         duration, wall = (last.duration, last.wall_time) if last is not None else (0.0, 0.0)
         self._progress.update(label, monitor.s, duration, wall, monitor.state)
