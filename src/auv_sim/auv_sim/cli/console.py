@@ -8,8 +8,7 @@ from pathlib import Path
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.command_line import Parser, command, ros_domain, ros_namespace, whole
-
-_INSTALL = "pip install -r requirements/console.txt"
+from auv_sim.views.console.listening import INSTALL, LOOPBACK, PORT
 
 
 def parser() -> argparse.ArgumentParser:
@@ -28,11 +27,11 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument(
         "--port",
         type=whole,
-        help="for the browser; 0: a free one (default: 8642, or a free one if it is taken)",
+        help=f"for the browser; 0: a free one (default: {PORT}, or a free one if it is taken)",
     )
     p.add_argument(
         "--address",
-        default="127.0.0.1",
+        default=LOOPBACK,
         help="listen there (default %(default)s: this machine only); any other one is open to its network",
     )
     p.add_argument("--view-only", action="store_true", help="no browser may command")
@@ -52,7 +51,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         import aiohttp  # noqa: F401
     except ImportError:
-        raise ConfigurationError("aiohttp", "not installed", _INSTALL) from None
+        raise ConfigurationError("aiohttp", "not installed", INSTALL) from None
     from auv_sim.nodes.console.console_session import ConsoleOptions, serve
 
     return serve(

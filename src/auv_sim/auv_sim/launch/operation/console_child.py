@@ -8,6 +8,7 @@ from collections.abc import Callable
 from auv_msgs_py.contract.topics import CONSOLE
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.launch.processes.process_group import Child, Children
+from auv_sim.views.console.listening import INSTALL
 
 _MODULE = "auv_sim.cli.console"
 #: Words with which the console prints its addresses.
@@ -23,15 +24,12 @@ def require_library() -> None:
         ConfigurationError: aiohttp is not installed.
     """
     if importlib.util.find_spec("aiohttp") is None:
-        raise ConfigurationError("aiohttp", "not installed", "pip install -r requirements/console.txt")
+        raise ConfigurationError("aiohttp", "not installed", INSTALL)
 
 
 def start(children: Children, domain: int) -> None:
     """Start the console of a domain; call it before this process has DDS threads, as it forks."""
-    children.start(CONSOLE, _MODULE, ["--domain", str(domain)])
-    child = _child(children)
-    if child is not None:
-        child.log.chmod(0o600)  # it has the token
+    children.start(CONSOLE, _MODULE, ["--domain", str(domain)], is_log_secret=True)  # it has the token
 
 
 def addresses(children: Children, look: Callable[[float], None]) -> str:

@@ -79,6 +79,12 @@ class Child:
         return f"{self.name} {how}; its last lines ({self.log}):\n{lines}"
 
 
+def _for_owner(path: str, flags: int) -> int:
+    descriptor = os.open(path, flags, 0o600)
+    os.fchmod(descriptor, 0o600)  # of a file that was there
+    return descriptor
+
+
 class Children:
     """Starts and stops child processes.
 
@@ -93,10 +99,19 @@ class Children:
         self._children: dict[str, Child] = {}
         log_directory.mkdir(parents=True, exist_ok=True)
 
-    def start(self, name: str, module: str, arguments: Sequence[str]) -> None:
-        """Run ``python -m module arguments`` in its own session: Ctrl-C reaches only the launcher."""
+    def start(
+        self, name: str, module: str, arguments: Sequence[str], is_log_secret: bool = False
+    ) -> None:  # fmt: skip
+        """Run ``python -m module arguments`` in its own session: Ctrl-C reaches only the launcher.
+
+        Args:
+            name: of the child.
+            module: to run.
+            arguments: of its command line.
+            is_log_secret: whether its log is for the owner alone, from its creation.
+        """
         log = self._log(name)
-        with log.open("wb") as stream:
+        with open(log, "wb", opener=_for_owner if is_log_secret else None) as stream:
             process = subprocess.Popen(  # noqa: S603 - our own interpreter, our own modules
                 [sys.executable, "-m", module, *arguments],
                 stdin=subprocess.DEVNULL,

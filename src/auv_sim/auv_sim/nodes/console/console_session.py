@@ -30,6 +30,7 @@ from auv_sim.nodes.console.operator_deeds import OperatorDeeds
 from auv_sim.nodes.console.vehicle_calls import CallFailed, ServiceCaller
 from auv_sim.nodes.console.vehicle_feed import VehicleFeed
 from auv_sim.views.console import plan_apart
+from auv_sim.views.console.listening import LOOPBACK, PORT
 from auv_sim.views.console.mission_desk import MissionFacts, MissionShelf
 from auv_sim.views.console.plan_apart import CheckFailed
 from auv_sim.views.console.record.fault_log import FaultLog
@@ -45,8 +46,6 @@ from auv_sim.views.console.web.page_sessions import PageSessions
 _POLL = 0.05
 #: Between two attempts to read what a mission's file holds, s.
 _RETRY = 1.0
-LOOPBACK = "127.0.0.1"
-PORT = 8642
 
 
 @dataclass(frozen=True, kw_only=True)
