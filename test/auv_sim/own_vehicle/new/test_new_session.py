@@ -26,6 +26,7 @@ from auv_sim.own_vehicle.new.assumed_hull import assumed_hull, divergence_of, ef
 from auv_sim.own_vehicle.new.new_session import new_vehicle
 from auv_sim.own_vehicle.new.owner_facts import OwnerFacts, check_facts
 from auv_sim.own_vehicle.new.trial_flight import trial_text
+from auv_sim.own_vehicle.tune.ensemble import spread_of_file
 from auv_sim.vehicle import sea
 from hulls import STABLE, drawn
 
@@ -53,6 +54,7 @@ def test_a_vehicle_flies_and_its_assumptions_are_marked(tmp_path: Path) -> None:
     assert HullModel(own).steady_turn(8.0).radius == pytest.approx(11.0, rel=0.01)
     text = (tmp_path / "own.yaml").read_text()
     assert text.count("assumed") > 15
+    assert spread_of_file(tmp_path / "own.yaml")["Nur"] == (0.5, 2.0)
     assert "m: 55  # kg, given" in text and "max_rate_deg_s: 15  # assumed (x2)" in text
     said = printed(out)
     assert said.index("the rudder's effect b") < said.index("the delay of the commands")
@@ -96,6 +98,12 @@ def test_radii_at_several_angles_give_the_divergence() -> None:
 @pytest.mark.parametrize(
     ("changes", "where", "found"),
     [
+        ({"length": 1e300}, "--length", "1e+300 m"),
+        ({"max_angle_deg": 95.0}, "--rudder", "95 deg"),
+        ({"planes_deg": 90.0}, "--planes", "90 deg"),
+        ({"delay": 5.0}, "--delay", "5 s"),
+        ({"rate_deg_s": 1e-9}, "--rudder-rate", "1e-09 deg/s"),
+        ({"effect": 1e300}, "--effect", "1e+300 1/s^2"),
         ({"mass": 3.0}, "--mass", "3 kg"),
         ({"mass": 90.0, "diameter": 0.15}, "--mass", "90 kg"),
         ({"diameter": 1.5}, "--diameter", "1.6 diameters"),
@@ -130,7 +138,12 @@ def test_the_command_line_writes_the_file(tmp_path: Path, capsys: pytest.Capture
     file = str(tmp_path / "p.yaml")
     assert vehicle_command.main([*words, "--out", file]) == 2
     assert "--radius: found nothing" in capsys.readouterr().err
+    in_newtons = ["new", "--length", "2.1", "--speed", "1.5", "--radius", "8", "--rudder", "25"]
+    assert vehicle_command.main([*in_newtons, "--out", file]) == 2
+    assert "the largest thrust, N, or --thrust-unit percent" in capsys.readouterr().err
+    words += ["--name", "two\nlines"]
     assert vehicle_command.main([*words, "--radius", "6", "--out", file]) == 0
+    assert vehicle.load(file).name == "two lines"
     assert vehicle.load(file).thrust_table[-1][0] == 100.0
 
 
@@ -173,3 +186,10 @@ def test_a_vehicle_that_cannot_fly_leaves_no_file_and_says_why(tmp_path: Path) -
     with pytest.raises(ConfigurationError, match=r"flown to \d+ ?%.*too much delay for this hull"):
         new_vehicle(late, tmp_path / "late.yaml", False, console())
     assert list(tmp_path.iterdir()) == []
+    earlier = [tmp_path / "late.yaml", tmp_path / "late_survey.yaml"]
+    for file in earlier:
+        file.write_text("mine")
+    with pytest.raises(ConfigurationError, match="flown to"):
+        new_vehicle(late, tmp_path / "late.yaml", True, console())
+    assert [file.read_text() for file in earlier] == ["mine", "mine"]
+    assert sorted(tmp_path.iterdir()) == earlier

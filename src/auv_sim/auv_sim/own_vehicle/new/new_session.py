@@ -6,15 +6,15 @@ from pathlib import Path
 
 from rich.console import Console
 
-from auv_msgs_py.settings.result_files import write_text
+from auv_msgs_py.settings import yaml_file
+from auv_msgs_py.settings.result_files import replacing
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_path_following import vehicle as vehicle_file
 from auv_path_following.control.rule.gain_rule import gains_for
 from auv_path_following.missions import mission_file
 from auv_path_following.vehicle import Vehicle
 from auv_sim.command_line import to_type
 from auv_sim.own_vehicle.new.assumed_diver import assumed_diver
-from auv_sim.own_vehicle.new.assumed_hull import Assumed, assumed_hull
+from auv_sim.own_vehicle.new.assumed_hull import assumed_hull
 from auv_sim.own_vehicle.new.next_measurement import headline, worth_measuring
 from auv_sim.own_vehicle.new.owner_facts import OwnerFacts, check_facts
 from auv_sim.own_vehicle.new.trial_flight import TrialFlight, fly_trials, trial_text
@@ -23,7 +23,9 @@ from auv_sim.terminal import go_on, headed_table, wrote
 
 
 def new_vehicle(facts: OwnerFacts, file: Path, overwrite: bool, console: Console) -> Vehicle:
-    """Write the files, fly the survey, and print what to measure next.
+    """Fly a survey on the assumed hull, write the files, and print what to measure next.
+
+    Files of these names are replaced last, and only by files that were checked and flown.
 
     Args:
         facts: given by the owner.
@@ -42,17 +44,14 @@ def new_vehicle(facts: OwnerFacts, file: Path, overwrite: bool, console: Console
     for taken in (file, survey):
         if taken.exists() and not overwrite:
             raise ConfigurationError("--out", f"{taken}, which exists", "a new file, or --overwrite")
-    assumed = assumed_hull(facts)
-    vehicle = _written(facts, assumed, file)
-    try:
-        write_text(survey, trial_text(vehicle))
-        mission = mission_file.load(str(survey), vehicle)
-        with console.status("flying a survey on the assumed hull"):
-            trials = fly_trials(vehicle, mission)
-    except BaseException:
-        for made in (file, survey):
-            made.unlink(missing_ok=True)
-        raise
+    vehicle, text = _described(facts, file)
+    survey_text = trial_text(vehicle)
+    mission = mission_file.read_text(survey_text, vehicle, str(survey))
+    with console.status("flying a survey on the assumed hull"):
+        trials = fly_trials(vehicle, mission)
+    with replacing(file) as draft, replacing(survey) as survey_draft:
+        draft.write_text(text, encoding="utf-8")
+        survey_draft.write_text(survey_text, encoding="utf-8")
     wrote(console, file, "the vehicle; numbers that were not given are marked `assumed`")
     wrote(console, survey, f"a survey that it can fly, {mission.path.length:.0f} m")
     _show(console, trials)
@@ -72,16 +71,18 @@ def _show(console: Console, trials: list[TrialFlight]) -> None:
     console.print(table)
 
 
-def _written(facts: OwnerFacts, assumed: Assumed, file: Path) -> Vehicle:
-    """Write the vehicle file with the advice for this vehicle at its head; return the vehicle."""
-    hull, depth = assumed.hull, None
+def _described(facts: OwnerFacts, file: Path) -> tuple[Vehicle, str]:
+    """Return the vehicle, and its file's text with the advice for this vehicle at its head.
+
+    Nothing is written: the text is checked as the content of `file`.
+    """
+    assumed, depth = assumed_hull(facts), None
+    hull = assumed.hull
     if facts.planes_deg is not None:
         hull, depth = assumed_diver(assumed, facts)
-    write_text(file, text_of(facts, assumed, hull, depth, ""))
-    vehicle = vehicle_file.load(str(file))
-    advice = headline(worth_measuring(facts, vehicle))
-    write_text(file, text_of(facts, assumed, hull, depth, advice))
-    return vehicle
+    text = text_of(facts, assumed, hull, depth, "")
+    vehicle = yaml_file.checked(yaml_file.parse_text(text, str(file)), file, Vehicle)
+    return vehicle, text_of(facts, assumed, hull, depth, headline(worth_measuring(facts, vehicle)))
 
 
 def _advise(console: Console, facts: OwnerFacts, vehicle: Vehicle, file: Path) -> None:

@@ -16,6 +16,10 @@ FULLNESS = 0.65
 #: Ranges outside which a number is taken for a slip: length over diameter, mass over displaced mass,
 #: lengths a second, radius in lengths.
 _SLENDERNESS, _HEAVINESS, _SPEED, _RADIUS = (3.0, 30.0), (0.5, 1.6), (0.05, 6.0), (0.4, 40.0)
+#: The same: length (m), angle (deg), rate (deg/s) and delay (s) of a fin, thrust in any unit, and effect of
+#: the rudder over the square of lengths a second.
+_LENGTH, _ANGLE, _RATE, _DELAY = (0.1, 100.0), (1.0, 89.0), (0.1, 1000.0), (0.0, 2.0)
+_THRUST, _EFFECT = (1e-3, 1e6), (0.01, 100.0)
 
 
 class OwnerFacts(NamedTuple):
@@ -76,6 +80,7 @@ def check_facts(facts: OwnerFacts) -> None:
     """
     f = facts
     _check_size(f)
+    _check_fins(f)
     for thrust, speed in f.speeds:
         if thrust > f.thrust_max * (1.0 + 1e-9):
             found = f"{speed:g} m/s at {thrust:g} {SYMBOLS[f.thrust_unit]}"
@@ -98,6 +103,8 @@ def check_facts(facts: OwnerFacts) -> None:
 
 
 def _check_size(f: OwnerFacts) -> None:
+    if not _LENGTH[0] <= f.length <= _LENGTH[1]:
+        raise ConfigurationError("--length", f"{f.length:g} m", f"{_LENGTH[0]:g} to {_LENGTH[1]:g} m")
     if f.diameter is not None:
         size = f"{f.diameter:g} m with {f.length:g} m of length"
         _within("--diameter", f.length / f.diameter, _SLENDERNESS, size, "diameters of length")
@@ -112,6 +119,22 @@ def _check_size(f: OwnerFacts) -> None:
             raise ConfigurationError(
                 "--mass", found, f"{least:.3g} to {most:.3g} kg, the water that it displaces"
             )
+
+
+def _check_fins(f: OwnerFacts) -> None:
+    for option, value, bounds, unit in (
+        ("--rudder", f.max_angle_deg, _ANGLE, "deg"),
+        ("--planes", f.planes_deg, _ANGLE, "deg"),
+        ("--rudder-rate", f.rate_deg_s, _RATE, "deg/s"),
+        ("--planes-rate", f.planes_rate_deg_s, _RATE, "deg/s"),
+        ("--delay", f.delay, _DELAY, "s"),
+        ("--thrust-max", f.thrust_max, _THRUST, f.thrust_unit),
+    ):
+        if value is not None and not bounds[0] <= value <= bounds[1]:
+            raise ConfigurationError(option, f"{value:g} {unit}", f"{bounds[0]:g} to {bounds[1]:g} {unit}")
+    if f.effect is not None:
+        share = f.effect / (f.speed / f.length) ** 2
+        _within("--effect", share, _EFFECT, f"{f.effect:g} 1/s^2", "lengths a second squared")
 
 
 def _check_unit(f: OwnerFacts) -> None:

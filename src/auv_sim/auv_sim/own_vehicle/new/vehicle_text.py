@@ -121,7 +121,7 @@ def _source(name: str, f: OwnerFacts, hull: Any) -> str:
         return (
             "from the radii at several angles"
             if len(f.radii) > 1
-            else "assumed: stable and unstable hulls exist"
+            else f"assumed (x{FACTOR:g}): stable and unstable hulls exist"
         )
     if name == "Nrr" and f.radii:
         return f"from the radius of {f.radii[-1][1]:g} m at {f.radii[-1][0]:g} deg"

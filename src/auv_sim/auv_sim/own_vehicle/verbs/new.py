@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from auv_msgs_py.values.errors import ConfigurationError
+from auv_msgs_py.values.errors import ConfigurationError, printable
 from auv_sim.command_line import EXIT_DONE, Parser, finite, not_negative, positive, say, target
 
 _PAIR = r"[0-9.eE+-]+"
@@ -143,10 +143,12 @@ def _facts(o: argparse.Namespace) -> Any:
     if largest is None:
         given = [at for _, at in o.speed if not math.isnan(at)]
         if not given:
-            raise ConfigurationError("--thrust-max", "nothing", f"the largest thrust, {unit}")
+            other = "" if o.thrust_unit else ", or --thrust-unit percent"
+            raise ConfigurationError("--thrust-max", "nothing", f"the largest thrust, {unit}{other}")
         largest = max(given)
+    name = printable(" ".join((o.name or "").split())) or "my vehicle"
     return OwnerFacts(
-        name=o.name or "my vehicle", length=o.length, thrust_unit=unit, thrust_max=largest,
+        name=name, length=o.length, thrust_unit=unit, thrust_max=largest,
         speeds=_rows(o.speed, largest), radii=_rows(o.radius, o.rudder), max_angle_deg=o.rudder,
         mass=o.mass, diameter=o.diameter, rate_deg_s=o.rudder_rate, delay=o.delay,
         planes_deg=o.planes or None, planes_rate_deg_s=o.planes_rate, dive_rate=o.dive_rate,
