@@ -122,9 +122,12 @@ def test_a_mission_that_is_under_way_is_left_alone(bench: Bench, tmp_path: Path)
 
 def test_it_begins_after_it_has_looked_around(bench: Bench, tmp_path: Path) -> None:
     node = started(bench, tmp_path, 60.0, look_around=60.0)
-    node._made_at -= 60.0
+    bench.odometry(9.9, Navigation(0.0, 0.0, 0.0, 0.0))
+    bench.until(lambda: node._looking_since)
+    assert not node.run.begun
+    node._looking_since -= 60.0
     fly(bench, 1)
-    assert node.run.begun
+    assert node.run.begun and not node.run.over
 
 
 def test_a_second_one_of_the_same_name_stops_it(bench: Bench, tmp_path: Path) -> None:

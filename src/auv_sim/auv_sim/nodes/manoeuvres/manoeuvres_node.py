@@ -55,7 +55,7 @@ class ManoeuvresNode(SuiteNode):
         self._altitude: tuple[float, float] | None = None
         self._heard_at: float | None = None
         self._ended_at: float | None = None
-        self._made_at = time.monotonic()
+        self._looking_since: float | None = None
         self.listen(topics.ODOM, self._on_odometry)
         if hull.dives:
             self.listen(topics.ALTITUDE, self._on_altitude)
@@ -91,12 +91,18 @@ class ManoeuvresNode(SuiteNode):
         self._end_if_over()
 
     def _may_begin(self) -> bool:
-        """Return whether no other node has been found for `look_around`; one that is found ends this node."""
+        """Return whether `look_around` has passed since the first odometry; another publisher ends this node.
+
+        The odometry shows that the discovery of nodes works.
+        """
         others = self._outputs.others()
         if others and not self.run.over:
             self.run.stop(others)
             self.fail(f"not begun, nothing was sent: {others}")
-        return not self.run.over and time.monotonic() - self._made_at >= self.parameters.look_around
+        if self.run.over or self._heard_at is None:
+            return False
+        self._looking_since = self._looking_since or self._heard_at
+        return time.monotonic() - self._looking_since >= self.parameters.look_around
 
     def _watch(self) -> None:
         """Look for what no odometry shows, repeat the state, and end after the farewell."""

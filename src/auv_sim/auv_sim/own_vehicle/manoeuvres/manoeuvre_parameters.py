@@ -17,7 +17,7 @@ class ManoeuvresParameters(NavigationParameters):
         DEPTH, "depth to go to and to hold, of a vehicle with stern planes", unit="m", ge=0.0
     )
     look_around: float = setting(
-        2.0, "time of looking for other publishers before anything is sent; the simulator needs none",
+        5.0, "time of looking for other publishers, after the first odometry and before anything is sent",
         unit="s", ge=0.0, le=60.0,
     )  # fmt: skip
     bounds: ManoeuvreBounds = setting(factory=ManoeuvreBounds, doc="bounds that end the program")
