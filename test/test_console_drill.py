@@ -62,8 +62,8 @@ async def said(tab: Tab, word: str) -> None:
 async def _drill(browser: Chromium, live: Live) -> None:
     tab = await opened(browser, live.address)
     await _load(tab)
+    await tab.until("document.getElementById('mission-name').textContent.startsWith('drill')", 60.0)
     await start(tab)
-    await tab.until("document.getElementById('mission-name').textContent.startsWith('drill')")
     await tab.until("parseFloat(document.getElementById('lengths').textContent) > 20", 60.0)
     await _check(tab, MISSION.format(thrust=5.0))
     await tab.click("#load")
