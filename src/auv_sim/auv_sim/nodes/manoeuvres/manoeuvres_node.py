@@ -102,7 +102,7 @@ class ManoeuvresNode(SuiteNode):
         if self.run.over or self._heard_at is None:
             return False
         self._looking_since = self._looking_since or self._heard_at
-        return time.monotonic() - self._looking_since >= self.parameters.look_around
+        return bool(time.monotonic() - self._looking_since >= self.parameters.look_around)
 
     def _watch(self) -> None:
         """Look for what no odometry shows, repeat the state, and end after the farewell."""
