@@ -26,9 +26,10 @@ _DAMPED = {"Nuv": 0.125, "Nur": 2.0, "Nrr": 0.2}
 _DEAD_TIMES = (0.05, 0.2)
 #: Dead bands that are tried where none is given, deg.
 DEAD_BANDS = (0.0, 0.1, 0.2, 0.3, 0.5)
-#: Each start is minimised first over this time (s), by a filter with this growth of the variances of u, v, r
-#: in a second: it follows the measurements, and its likelihood has hardly any local minima.
-_BEGIN, _GROWTH = 150.0, (1e-2, 1e-3, 1e-4)
+#: The starts are minimised first over these times in turn (s), by a filter with this growth of the variances
+#: of u, v, r in a second: it follows the measurements, and its likelihood has few local minima. Those that
+#: are left differ with the time.
+_BEGINS, _GROWTH = (150.0, math.inf), (1e-2, 1e-3, 1e-4)
 #: Factors on the growth of the filter's variances: errors of the model. The next one is taken where it lowers
 #: the cost by more than this.
 _MODEL_ERRORS, _BETTER = (100.0, 1e4), 10.0
@@ -150,19 +151,20 @@ def _from_starts(
 ) -> list[tuple[Scaling, Minimised]]:
     """Return the estimate from each start."""
     channels = channels_of(recordings, sheet, dead_band)
-    begin = channels_of([_beginning(recordings[0])], sheet, dead_band)
-    begin = begin._replace(noise=(*begin.noise[:3], *_GROWTH, *begin.noise[6:]))
+    begins = [_following(recordings[0], seconds, sheet, dead_band) for seconds in _BEGINS]
     found = []
     for k, (prior, dead_time) in enumerate(starts):
         progress(k, total, f"start {k + 1} of {len(starts)}")
         scaling = Scaling(prior, sheet._replace(dead_time=dead_time))
-        z = minimise(begin, scaling, np.zeros(ALL), rounds=2, steps=10).z
+        z = minimise(begins[k % len(begins)], scaling, np.zeros(ALL), rounds=2, steps=10).z
         found.append((scaling, minimise(channels, scaling, z)))
     return found
 
 
-def _beginning(data: Recording) -> Recording:
-    return data.between(data.t[0] - 1.0, data.t[0] + _BEGIN)
+def _following(data: Recording, seconds: float, sheet: DataSheet, dead_band: float) -> Channels:
+    """Return the channels of the first `seconds`, with a filter that follows the measurements."""
+    channels = channels_of([data.between(data.t[0] - 1.0, data.t[0] + seconds)], sheet, dead_band)
+    return channels._replace(noise=(*channels.noise[:3], *_GROWTH, *channels.noise[6:]))
 
 
 def _widened(channels: Channels, scaling: Scaling, estimate: Minimised) -> tuple[Scaling, Minimised]:
