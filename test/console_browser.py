@@ -53,7 +53,7 @@ class ConsoleBrowser:
 
     def ask(self, do: str, **fields: Any) -> dict[str, Any]:
         """Return the answer to a request."""
-        request = {"id": 1, "do": do, "vehicle": 0, **fields}
+        request = {"id": 1, "do": do, "vehicle": 0, "namespace": "/auv", **fields}
         asyncio.run(self._until(lambda: "answer" in self.texts, json.dumps(request)))
         return self.texts["answer"]
 

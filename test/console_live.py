@@ -100,13 +100,24 @@ async def state(tab: Tab, expected: str, seconds: float = 20.0) -> None:
 
 
 async def start(tab: Tab) -> None:
-    """Wait for the pre-flight line, and keep Start pressed until the mission runs."""
-    await tab.until("document.getElementById('start').getAttribute('aria-disabled') === 'false'", 60.0)
-    at = await tab.middle("#start")
-    await tab.mouse("Moved", *at)
-    await tab.mouse("Pressed", *at)
+    """Wait for the pre-flight line, and keep Start pressed until the page has an answer.
+
+    A pre-flight that changes meanwhile cancels a press, and the page says so: press again.
+    """
+    said = "document.getElementById('answer').textContent"
+    for _ in range(5):
+        await tab.until("document.getElementById('start').getAttribute('aria-disabled') === 'false'", 60.0)
+        await tab.value(f"{said} = ''")
+        at = await tab.middle("#start")
+        await tab.mouse("Moved", *at)
+        await tab.mouse("Pressed", *at)
+        await tab.until(f"/^Start: .*[^…]$/.test({said})", 20.0)
+        await tab.mouse("Released", *at)
+        answer = str(await tab.value(said))
+        if "nothing was sent" not in answer:
+            break
+    assert answer == "Start: started"
     await state(tab, "running")
-    await tab.mouse("Released", *at)
 
 
 async def flown(tab: Tab, share: float, seconds: float) -> None:

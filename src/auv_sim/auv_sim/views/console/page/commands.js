@@ -62,7 +62,10 @@ paints(() => {
   const why = locked(v), linked = flights.link === "open";
   start.setAttribute("aria-disabled", String(Boolean(why)));
   start.title = why ? `Locked: ${why}` : "Keep pressed for one second";
-  if (why) { clearTimeout(pressed); pressed = null; start.classList.remove("pressed"); }
+  if (why && pressed) {
+    clearTimeout(pressed); pressed = null; start.classList.remove("pressed");
+    answered("Start", { ok: false, message: `nothing was sent: ${why}` });
+  }
   $("hold").disabled = !(linked && t && t.can.hold);
   $("resume").disabled = !(linked && t && t.can.resume);
   write($("meanwhile"), t && MEANWHILE[t.state] || "");
