@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 
 import pytest
@@ -28,8 +29,16 @@ def _levels(bench: Bench, node: SuiteNode) -> list[bytes]:
 def test_a_node_that_has_had_no_odometry_is_not_ok(bench: Bench, make: Callable[..., SuiteNode]) -> None:
     node = bench.start(make)
     bench.until(lambda: bench.diagnosed("no odom yet"))
-    bench.odometry(1.0, NORTHWARD)
-    bench.until(lambda: _levels(bench, node) and _levels(bench, node)[-1] == OK)
+    stamps = itertools.count(1.0, 0.1)
+
+    def is_ok_while_odometry_flows() -> bool:
+        t = next(stamps)
+        bench.odometry(t, Navigation(1.9 * t, 0.0, 0.0, 0.0))
+        bench.spin(0.1)
+        levels = _levels(bench, node)
+        return bool(levels) and levels[-1] == OK
+
+    bench.until(is_ok_while_odometry_flows)
 
 
 @pytest.mark.parametrize("make", [CurrentObserverNode, GuidanceNode])
