@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import importlib
 import sys
 from collections.abc import Container, Sequence
 
-from auv_sim.command_line import Parser, command
+from auv_sim.command_line import command
+from auv_sim.command_verbs import parser_of_verbs
 
 #: In the order of a session with a recording.
 VERBS = {
@@ -22,23 +22,11 @@ VERBS = {
 
 
 def parser(verbs_with_options: Container[str] = VERBS) -> argparse.ArgumentParser:
-    """Return the command line's parser; only verbs that get their options are imported, which takes long."""
-    top = Parser(
-        prog="bag.py", description="Look into recordings of missions and work with them.", allow_abbrev=False
-    )
-    verbs = top.add_subparsers(dest="verb", required=True, metavar="VERB", parser_class=Parser)
-    for name, what in VERBS.items():
-        if name not in verbs_with_options:
-            verbs.add_parser(name, help=what)
-            continue
-        module = importlib.import_module(f"auv_sim.bags.verbs.{name}")
-        verb = verbs.add_parser(
-            name, help=what, description=module.__doc__, allow_abbrev=False,
-            formatter_class=argparse.RawDescriptionHelpFormatter,
-        )  # fmt: skip
-        module.add_arguments(verb)
-        verb.set_defaults(run=module.run)
-    return top
+    """Return the command line's parser; see `parser_of_verbs`."""
+    return parser_of_verbs(
+        "bag.py", "Look into recordings of missions and work with them.",
+        "auv_sim.bags.verbs", VERBS, verbs_with_options,
+    )  # fmt: skip
 
 
 @command("bag.py")

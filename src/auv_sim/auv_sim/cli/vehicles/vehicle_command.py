@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import importlib
 import sys
 from collections.abc import Container, Sequence
 
-from auv_sim.command_line import Parser, command
+from auv_sim.command_line import command
+from auv_sim.command_verbs import parser_of_verbs
 
-_VERBS_PACKAGE = "auv_sim.own_vehicle.verbs"
 #: In the order of the work on a vehicle.
 VERBS = {
     "new": "a vehicle file from what an owner has at hand: length, speed, turning radius",
@@ -21,24 +20,11 @@ VERBS = {
 
 
 def parser(verbs_with_options: Container[str] = VERBS) -> argparse.ArgumentParser:
-    """Return the command line's parser; only verbs that get their options are imported, which takes long."""
-    top = Parser(
-        prog="vehicle.py", description="Describe, identify, tune and prove a vehicle of your own.",
-        allow_abbrev=False,
+    """Return the command line's parser; see `parser_of_verbs`."""
+    return parser_of_verbs(
+        "vehicle.py", "Describe, identify, tune and prove a vehicle of your own.",
+        "auv_sim.own_vehicle.verbs", VERBS, verbs_with_options,
     )  # fmt: skip
-    verbs = top.add_subparsers(dest="verb", required=True, metavar="VERB", parser_class=Parser)
-    for name, what in VERBS.items():
-        if name not in verbs_with_options:
-            verbs.add_parser(name, help=what)
-            continue
-        module = importlib.import_module(f"{_VERBS_PACKAGE}.{name}")
-        verb = verbs.add_parser(
-            name, help=what, description=module.__doc__, allow_abbrev=False,
-            formatter_class=argparse.RawDescriptionHelpFormatter,
-        )  # fmt: skip
-        module.add_arguments(verb)
-        verb.set_defaults(run=module.run)
-    return top
 
 
 @command("vehicle.py")
