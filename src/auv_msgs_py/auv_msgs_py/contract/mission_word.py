@@ -8,6 +8,8 @@ single word of another publisher within that time.
 from __future__ import annotations
 
 import enum
+import math
+from collections.abc import Mapping
 
 from auv_msgs_py.contract.topics import MISSION_STATE
 from auv_msgs_py.values.errors import MessageRefused
@@ -77,3 +79,12 @@ class MissionWord:
         if self._once is not None and now - self._once[1] >= ALONE:
             self._word, self._once = self._once[0], None
         return self._word
+
+
+def number_in(status: Mapping[str, str], key: str) -> float:
+    """Return a finite number of a `mission_status`; NaN where there is none."""
+    try:
+        value = float(status.get(key, ""))
+    except ValueError:
+        return math.nan
+    return value if math.isfinite(value) else math.nan

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from auv_msgs_py.contract.mission_word import MissionState
+from auv_msgs_py.contract.mission_word import MissionState, number_in
 
 _UNDER_WAY = (MissionState.RUNNING, MissionState.HOLDING)
 
@@ -82,8 +82,8 @@ class FlownMissions:
             stamp: of the newest odometry, s.
             now: steady time, s.
         """
-        begun, share = _number(values, "begun at [s]"), _number(values, "flown share")
-        length = _number(values, "length [m]")
+        begun, share = number_in(values, "begun at [s]"), number_in(values, "flown share")
+        length = number_in(values, "length [m]")
         if math.isnan(length) or not values.get("state"):
             return
         self.chosen = dict(values)
@@ -104,12 +104,3 @@ class FlownMissions:
         """Mark the last mission as interrupted."""
         if self.last is not None:
             self.last.state, self.last.reason = "interrupted", reason
-
-
-def _number(values: Mapping[str, str], key: str) -> float:
-    """Return a finite number; NaN where there is none."""
-    try:
-        value = float(values.get(key, ""))
-    except ValueError:
-        return math.nan
-    return value if math.isfinite(value) else math.nan

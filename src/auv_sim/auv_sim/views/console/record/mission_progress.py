@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from auv_msgs_py.contract.mission_word import MissionState
+from auv_msgs_py.contract.mission_word import MissionState, number_in
 from auv_sim.views.console.record.history import History
 from auv_sim.views.console.record.track_columns import PLACE
 
@@ -44,7 +44,7 @@ class MissionProgress:
     @property
     def length(self) -> float:
         """Length of the path, m; NaN before it was heard."""
-        return number_of(self.status, "length [m]")
+        return number_in(self.status, "length [m]")
 
     @property
     def mission_time(self) -> float | None:
@@ -53,7 +53,7 @@ class MissionProgress:
 
     def at(self, stamp: float) -> float | None:
         """Update and return the mission time; `stamp` of the newest odometry, s."""
-        begun = number_of(self.status, "begun at [s]")
+        begun = number_in(self.status, "begun at [s]")
         if math.isnan(begun):
             self._time = None
         elif self.state in _UNDER_WAY and math.isfinite(stamp):
@@ -68,7 +68,7 @@ class MissionProgress:
             history: of the vehicle.
             course: with the joints, if they are known.
         """
-        share, length = number_of(self.status, "flown share"), self.length
+        share, length = number_in(self.status, "flown share"), self.length
         is_under_way = self.state in _UNDER_WAY
         speed = _speed(history) if is_under_way else math.nan
         time_to_go = self.to_go / speed if is_under_way else math.nan
@@ -83,15 +83,6 @@ class MissionProgress:
             "time_to_go": time_to_go,
             "next_joint": _next_joint(course, place, speed) if is_under_way else None,
         }
-
-
-def number_of(values: Mapping[str, str], key: str) -> float:
-    """Return a finite number; NaN where there is none."""
-    try:
-        value = float(values.get(key, ""))
-    except ValueError:
-        return math.nan
-    return value if math.isfinite(value) else math.nan
 
 
 def _speed(history: History) -> float:
