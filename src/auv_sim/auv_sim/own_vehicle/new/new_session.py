@@ -8,7 +8,6 @@ from rich.console import Console
 
 from auv_msgs_py.settings import yaml_file
 from auv_msgs_py.settings.result_files import replacing
-from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.control.rule.gain_rule import gains_for
 from auv_path_following.missions import mission_file
 from auv_path_following.vehicle import Vehicle
@@ -19,6 +18,7 @@ from auv_sim.own_vehicle.new.next_measurement import headline, worth_measuring
 from auv_sim.own_vehicle.new.owner_facts import OwnerFacts, check_facts
 from auv_sim.own_vehicle.new.trial_flight import TrialFlight, fly_trials, trial_text
 from auv_sim.own_vehicle.new.vehicle_text import text_of
+from auv_sim.own_vehicle.output_files import check_outputs
 from auv_sim.terminal import go_on, headed_table, wrote
 
 
@@ -41,9 +41,7 @@ def new_vehicle(facts: OwnerFacts, file: Path, overwrite: bool, console: Console
     """
     check_facts(facts)
     survey = file.with_name(f"{file.stem}_survey.yaml")
-    for taken in (file, survey):
-        if taken.exists() and not overwrite:
-            raise ConfigurationError("--out", f"{taken}, which exists", "a new file, or --overwrite")
+    check_outputs((file, survey), (), overwrite)
     vehicle, text = _described(facts, file)
     survey_text = trial_text(vehicle)
     mission = mission_file.read_text(survey_text, vehicle, str(survey))

@@ -19,6 +19,7 @@ from auv_path_following import config_files, vehicle
 from auv_path_following.vehicle import Vehicle
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, make_directory, to_type
 from auv_sim.flight.metrics import without_nan
+from auv_sim.own_vehicle.output_files import check_outputs
 from auv_sim.own_vehicle.prove import proof_page
 from auv_sim.own_vehicle.prove.confidence import flights_needed
 from auv_sim.own_vehicle.prove.proof import Proof, Proposition, draw_claim, fly_proof
@@ -28,7 +29,6 @@ from auv_sim.own_vehicle.tune.gain_space import LAWS, OWN_LAW, GainSet, GainSpac
 from auv_sim.own_vehicle.tune.search import Budget, Problem, search
 from auv_sim.own_vehicle.tune.trial_flights import PROVEN_TURN, Conditions
 from auv_sim.own_vehicle.tune.tune_session import BASE, check_compiled, spread_of, steps_of
-from auv_sim.own_vehicle.verbs.gain_options import check_outputs
 from auv_sim.sim_parameters import SUITE
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, headed_table, progress_bar, wrote

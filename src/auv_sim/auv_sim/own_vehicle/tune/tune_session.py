@@ -16,6 +16,7 @@ from auv_path_following import config_files, vehicle
 from auv_path_following.vehicle import Vehicle
 from auv_sim.command_line import EXIT_DONE, to_type
 from auv_sim.flight.batch.compiled import COMPILED
+from auv_sim.own_vehicle.output_files import check_outputs
 from auv_sim.own_vehicle.tune import tuned_file, tuned_picture
 from auv_sim.own_vehicle.tune.ensemble import Factors, check_simulated, ensemble, planar, spread_of_file
 from auv_sim.own_vehicle.tune.gain_space import GainSet, GainSpace, ratios_at
@@ -23,7 +24,7 @@ from auv_sim.own_vehicle.tune.gain_verdict import GainVerdict, Held, judge
 from auv_sim.own_vehicle.tune.sampled_loop import LARGEST_FACTOR, Margins
 from auv_sim.own_vehicle.tune.search import Budget, Problem, search
 from auv_sim.own_vehicle.tune.trial_flights import Amount, Conditions, draw_flights, with_laws
-from auv_sim.own_vehicle.verbs.gain_options import FROM_FILE, check_outputs
+from auv_sim.own_vehicle.verbs.gain_options import FROM_FILE
 from auv_sim.sim_parameters import SUITE
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, headed_table, progress_bar, wrote

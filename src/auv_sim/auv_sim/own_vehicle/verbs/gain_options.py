@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Iterable
-from pathlib import Path
 
-from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_sim.command_line import at_least_one, not_negative, positive, whole
 
@@ -52,22 +49,3 @@ def add_conditions(p: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     p.add_argument("--overwrite", action="store_true", help="replace files that exist")
     p.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
-
-
-def check_outputs(files: Iterable[Path], inputs: Iterable[Path], overwrite: bool) -> None:
-    """Check that files may be written, before their content is computed.
-
-    Args:
-        files: to write.
-        inputs: which are read, and never replaced.
-        overwrite: whether other files that exist are replaced.
-
-    Raises:
-        ConfigurationError: one is an input, or exists.
-    """
-    read = {os.path.realpath(file) for file in inputs}
-    for file in files:
-        if os.path.realpath(file) in read:
-            raise ConfigurationError("--out", f"{file}, which is read", "another file")
-        if file.is_file() and not overwrite:
-            raise ConfigurationError("--out", f"{file}, which exists", "a new file, or --overwrite")

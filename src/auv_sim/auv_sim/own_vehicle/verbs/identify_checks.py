@@ -8,6 +8,7 @@ from pathlib import Path
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.vehicle import Vehicle
+from auv_sim.own_vehicle.output_files import check_outputs
 
 #: Largest latency of a log (s), error by a data sheet (per cent), and range of a rudder's rate (deg/s).
 _LATENCY, _PERCENT, _RATE = 2.0, 50.0, (0.1, 1000.0)
@@ -47,10 +48,4 @@ def check_target(out: Path, inputs: Sequence[Path], overwrite: bool) -> None:
         raise ConfigurationError(
             "--out", f"{out}, the name of a picture", "a vehicle file, such as mine.yaml"
         )
-    for taken in (out, picture):
-        if any(taken.resolve() == path.resolve() for path in inputs):
-            raise ConfigurationError("--out", f"{taken}, which is read", "another file")
-        if taken.is_dir():
-            raise ConfigurationError("--out", f"{taken}, a directory", "a file that can be written")
-        if taken.is_file() and not overwrite:
-            raise ConfigurationError("--out", f"{taken}, which exists", "a new file, or --overwrite")
+    check_outputs((out, picture), inputs, overwrite)
