@@ -4,7 +4,7 @@ export const FONT = "11px system-ui, 'DejaVu Sans', sans-serif";
 /* Margins of a panel, px. */
 export const LEFT = 58, RIGHT = 10;
 const NAMES = ["bg", "card", "ink", "muted", "grid", "line", "area", "path", "blue", "orange", "green", "red",
-  "brown", "cursor"];
+  "violet", "brown", "cursor"];
 let shades = null;
 
 /* The colours of colours.css as the page is lit now: name -> colour. */
