@@ -22,10 +22,11 @@ from auv_sim.cli.vehicles import vehicle_command
 from auv_sim.flight import closed_loop
 from auv_sim.flight.metrics import under_way
 from auv_sim.flight.scenario import Scenario
+from auv_sim.own_vehicle.new import trial_flight
 from auv_sim.own_vehicle.new.assumed_hull import assumed_hull, divergence_of, effect_of
 from auv_sim.own_vehicle.new.new_session import new_vehicle
 from auv_sim.own_vehicle.new.owner_facts import OwnerFacts, check_facts
-from auv_sim.own_vehicle.new.trial_flight import trial_text
+from auv_sim.own_vehicle.new.trial_flight import TrialFlight, trial_text
 from auv_sim.own_vehicle.tune.ensemble import spread_of_file
 from auv_sim.vehicle import sea
 from hulls import STABLE, drawn
@@ -78,6 +79,13 @@ def test_given_effect_and_divergence_become_the_hulls() -> None:
     hull = assumed_hull(facts).hull
     assert effect_of(hull, facts) == pytest.approx(1.2)
     assert divergence_of(hull, facts) == pytest.approx(0.3, abs=0.01)
+
+
+def test_what_is_assumed_can_be_steered_with_the_given_delay() -> None:
+    facts = FACTS._replace(delay=0.4)
+    assert divergence_of(assumed_hull(facts).hull, facts) == pytest.approx(0.5, rel=0.1)
+    given = facts._replace(divergence=1.3)
+    assert divergence_of(assumed_hull(given).hull, given) == pytest.approx(1.3, rel=0.1)
 
 
 def test_radii_at_several_angles_give_the_divergence() -> None:
@@ -179,6 +187,21 @@ def test_length_speed_and_radius_are_enough_for_a_survey(hull: Vehicle) -> None:
     distance = np.abs(mission.path.distance(flown.x_true, flown.y_true, index))
     assert np.mean(distance < 1.0) >= 0.95
     assert np.sqrt(np.mean(distance**2)) <= 0.45
+
+
+def test_a_survey_gets_wider_turns_where_the_vehicle_needs_them(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Facts of the Tethys LRAUV: a rudder of 15 deg, 2.3 m at 1.2 m/s."""
+    facts = OwnerFacts("tethys", 2.3, "N", 9.0, ((9.0, 1.2),), ((15.0, 7.1),), 15.0)
+    own = new_vehicle(facts, tmp_path / "tethys.yaml", False, console())
+    assert "turns of 18 m" not in (tmp_path / "tethys_survey.yaml").read_text()
+    monkeypatch.setattr(trial_flight, "fly_trials", lambda *_: ([TrialFlight(0.0, 0.9, 0.4, 1.7)], False))
+    missed = trial_flight.trial_survey(own, "survey.yaml")
+    assert not missed.is_flown and "turns of 40 m" in missed.text
+    out = console()
+    new_vehicle(facts, tmp_path / "tethys.yaml", True, out)
+    assert "warning the survey is not flown within 1 m everywhere" in printed(out)
 
 
 def test_a_vehicle_that_cannot_fly_leaves_no_file_and_says_why(tmp_path: Path) -> None:

@@ -23,6 +23,8 @@ from auv_sim.own_vehicle.new.owner_facts import OwnerFacts, displaced_mass
 
 #: b L^2/u^2 and p L/u of a torpedo of which neither is measured.
 EFFECT, DIVERGENCE = 1.8, 1.2
+#: Largest p times a given delay that is assumed, from this delay (s) on: what is unsteerable has no owner.
+_STEERED, _FROM_DELAY = 0.2, 0.1
 #: Drag over that of the REMUS 100 by similarity: beyond this range a thrust is taken for a slip.
 _DRAG = (0.1, 12.0)
 #: Powers of (mass, length) with which coefficients grow.
@@ -132,6 +134,8 @@ def _with_divergence(hull: Hull, facts: OwnerFacts) -> Hull:
     aim = facts.divergence
     if aim is None:
         aim = DIVERGENCE * facts.speed / facts.length
+        if facts.delay is not None and facts.delay > _FROM_DELAY:
+            aim = min(aim, _STEERED / facts.delay)
     low, high = hull.Nur - 40.0 * abs(hull.Nur), hull.Nur + 20.0 * abs(hull.Nur)
     for _ in range(60):
         middle = 0.5 * (low + high)

@@ -9,14 +9,13 @@ from rich.console import Console
 from auv_msgs_py.settings import yaml_file
 from auv_msgs_py.settings.result_files import replacing
 from auv_path_following.control.rule.gain_rule import gains_for
-from auv_path_following.missions import mission_file
 from auv_path_following.vehicle import Vehicle
 from auv_sim.command_line import to_type
 from auv_sim.own_vehicle.new.assumed_diver import assumed_diver
 from auv_sim.own_vehicle.new.assumed_hull import assumed_hull
 from auv_sim.own_vehicle.new.next_measurement import headline, worth_measuring
 from auv_sim.own_vehicle.new.owner_facts import OwnerFacts, check_facts
-from auv_sim.own_vehicle.new.trial_flight import TrialFlight, fly_trials, trial_text
+from auv_sim.own_vehicle.new.trial_flight import TrialSurvey, trial_survey
 from auv_sim.own_vehicle.new.vehicle_text import text_of
 from auv_sim.own_vehicle.output_files import check_outputs
 from auv_sim.terminal import go_on, headed_table, wrote
@@ -43,30 +42,34 @@ def new_vehicle(facts: OwnerFacts, file: Path, overwrite: bool, console: Console
     survey = file.with_name(f"{file.stem}_survey.yaml")
     check_outputs((file, survey), (), overwrite)
     vehicle, text = _described(facts, file)
-    survey_text = trial_text(vehicle)
-    mission = mission_file.read_text(survey_text, vehicle, str(survey))
     with console.status("flying a survey on the assumed hull"):
-        trials = fly_trials(vehicle, mission)
+        flown = trial_survey(vehicle, str(survey))
     with replacing(file) as draft, replacing(survey) as survey_draft:
         draft.write_text(text, encoding="utf-8")
-        survey_draft.write_text(survey_text, encoding="utf-8")
+        survey_draft.write_text(flown.text, encoding="utf-8")
     wrote(console, file, "the vehicle; numbers that were not given are marked `assumed`")
-    wrote(console, survey, f"a survey that it can fly, {mission.path.length:.0f} m")
-    _show(console, trials)
+    wrote(console, survey, f"a survey that it can fly, {flown.mission.path.length:.0f} m")
+    _show(console, flown)
     _advise(console, facts, vehicle, file)
     return vehicle
 
 
-def _show(console: Console, trials: list[TrialFlight]) -> None:
+def _show(console: Console, survey: TrialSurvey) -> None:
     table = headed_table(
         "The survey on the assumed hull, gains by the rule", (),
         ("current (m/s)", "flown", "rms (m)", "largest (m)"),
     )  # fmt: skip
-    for trial in trials:
+    for trial in survey.trials:
         table.add_row(
             f"{trial.current:.2f}", f"{trial.share:.1%}", f"{trial.rms:.2f}", f"{trial.largest:.2f}"
         )
     console.print(table)
+    if not survey.is_flown:
+        console.print(
+            "[yellow]warning[/yellow] the survey is not flown within 1 m everywhere; the rule's "
+            "gains on the assumed hull are slow: identify the hull, and tune",
+            highlight=False,
+        )
 
 
 def _described(facts: OwnerFacts, file: Path) -> tuple[Vehicle, str]:

@@ -14,6 +14,7 @@ from auv_path_following.control.hull_model import tightest_turn
 from auv_path_following.control.rule.gain_rule import gains_for
 from auv_path_following.guidance.ruled_guidance import with_gains
 from auv_path_following.mission_check.flyable import check, refusal
+from auv_path_following.missions import mission_file
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.flight import closed_loop
@@ -22,8 +23,11 @@ from auv_sim.flight.metrics import summarise
 from auv_sim.flight.scenario import Scenario
 from auv_sim.sim_parameters import SUITE
 
-#: Radius of the turns: in tightest turns, and at least in hull lengths.
+#: Radius of the turns: in tightest turns, and at least in hull lengths; then wider by these factors.
 _TURNS, _LENGTHS = 2.5, 5.0
+_WIDER = (1.0, 1.5, 2.25)
+#: Least flown share of the survey with which a vehicle flies.
+_LEAST_SHARE = 0.8
 #: Current of the trial, as a share of the speed, and its direction, rad.
 _CURRENT, _DIRECTION = 0.15, 0.8
 #: Depths of a vehicle that dives, in shallowest depths of its range.
@@ -42,9 +46,48 @@ class TrialFlight(NamedTuple):
     largest: float
 
 
-def trial_text(vehicle: Vehicle) -> str:
-    """Return a mission file: a survey whose turns the vehicle can fly."""
-    radius = math.ceil(max(_TURNS * tightest_turn(vehicle).radius, _LENGTHS * vehicle.length))
+class TrialSurvey(NamedTuple):
+    """A survey as the text of its file and as a mission, and its flights; `is_flown`: all of it, by each."""
+
+    text: str
+    mission: Mission
+    trials: list[TrialFlight]
+    is_flown: bool
+
+
+def trial_survey(vehicle: Vehicle, file: str) -> TrialSurvey:
+    """Return a survey with the tightest turns that the vehicle flies, with gains by the rule.
+
+    Args:
+        vehicle: with the hull to fly.
+        file: name of the mission file, for messages.
+
+    Raises:
+        ConfigurationError: the mission is refused, or hardly flown even with the widest turns, or not all of
+            it where the rule does not hold.
+    """
+    notices = gains_for(vehicle).notices
+    for wider in _WIDER:
+        text = trial_text(vehicle, wider)
+        mission = mission_file.read_text(text, vehicle, file)
+        trials, is_flown = fly_trials(vehicle, mission)
+        if is_flown or notices:
+            break
+    worst = min(trials, key=lambda trial: trial.share)
+    if worst.share < _LEAST_SHARE or (notices and not is_flown):
+        why = notices[0] if notices else "check delay, rudder rate and radius"
+        raise ConfigurationError(
+            vehicle.name,
+            f"a survey flown to {worst.share:.0%} in {worst.current:.2f} m/s of current",
+            f"{_FLYING} ({why.removeprefix(f'{vehicle.name}: ')})",
+        )
+    return TrialSurvey(text, mission, trials, is_flown)
+
+
+def trial_text(vehicle: Vehicle, wider: float = 1.0) -> str:
+    """Return a mission file: a survey with turns of 2.5 tightest ones, or wider by a factor."""
+    tightest = max(_TURNS * tightest_turn(vehicle).radius, _LENGTHS * vehicle.length)
+    radius = math.ceil(wider * tightest)
     spacing = math.ceil(3.3 * radius)
     leg = 8 * radius
     survey = {
@@ -59,11 +102,14 @@ def trial_text(vehicle: Vehicle) -> str:
     return f"# A survey with turns of {radius} m, which the vehicle can fly.\n{yaml_file.text_of(mission)}"
 
 
-def fly_trials(vehicle: Vehicle, mission: Mission) -> list[TrialFlight]:
+def fly_trials(vehicle: Vehicle, mission: Mission) -> tuple[list[TrialFlight], bool]:
     """Check a mission and fly it with gains by the rule, in still water and in a current.
 
+    Returns:
+        The flights, and whether each flew all of the mission.
+
     Raises:
-        ConfigurationError: the mission is refused, or was not flown to its end.
+        ConfigurationError: the mission is refused.
     """
     gains = gains_for(vehicle)
     settings = params_file.load(config_files.find("params", "robust"), SUITE)
@@ -71,7 +117,7 @@ def fly_trials(vehicle: Vehicle, mission: Mission) -> list[TrialFlight]:
     findings = check(mission, vehicle, switching=guidance.switching, lookahead=guidance.lookahead)
     if findings.refusals:
         raise refusal(mission, findings, "give other facts")
-    trials = []
+    trials, is_flown = [], True
     for speed in (0.0, _CURRENT * vehicle.speed_at(mission.thrust)):
         scenario = Scenario(
             path=mission.path, spatial=mission.spatial, vehicle=vehicle, thrust=mission.thrust,
@@ -81,12 +127,6 @@ def fly_trials(vehicle: Vehicle, mission: Mission) -> list[TrialFlight]:
             time_limit=2.0 * findings.duration + 120.0,
         )  # fmt: skip
         flown = summarise(closed_loop.fly(scenario), followed_path(scenario))
-        if flown.outcome() != "complete":
-            why = gains.notices[0] if gains.notices else "check delay, rudder rate and radius"
-            raise ConfigurationError(
-                vehicle.name,
-                f"a survey flown to {flown.flown_share:.0%} in {speed:.2f} m/s of current",
-                f"{_FLYING} ({why.removeprefix(f'{vehicle.name}: ')})",
-            )
+        is_flown = is_flown and flown.outcome() == "complete"
         trials.append(TrialFlight(speed, flown.flown_share, flown.rms_distance, flown.largest_distance))
-    return trials
+    return trials, is_flown
