@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+import math
 from pathlib import Path
 
 import pytest
@@ -66,3 +68,27 @@ def test_a_program_that_a_vehicle_cannot_fly_is_refused(
     with pytest.raises(ConfigurationError, match=r"p: legs\[0\]") as error:
         legs.manoeuvres_of(program_file.load(str(file)), vehicle.load(name))
     assert found in str(error.value)
+
+
+@pytest.mark.parametrize("name", config_files.shipped("manoeuvres"))
+def test_shipped_programs_fit_small_fins(name: str) -> None:
+    """All angles of a fin in one proportion, so that a smaller one stays smaller."""
+    program, diver = program_file.load(name), vehicle.load("remus100_6dof")
+    assert diver.sternplanes is not None
+    small = dataclasses.replace(
+        diver,
+        rudder=dataclasses.replace(diver.rudder, max_angle_deg=7.0),
+        sternplanes=dataclasses.replace(diver.sternplanes, max_angle_deg=8.0),
+        depth=dataclasses.replace(diver.depth, minimum_speed=1.5),
+    )
+    full, less = legs.manoeuvres_of(program, diver).legs, legs.manoeuvres_of(program, small).legs
+    for kinds, largest in (((legs.ZIGZAG, legs.CIRCLE), 7.0), ((legs.PITCH_ZIGZAG, legs.PLANE_STEP), 8.0)):
+        whole = [leg.fin for leg in full if leg.kind in kinds]
+        reduced = [leg.fin for leg in less if leg.kind in kinds]
+        if whole:
+            assert max(map(abs, reduced)) == pytest.approx(math.radians(largest))
+            share = max(map(abs, reduced)) / max(map(abs, whole))
+            assert reduced == pytest.approx([share * fin for fin in whole])
+    assert [leg.fin for leg in less if leg.kind == legs.DEPTH_ZIGZAG] == [
+        leg.fin for leg in full if leg.kind == legs.DEPTH_ZIGZAG
+    ]

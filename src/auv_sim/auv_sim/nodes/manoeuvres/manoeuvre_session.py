@@ -25,6 +25,7 @@ from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, make_directory, to_type
 from auv_sim.launch.processes.domains import free_domain
 from auv_sim.nodes.manoeuvres.manoeuvres_node import INTERRUPTED, ManoeuvresNode
 from auv_sim.own_vehicle.manoeuvres import program_file
+from auv_sim.own_vehicle.manoeuvres.legs import fin_shares
 from auv_sim.own_vehicle.manoeuvres.manoeuvre_run import ManoeuvreBounds, ManoeuvreRun
 from auv_sim.terminal import console, go_on, progress_bar, wrote
 from auv_sim.vehicle import sea
@@ -58,6 +59,9 @@ def fly(options: argparse.Namespace) -> int:
     make_directory(directory, new=True)
     _keep(options, directory)
     out, made = console(options.quiet), list[ManoeuvresNode]()
+    share = min(fin_shares(program, hull).values(), default=1.0)
+    if share < 1.0:
+        out.print(f"angles of fins reduced to {share:.0%} of the program's: the vehicle has no more")
     with _progress(out, program.name, made):
         code = run_nodes(_nodes(options, hull, directory, made), [])
     if not made or code == EXIT_BAD_INPUT:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.vehicle import Rudder, Vehicle
 from auv_sim.own_vehicle.manoeuvres.program_file import (
     Circle,
-    DepthZigzag,
     Manoeuvre,
     PitchZigzag,
     PlaneStep,
@@ -20,6 +19,8 @@ from auv_sim.own_vehicle.manoeuvres.program_file import (
 
 #: Kinds of legs.
 SUBMERGE, STRAIGHT, ZIGZAG, CIRCLE, PITCH_ZIGZAG, DEPTH_ZIGZAG, PLANE_STEP = range(7)
+#: Manoeuvres with an angle of the rudder, and with one of the planes.
+_OF_RUDDER, _OF_PLANES = (Zigzag, Circle), (PitchZigzag, PlaneStep)
 #: Longest way to the depth, and time in which a depth must be held, s.
 LONGEST_DIVE = 60.0
 #: Rudder for each rad of heading error; the same for the rate in lengths over speed.
@@ -80,12 +81,15 @@ class Manoeuvres(NamedTuple):
 def manoeuvres_of(program: Program, vehicle: Vehicle) -> Manoeuvres:
     """Return a program for one vehicle; one that dives goes to its depth first.
 
+    The angles of a program with `fits_fins` are reduced to what the fins can do.
+
     Raises:
         ConfigurationError: the program needs stern planes and the vehicle has none; an angle exceeds the
             fin's largest.
     """
     legs = []
     planes = vehicle.sternplanes
+    shares = fin_shares(program, vehicle)
     if planes is not None:
         legs.append(_leg(Straight(seconds=LONGEST_DIVE), vehicle)._replace(kind=SUBMERGE))
     for number, spec in enumerate(program.legs):
@@ -93,15 +97,31 @@ def manoeuvres_of(program: Program, vehicle: Vehicle) -> Manoeuvres:
         if spec.needs_planes and planes is None:
             raise ConfigurationError(where, f"{vehicle.name}, a vehicle in the plane", "stern planes")
         leg = _leg(spec.manoeuvre, vehicle)
+        leg = leg._replace(fin=leg.fin * shares.get(type(spec.manoeuvre), 1.0))
         _check_angle(where, spec.manoeuvre, leg, vehicle.rudder if planes is None else planes, vehicle.rudder)
         legs.append(leg)
     return Manoeuvres(tuple(legs), vehicle.rudder.max_angle, 0.0 if planes is None else planes.max_angle)
 
 
+def fin_shares(program: Program, vehicle: Vehicle) -> dict[Any, float]:
+    """Return by which factor the angles of each kind of manoeuvre are reduced; 1: flown as they stand."""
+    shares: dict[Any, float] = {}
+    if not program.fits_fins:
+        return shares
+    of_fins: tuple[tuple[tuple[Any, ...], Rudder | None], ...]
+    of_fins = ((_OF_RUDDER, vehicle.rudder), (_OF_PLANES, vehicle.sternplanes))
+    for kinds, fin in of_fins:
+        fins = [_leg(leg.manoeuvre, vehicle).fin for leg in program.legs if isinstance(leg.manoeuvre, kinds)]
+        largest = max(map(abs, fins), default=0.0)
+        if fin is not None and largest > fin.max_angle:
+            shares.update((kind, fin.max_angle / largest) for kind in kinds)
+    return shares
+
+
 def _check_angle(where: str, spec: Manoeuvre, leg: Leg, planes: Rudder, rudder: Rudder) -> None:
-    if isinstance(spec, Straight | DepthZigzag):
+    if not isinstance(spec, (*_OF_RUDDER, *_OF_PLANES)):
         return
-    largest = planes if isinstance(spec, PitchZigzag | PlaneStep) else rudder
+    largest = planes if isinstance(spec, _OF_PLANES) else rudder
     if leg.fin == 0.0 or abs(leg.fin) > largest.max_angle + 1e-9:
         found = f"{math.degrees(leg.fin):g} deg"
         raise ConfigurationError(where, found, f"an angle other than 0, up to {largest.max_angle_deg:g} deg")

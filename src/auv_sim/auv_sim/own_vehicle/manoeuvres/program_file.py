@@ -132,6 +132,9 @@ class Program:
     )
     name: str = setting(doc="name of the program")
     description: str = setting("", "description")
+    fits_fins: bool = setting(
+        False, "all angles of a fin are reduced in one proportion where its largest one exceeds the vehicle's"
+    )
     legs: tuple[LegSpec, ...] = setting(doc="the manoeuvres, one after the other")
 
     @pydantic.model_validator(mode="after")
