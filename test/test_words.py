@@ -20,7 +20,6 @@ RIGHT: dict[tuple[str, str], tuple[int, str]] = {
     ("src/auv_sim/auv_sim/cli/mission.py", "believed"): (1, "the former name of the option"),
     ("src/auv_sim/auv_sim/studies/campaign/study_file.py", "believed"): (1, "the former name of the key"),
     ("src/auv_sim/auv_sim/own_vehicle/tune/search.py", "tell"): (1, "a method of the optimiser"),
-    ("docs/safety.md", "tell"): (1, "to find out"),
 }
 MOST = 25
 
