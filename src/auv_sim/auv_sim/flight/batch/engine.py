@@ -31,14 +31,10 @@ from auv_sim.flight.batch.compiled_flight import (
     fly_one,
     scratch_of,
 )
-from auv_sim.flight.batch.flight_figures import Flights, figures_of, spatial_figures_of
+from auv_sim.flight.batch.flight_figures import Flights
 from auv_sim.flight.batch.judge import judged
 from auv_sim.flight.batch.kinds.chosen import start_from
-from auv_sim.flight.batch.kinds.spatial_tally import (
-    SPATIAL_ENDS,
-    SPATIAL_FLIGHT_TALLIES,
-    SPATIAL_SUBPATH_TALLIES,
-)
+from auv_sim.flight.batch.kinds.kind_figures import figures_by, tallies_of
 from auv_sim.flight.batch.scenarios import (
     Courses,
     Preparation,
@@ -119,7 +115,7 @@ class _Chunk(NamedTuple):
             return _at_sea(flown[0], self.path, self.course, self.example)
         starts = np.array([start_row(scenario, self.path) for scenario in flown])
         currents = np.array([current_row(scenario) for scenario in flown])
-        whole, subpaths, ends = _tallies(len(flown), self.path)
+        whole, subpaths, ends = tallies_of(len(flown), self.path)
         ring = max(rings_of(scenario) for scenario in flown)
         with np.errstate(all="ignore"):  # a state that runs away is a result
             fly_many(
@@ -127,20 +123,7 @@ class _Chunk(NamedTuple):
                 scratch_of(self.course, ring), whole, subpaths, ends,
             )  # fmt: skip
         dt = np.array([scenario.dt for scenario in flown])
-        return _figures(self.path)(ends, whole, subpaths, dt)
-
-
-def _tallies(n: int, path: CompositePath | SpatialPath) -> tuple[Any, Any, Any]:
-    """Return the tallies of n flights of a path, of their subpaths, and their ends: not yet reset."""
-    if isinstance(path, SpatialPath):
-        sizes = SPATIAL_FLIGHT_TALLIES, SPATIAL_SUBPATH_TALLIES, SPATIAL_ENDS
-    else:
-        sizes = tally.FLIGHT_TALLIES, tally.SUBPATH_TALLIES, tally.ENDS
-    return np.empty((n, sizes[0])), np.empty((n, path.n, sizes[1])), np.empty((n, sizes[2]))
-
-
-def _figures(path: CompositePath | SpatialPath) -> Callable[..., dict[str, Any]]:
-    return spatial_figures_of if isinstance(path, SpatialPath) else figures_of
+        return figures_by(self.path)(ends, whole, subpaths, dt)
 
 
 def _chunks(scenarios: Sequence[Scenario], largest: int, courses: Courses) -> list[_Chunk]:
@@ -215,14 +198,14 @@ def _at_sea(
             name: np.array([value]) for name, value in judged(closed_loop.fly(scenario), scenario).items()
         }
     whole, subpaths, end, _ = _flown(scenario, path, course, flight, 0)
-    return _figures(path)(end[None], whole[None], subpaths[None], np.array([scenario.dt]))
+    return figures_by(path)(end[None], whole[None], subpaths[None], np.array([scenario.dt]))
 
 
 def _flown(
     scenario: Scenario, path: CompositePath | SpatialPath, course: Course, flight: FlightConfig, every: int
 ) -> tuple[Any, Any, Any, Any]:
     """Fly one scenario; return its tallies, those of its subpaths, its end, and every `every`-th row."""
-    (whole,), (subpaths,), (end,) = _tallies(1, path)
+    (whole,), (subpaths,), (end,) = tallies_of(1, path)
     row, water = start_row(scenario, path), current_row(scenario)
     columns = track_row.SPATIAL_TRACK_COLUMNS if scenario.vehicle.dives else track_row.TRACK_COLUMNS
     kind = SimulatedDiver.kind if scenario.vehicle.dives else SimulatedVehicle.kind

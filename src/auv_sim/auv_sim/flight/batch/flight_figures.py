@@ -11,16 +11,6 @@ import numpy as np
 import numpy.typing as npt
 
 from auv_sim.flight.batch import tally
-from auv_sim.flight.batch.kinds.spatial_tally import (
-    DEPTH_LARGEST,
-    DEPTH_SQUARES,
-    LAST_Z,
-    PLANES_TRAVEL,
-    SINE_OF_PITCH,
-    STEADY_LARGEST,
-    STEADY_ROWS,
-    STEADY_SQUARES,
-)
 
 Column = npt.NDArray[np.float64]
 
@@ -204,14 +194,14 @@ def figures_of(ends: Column, whole: Column, subpaths: Column, dt: Column) -> dic
             "steps": ends[:, tally.ODOMETRIES].astype(np.int64),
             "duration": (ends[:, tally.ODOMETRIES] - 1.0) * dt,
             "progress": ends[:, tally.S],
-            "rms_distance": _root(subpaths[:, :, tally.SQUARES].sum(axis=1), counted),
+            "rms_distance": root_mean(subpaths[:, :, tally.SQUARES].sum(axis=1), counted),
             "largest_distance": _known(subpaths[:, :, tally.LARGEST].max(axis=1)),
-            "late_rms_distance": _root(whole[:, tally.LATE_SQUARES], whole[:, tally.LATE_ROWS]),
+            "late_rms_distance": root_mean(whole[:, tally.LATE_SQUARES], whole[:, tally.LATE_ROWS]),
             "late_largest_distance": _known(whole[:, tally.LATE_LARGEST]),
             **_of_straights(whole),
             "time_to_path": whole[:, tally.TIME_TO_PATH],
             "rms_heading_error": np.degrees(
-                _root(subpaths[:, :, tally.HEADING_SQUARES].sum(axis=1), counted)
+                root_mean(subpaths[:, :, tally.HEADING_SQUARES].sum(axis=1), counted)
             ),
             "distance_covered": covered,
             "rudder_travel": travel,
@@ -229,7 +219,7 @@ def figures_of(ends: Column, whole: Column, subpaths: Column, dt: Column) -> dic
 def _of_straights(whole: Column) -> dict[str, Any]:
     """Return the figures away from corners."""
     return {
-        "off_corners_rms_distance": _root(whole[:, tally.FREE_SQUARES], whole[:, tally.FREE_ROWS]),
+        "off_corners_rms_distance": root_mean(whole[:, tally.FREE_SQUARES], whole[:, tally.FREE_ROWS]),
         "off_corners_largest_distance": _known(whole[:, tally.FREE_LARGEST]),
     }
 
@@ -238,34 +228,15 @@ def _of_steering(whole: Column) -> dict[str, Any]:
     """Return the figures of commands and of the late yaw rate."""
     commands = whole[:, tally.COMMANDS]
     return {
-        "rms_rudder_rate": np.degrees(_root(whole[:, tally.RATE_SQUARES], commands)),
+        "rms_rudder_rate": np.degrees(root_mean(whole[:, tally.RATE_SQUARES], commands)),
         "largest_rudder_rate": np.degrees(whole[:, tally.RATE_LARGEST]),
-        "late_rms_yaw_rate": np.degrees(_root(whole[:, tally.YAW_SQUARES], whole[:, tally.CALM_ROWS])),
+        "late_rms_yaw_rate": np.degrees(root_mean(whole[:, tally.YAW_SQUARES], whole[:, tally.CALM_ROWS])),
         "saturated": np.where(commands > 0.0, whole[:, tally.SATURATED] / commands, np.nan),
     }
 
 
-def spatial_figures_of(ends: Column, whole: Column, subpaths: Column, dt: Column) -> dict[str, Any]:
-    """Return the same for flights in three dimensions, by the names of `SpatialFlights`."""
-    rows = subpaths[:, :, tally.ROWS]
-    counted, travel = rows.sum(axis=1), np.degrees(subpaths[:, :, PLANES_TRAVEL].sum(axis=1))
-    covered, steady = subpaths[:, :, tally.COVERED].sum(axis=1), whole[:, STEADY_ROWS]
-    sine = np.minimum(subpaths[:, :, SINE_OF_PITCH].max(axis=1), 1.0)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return figures_of(ends, whole, subpaths, dt) | {
-            "rms_depth_error": _root(subpaths[:, :, DEPTH_SQUARES].sum(axis=1), counted),
-            "largest_depth_error": np.where(counted > 0, subpaths[:, :, DEPTH_LARGEST].max(axis=1), np.nan),
-            "steady_rms_depth_error": _root(whole[:, STEADY_SQUARES], steady),
-            "steady_largest_depth_error": np.where(steady > 0, whole[:, STEADY_LARGEST], np.nan),
-            "largest_pitch": np.where(counted > 0, np.degrees(np.arcsin(sine)), np.nan),
-            "sternplane_travel": travel,
-            "sternplane_travel_per_metre": np.where(covered > 0.0, travel / covered, np.nan),
-            "last_z": ends[:, LAST_Z],
-            "subpath_rms_depth_error": np.sqrt(subpaths[:, :, DEPTH_SQUARES] / rows),
-        }
-
-
-def _root(squares: Column, count: Column) -> Column:
+def root_mean(squares: Column, count: Column) -> Column:
+    """Return the root of the mean square; NaN where nothing was counted."""
     return np.asarray(np.where(count > 0, np.sqrt(squares / count), np.nan))
 
 
