@@ -17,6 +17,7 @@ from auv_sim.launch.fleet.fleet_progress import FleetProgress
 from auv_sim.launch.fleet.fleet_stand_by import FleetStandBy
 from auv_sim.launch.mission_plan import Plan
 from auv_sim.launch.operation import console_child
+from auv_sim.launch.operation.mission_stages import DISCOVERY_BOUND, STALL_BOUND
 from auv_sim.launch.outcome import MissionFailed, Outcome
 from auv_sim.launch.processes import discovery
 from auv_sim.launch.processes.placement import Processor
@@ -155,7 +156,7 @@ class _FleetFlight:
 
     def _all_listening(self) -> bool:
         """Wait until every node subscribes to its topics; False when interrupted."""
-        deadline = time.monotonic() + launcher.DISCOVERY_BOUND
+        deadline = time.monotonic() + DISCOVERY_BOUND
         while not self._interrupt.requested:
             for look in self._looks:
                 look.check()
@@ -168,7 +169,7 @@ class _FleetFlight:
                 return True
             self._progress.waiting_for(", ".join(missing))
             if time.monotonic() > deadline:
-                raise MissionFailed(f"no sign of {', '.join(missing)} within {launcher.DISCOVERY_BOUND:g} s")
+                raise MissionFailed(f"no sign of {', '.join(missing)} within {DISCOVERY_BOUND:g} s")
             self._spin(0.05)
         return False
 
@@ -184,8 +185,8 @@ class _FleetFlight:
                     continue
                 if monitor.stamp != stamps[label]:
                     moved_at[label], stamps[label] = now, monitor.stamp
-                elif now - moved_at[label] > launcher.STALL_BOUND:
-                    raise MissionFailed(f"{label}: time stood still for {launcher.STALL_BOUND:g} s")
+                elif now - moved_at[label] > STALL_BOUND:
+                    raise MissionFailed(f"{label}: time stood still for {STALL_BOUND:g} s")
                 if self._interrupt.requested:
                     monitor.abort()
                 if state := self._ended(label, monitor):

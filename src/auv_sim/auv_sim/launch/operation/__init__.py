@@ -1,1 +1,1 @@
-"""Operation under the launcher: it waits for an operator and logs each mission that was flown."""
+"""Operation under the launcher: a mission's stages, waiting for an operator, a log of what was flown."""
