@@ -10,15 +10,13 @@ from typing import Any
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.claim import Claim
 from auv_msgs_py.settings import params_file, result_files, yaml_file
-from auv_msgs_py.settings.schema import Pair
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_msgs_py.values.types import NO_SPATIAL_CURRENT, SpatialCurrent
 from auv_path_following import config_files, vehicle
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_path_following.guidance.spatial.flown_path import flown_path
 from auv_path_following.guidance.spatial.spatial_follower import mode_of
-from auv_path_following.mission_check.flyable import Findings, check, refusal, require_planes
+from auv_path_following.mission_check.flyable import Findings, refusal
 from auv_path_following.missions import mission_file
 from auv_path_following.missions.mission_file import Mission
 from auv_path_following.missions.orders.start_place import path_parameter_of
@@ -26,6 +24,7 @@ from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.scenario import Scenario
 from auv_sim.launch import node_settings
 from auv_sim.launch.options import BY_RULE, DEFAULT_PARAMS, DRIVERS, Options
+from auv_sim.launch.plan_checks import check_altimeter, check_flight, check_simulated
 from auv_sim.launch.vehicle_driver import configure_driver
 from auv_sim.vehicle import sea
 
@@ -165,14 +164,14 @@ def make(options: Options, directory: Path) -> Plan:
     params = node_settings.params_of(options, model)
     by_rule = params == BY_RULE
     sources["params"] = config_files.find("params", DEFAULT_PARAMS if by_rule else params).absolute()
-    _check_simulated(options, hull, sources["vehicle"])
+    check_simulated(options, hull, sources["vehicle"])
     notices: list[str] = []
     settings = node_settings.load(options, sources["params"], model, by_rule, notices)
     begin = _set_beginning(settings, options, mission, model, sources)
     node_settings.set_mission(settings, options, mission, sources, directory, hull, begin)
     mean = node_settings.set_options(settings, options, sources)
-    _check_altimeter(options, mission, settings)
-    verdicts = _check(options, mission, hull, settings, mean)
+    check_altimeter(options, mission, settings)
+    verdicts = check_flight(options, mission, hull, settings, mean)
     verdicts = dataclasses.replace(verdicts, notices=(*verdicts.notices, *notices))
     if verdicts.refusals and not options.force:
         raise refusal(mission, verdicts, "--force flies it all the same")
@@ -236,37 +235,3 @@ def _set_beginning(
         return path_parameter_of(settings[topics.GUIDANCE].start_at, path)
     except ConfigurationError as error:
         raise ConfigurationError(where, error.found, error.expected) from None
-
-
-def _check_simulated(options: Options, hull: Vehicle, file: Path) -> None:
-    """Refuse what the simulator cannot do with a vehicle: no hull, a depth or an upwelling in the plane."""
-    if (options.simulator or options.emulator) and hull.hull is None and hull.simulated_as is None:
-        expected = "the hull's coefficients, or --no-sim: the simulator needs them"
-        raise ConfigurationError(f"{file}: hull", "nothing", expected)
-    require_planes(hull, {"--depth": options.depth, "--upwelling": options.upwelling})
-    if options.depth is not None and options.depth > hull.depth.max:
-        expected = f"at most {hull.depth.max:g} m, depth.max of {hull.name}"
-        raise ConfigurationError("--depth", f"{options.depth:g} m", expected)
-
-
-def _check_altimeter(options: Options, mission: Mission, settings: node_settings.NodeSettings) -> None:
-    """Refuse an altitude that the simulated vehicle cannot measure."""
-    if mission.altitude is None or not options.simulator:
-        return
-    plant = settings[topics.PLANT]
-    if not plant.sea or not sea.load(plant.sea).sensors.altimeter.fitted:
-        found = f"{plant.sea or 'no sea'}, without an altimeter"
-        expected = "--sea with a sea whose sensors.altimeter is fitted"
-        raise ConfigurationError(f"{mission.source}: altitude", found, expected)
-
-
-def _check(
-    options: Options, mission: Mission, hull: Vehicle, settings: node_settings.NodeSettings, mean: Pair
-) -> Findings:
-    """Check whether the mission can be flown in the current that is configured (m/s, NED)."""
-    current = NO_SPATIAL_CURRENT
-    if options.simulator or options.emulator:
-        constant = settings[topics.PLANT].current.spatial_value
-        current = SpatialCurrent(constant.Vx + mean[0], constant.Vy + mean[1], constant.Vz)
-    guidance = settings[topics.GUIDANCE].guidance
-    return check(mission, hull, current, guidance.switching, guidance.lookahead)
