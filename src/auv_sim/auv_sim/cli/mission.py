@@ -12,9 +12,6 @@ from auv_path_following import config_files
 from auv_path_following.curves.switching_modes import MODES
 from auv_sim.command_line import (
     Parser,
-    Renamed,
-    add_flown_option,
-    add_mission_option,
     command,
     finite,
     not_negative,
@@ -25,6 +22,7 @@ from auv_sim.command_line import (
 )
 from auv_sim.launch.options import BY_RULE, DEFAULT_MISSION, DEFAULT_VEHICLE, DRIVERS, Options
 from auv_sim.launch.processes.adopted import Loader
+from auv_sim.shared_options import Renamed, add_flown_option, add_mission_option
 
 #: Options that concern a fleet as a whole.
 _OF_FLEET = ("speed", "out", "composed", "any_processor", "domain", "flown", "force", "quiet", "console")

@@ -8,7 +8,8 @@ from pathlib import Path
 
 from auv_path_following import config_files
 from auv_path_following.curves.switching_modes import MODES
-from auv_sim.command_line import Parser, add_mission_option, command, finite, not_default
+from auv_sim.command_line import Parser, command, finite, not_default
+from auv_sim.shared_options import add_mission_option
 
 
 def parser() -> argparse.ArgumentParser:

@@ -8,9 +8,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from auv_path_following import config_files
-from auv_sim.command_line import Parser, add_flown_option, at_least_one, command, positive, whole
+from auv_sim.command_line import Parser, at_least_one, command, positive, whole
 from auv_sim.flight.least_share import LEAST_SHARE_AT_SEA
 from auv_sim.launch.options import DEFAULT_MISSION, DEFAULT_PARAMS, DEFAULT_VEHICLE
+from auv_sim.shared_options import add_flown_option
 
 
 def parser() -> argparse.ArgumentParser:
