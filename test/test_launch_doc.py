@@ -8,6 +8,7 @@ import pytest
 
 from auv_path_following import config_files
 from auv_sim.cli import mission as mission_cli
+from auv_sim.launch.options import checked_options
 from auv_sim.launch.ros_launch import launch_arguments
 from doc_pages import ROOT
 from test_docs import FILES, LINES, Line
@@ -26,9 +27,7 @@ def test_a_launch_file_has_these_arguments(line: Line) -> None:
     table = launch_arguments.of_mission() if file == "mission.launch.py" else launch_arguments.of_vehicle()
     assert set(values) <= {argument.name for argument in table}
     given = {argument.name: values.get(argument.name, argument.default) for argument in table}
-    mission_cli.checked(
-        vars(mission_cli.parser_of_one().parse_args(launch_arguments.command_line(table, given)))
-    )
+    checked_options(vars(mission_cli.parser_of_one().parse_args(launch_arguments.command_line(table, given))))
     for option, kind in FILES.items():
         if option in values:
             assert config_files.find(kind, values[option]).is_file()

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_path_following.curves.switching_modes import MODES
 from auv_sim.command_line import (
@@ -20,12 +19,16 @@ from auv_sim.command_line import (
     ros_namespace,
     whole,
 )
-from auv_sim.launch.options import BY_RULE, DEFAULT_MISSION, DEFAULT_VEHICLE, DRIVERS, Options
+from auv_sim.launch.options import (
+    BY_RULE,
+    DEFAULT_MISSION,
+    DEFAULT_VEHICLE,
+    DRIVERS,
+    checked_options,
+    common_options,
+)
 from auv_sim.launch.processes.adopted import Loader
 from auv_sim.shared_options import Renamed, add_flown_option, add_mission_option
-
-#: Options that concern a fleet as a whole.
-_OF_FLEET = ("speed", "out", "composed", "any_processor", "domain", "flown", "force", "quiet", "console")
 
 
 def parser() -> Parser:
@@ -171,7 +174,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     given = vars(parser().parse_args(argv))
     if (fleet := given.pop("fleet")) is not None:
         return _fly_fleet(fleet, given)
-    options = checked(given)
+    options = checked_options(given)
     with Loader() as loader:
         # While the loader loads for the nodes, this process loads for itself.
         from auv_sim.launch.mission_flight import fly
@@ -185,82 +188,6 @@ def _fly_fleet(fleet: str, given: dict[str, Any]) -> int:
         from auv_sim.launch.fleet.fleet_flight import fly
 
         return fly(fleet, options, loader)
-
-
-def common_options(given: dict[str, Any]) -> Options:
-    """Return the options of a fleet's command line.
-
-    Args:
-        given: name -> value, as `parser_of_one` returns them.
-
-    Raises:
-        ConfigurationError: an option that the fleet's file holds for each vehicle.
-    """
-    for name, value in given.items():
-        if name not in _OF_FLEET and value != getattr(Options, name):
-            option = f"--{name.replace('_', '-')}"
-            raise ConfigurationError(
-                option, "together with --fleet", "it in the fleet's file, where it has it"
-            )
-    _require_console(given["console"])
-    return Options(**given)
-
-
-def checked(given: dict[str, Any]) -> Options:
-    """Return the options that a command line names.
-
-    Args:
-        given: name -> value, as `parser_of_one` returns them.
-
-    Raises:
-        ConfigurationError: two options contradict each other, or an address is none.
-    """
-    for name in ("current", "initial"):
-        given[name] = tuple(given[name]) if given[name] is not None else None
-    options = Options(**given)
-    _require_console(options.console)
-    if options.vehicle_address is not None:
-        if options.vehicle_driver is None:
-            raise ConfigurationError("--vehicle-address", "no --vehicle-driver", "both")
-        from auv_sim.nodes.mavlink.transport.link import parse_address
-
-        parse_address(options.vehicle_address, "--vehicle-address")
-    if options.no_sim and options.vehicle_driver is not None:
-        raise ConfigurationError("--vehicle-driver", "together with --no-sim", "one of them")
-    _check_simulated(options)
-    if options.use_sim_time and (options.simulator or options.emulator):
-        raise ConfigurationError(
-            "--use-sim-time", "without --no-sim", "both (the simulator always has its own clock)"
-        )
-    return options
-
-
-def _require_console(is_asked: bool) -> None:
-    """Refuse a console without its library, before anything starts."""
-    if is_asked:
-        from auv_sim.launch.operation.console_child import require_library
-
-        require_library()
-
-
-def _check_simulated(options: Options) -> None:
-    """Refuse options for the simulator where there is none."""
-    conflicts: dict[str, Any] = {"--sea": options.sea, "--seed": options.seed}
-    if not options.emulator:
-        conflicts |= {
-            "--speed": options.speed, "--initial": options.initial, "--current": options.current,
-            "--depth": options.depth, "--upwelling": options.upwelling,
-        }  # fmt: skip
-    if not options.simulator:
-        reason = (
-            "--no-sim" if options.no_sim
-            else "--vehicle-address" if options.vehicle_address else "--vehicle-driver"
-        )  # fmt: skip
-        for flag, value in conflicts.items():
-            if value is not None:
-                raise ConfigurationError(
-                    flag, f"together with {reason}", "it only without, it is for the simulator"
-                )
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.cli import mission
-from auv_sim.launch.options import Options
+from auv_sim.launch.options import Options, checked_options
 from auv_sim.launch.ros_launch import launch_arguments as arguments
 from auv_sim.launch.ros_launch import supervisor
 
@@ -21,7 +21,7 @@ DEFAULTS = {argument.name: argument.default for argument in MISSION}
 
 def options_of(**values: str) -> Options:
     words = arguments.command_line(MISSION, DEFAULTS | values)
-    return mission.checked(vars(mission.parser_of_one().parse_args(words)))
+    return checked_options(vars(mission.parser_of_one().parse_args(words)))
 
 
 def test_every_option_is_an_argument_and_nothing_else_is() -> None:
@@ -77,7 +77,7 @@ def test_a_vehicle_has_no_argument_that_only_a_simulator_could_obey() -> None:
         given_values |= mode | {"vehicle_address": "udpin:127.0.0.1:9"} if driven else mode
         for name in ("nodes_only", "no_recorder", "fleet", "on_exit"):
             del given_values[name]
-        mission.checked(given_values)
+        checked_options(given_values)
 
 
 def test_a_list_is_quoted_as_in_a_shell() -> None:

@@ -20,6 +20,7 @@ from auv_sim.cli import mission
 from auv_sim.command_line import EXIT_DONE, Parser, command, make_directory, say
 from auv_sim.launch import launcher, mission_flight
 from auv_sim.launch.mission_plan import Plan
+from auv_sim.launch.options import checked_options, common_options
 from auv_sim.launch.outcome import MissionFailed
 from auv_sim.launch.processes import discovery
 from auv_sim.launch.processes.process_group import Children
@@ -53,7 +54,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return _fly_fleet(fleet, given)
     if nodes_only and given["vehicle_driver"] is None:
         given["no_sim"] = True
-    options = mission.checked(given)
+    options = checked_options(given)
     directory = mission_flight.run_directory(options)
     domain = launcher.domain_of_environment() if options.domain is None else options.domain
     options = dataclasses.replace(options, out=directory)
@@ -75,7 +76,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _fly_fleet(fleet: str, given: dict[str, Any]) -> int:
-    options = mission.common_options(given)
+    options = common_options(given)
     from auv_sim.launch.fleet import fleet_flight
 
     directory = fleet_flight.run_directory(fleet, options)
