@@ -21,11 +21,9 @@ from auv_path_following.missions.mission_state import (
     PATH_SPEED,
     Reason,
 )
+from auv_path_following.missions.speed_window import NO_MARKS, Marks, covered, marked
 
 Point = tuple[float, float]
-
-#: Chords per window: summing chords counts a circle as progress but not jitter.
-_CHORDS = 6
 
 
 @numbers
@@ -86,40 +84,6 @@ def _stricter(one: float, other: float) -> float:
     return min(one, other) if one and other else one or other
 
 
-class Marks(NamedTuple):
-    """Positions at the ends of the chords of one window; the newest last.
-
-    Attributes:
-        corners: number so far, at most `_CHORDS` + 1.
-        time: since the first one, s.
-        times, xs, ys: of the corners, s and m.
-    """
-
-    corners: int
-    time: float
-    times: tuple[float, ...]
-    xs: tuple[float, ...]
-    ys: tuple[float, ...]
-
-
-_NONE = (0.0,) * (_CHORDS + 1)
-_NO_MARKS = Marks(0, 0.0, _NONE, _NONE, _NONE)
-
-
-@pure
-def marked(marks: Marks, x: float, y: float, dt: float, window: float) -> tuple[Marks, bool]:
-    """Add a position `dt` s after the last; return the marks, and whether a full window's chord ended."""
-    count, time, times, xs, ys = marks
-    time += dt
-    if count > 0 and time - times[-1] < window / _CHORDS:
-        return Marks(count, time, times, xs, ys), False
-    if dt > window:  # nothing was measured for a whole window
-        count, time = 0, 0.0
-    count = min(count + 1, _CHORDS + 1)
-    corners = Marks(count, time, (*times[1:], time), (*xs[1:], x), (*ys[1:], y))
-    return corners, count > _CHORDS
-
-
 class MissionLimits(NamedTuple):
     """Configuration: the limits, and the corners (north, east), m, of the geofence."""
 
@@ -147,8 +111,8 @@ class LimitsState(NamedTuple):
     has_been_near: bool = False
     most_to_go: float = -math.inf
     has_followed: bool = False
-    places: Marks = _NO_MARKS
-    to_go: Marks = _NO_MARKS
+    places: Marks = NO_MARKS
+    to_go: Marks = NO_MARKS
     has_been_at_depth: bool = False
 
 
@@ -209,7 +173,7 @@ def limits(
     reason = NO_REASON
     x, y, z, off_path, depth_error, altitude, to_go, holds, rests = inputs
     if rests:
-        places, along = _NO_MARKS, _NO_MARKS
+        places, along = NO_MARKS, NO_MARKS
     if c.duration > 0.0 and elapsed > c.duration:
         reason = Reason(DURATION, elapsed, 0.0, c.duration)
     elif c.max_depth > 0.0 and z > c.max_depth:  # a vehicle may sink while it holds
@@ -244,10 +208,7 @@ def _over_ground(c: LimitsConfig, marks: Marks, x: float, y: float, dt: float) -
     if c.ground_speed > 0.0:
         marks, is_full = marked(marks, x, y, dt, c.ground_speed_window)
         if is_full:
-            way = 0.0
-            for k in range(_CHORDS):
-                way += math.hypot(marks.xs[k + 1] - marks.xs[k], marks.ys[k + 1] - marks.ys[k])
-            time = marks.times[-1] - marks.times[0]
+            way, time = covered(marks), marks.times[-1] - marks.times[0]
             if way / time < c.ground_speed:
                 return marks, Reason(GROUND_SPEED, way / time, time, c.ground_speed)
     return marks, NO_REASON

@@ -25,9 +25,9 @@ from auv_path_following.missions.depth_keys import AltitudeSpec
 from auv_path_following.missions.geodesy import Origin
 from auv_path_following.missions.limits import LimitsConfig
 from auv_path_following.missions.mission_spec import ROUTES, MissionSpec, MissionSwitching
-from auv_path_following.missions.route_specs import GeofenceFile
 from auv_path_following.missions.routes import smoothing
 from auv_path_following.missions.routes.route import Route
+from auv_path_following.missions.routes.route_specs import GeofenceFile
 from auv_path_following.missions.site import Point, Site, check_size, within
 from auv_path_following.missions.spatial_mission import ONE_DEPTH, spatial_path
 from auv_path_following.vehicle import Vehicle

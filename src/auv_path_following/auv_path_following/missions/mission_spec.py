@@ -13,7 +13,6 @@ from auv_path_following.curves.spatial.spatial_spline import SpatialSpline
 from auv_path_following.curves.switching_modes import LISTED, SwitchingMode
 from auv_path_following.missions.depth_keys import AltitudeSpec, DepthProfileSpec, LimitsSpec
 from auv_path_following.missions.geodesy import Origin
-from auv_path_following.missions.route_specs import GeofenceFile, SurveySpec, WaypointsSpec
 from auv_path_following.missions.routes.generator_specs import (
     FigureOfEightSpec,
     HelixSpec,
@@ -21,6 +20,7 @@ from auv_path_following.missions.routes.generator_specs import (
     SpiralSpec,
 )
 from auv_path_following.missions.routes.route import Route
+from auv_path_following.missions.routes.route_specs import GeofenceFile, SurveySpec, WaypointsSpec
 from auv_path_following.missions.segment_specs import SegmentSpec
 from auv_path_following.missions.site import Frame, Point, Site, within
 from auv_path_following.missions.spatial_mission import with_depths
