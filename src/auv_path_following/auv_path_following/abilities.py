@@ -1,4 +1,4 @@
-"""Abilities of a vehicle as its owner measures them, and the range of depth that it may use."""
+"""Abilities of a vehicle as its owner measures them, limits of its fins, and the depths that it may use."""
 
 from __future__ import annotations
 
@@ -9,6 +9,31 @@ import pydantic
 from auv_msgs_py.settings.schema import Pair, setting, settings
 from auv_msgs_py.settings.validators import increasing, unfit
 from auv_path_following.thrust_units import Rows, interpolated
+
+
+@settings
+class Rudder:
+    """Limits of the rudder, or of the stern planes, equal to both sides."""
+
+    max_angle_deg: float = setting(doc="largest angle", unit="deg", gt=0.0, lt=90.0)
+    max_rate_deg_s: float = setting(doc="largest rate", unit="deg/s", gt=0.0)
+    dead_time: float = setting(
+        0.0,
+        "time from a command to the start of the fin: of the link and of the servo",
+        unit="s",
+        ge=0.0,
+        le=2.0,
+    )
+
+    @property
+    def max_angle(self) -> float:
+        """Largest angle, rad."""
+        return math.radians(self.max_angle_deg)
+
+    @property
+    def max_rate(self) -> float:
+        """Largest rate, rad/s."""
+        return math.radians(self.max_rate_deg_s)
 
 
 @settings

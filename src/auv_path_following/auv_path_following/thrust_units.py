@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import Literal
 
+from auv_msgs_py.settings.validators import increasing, unfit
+
 ThrustUnit = Literal["N", "percent", "rpm"]
 #: Unit -> its symbol.
 SYMBOLS: dict[ThrustUnit, str] = {"N": "N", "percent": "%", "rpm": "rpm"}
@@ -47,3 +49,28 @@ def thrust_between(rows: Rows, speed: float, is_linear: bool) -> float:
     if is_linear:
         return interpolated(inverse(rows), speed)
     return interpolated(tuple((y * y, x) for x, y in rows), speed * speed)
+
+
+def check_thrust(unit: ThrustUnit, largest: float, table: Rows, has_hull: bool) -> None:
+    """Refuse a unit and a table of thrust that do not fit each other.
+
+    Args:
+        unit: of the vehicle's thrust.
+        largest: `thrust_max`, in this unit.
+        table: rows of the unit and N; empty for none.
+        has_hull: whether the vehicle has coefficients, which need N.
+
+    Raises:
+        PydanticCustomError: they do not.
+    """
+    if unit == "percent" and largest != 100.0:
+        raise unfit(f"percent with thrust_max: {largest:g}", "thrust_max: 100")
+    if unit == "N" and table:
+        raise unfit("thrust_table with thrust_unit: N", "another unit, or no table")
+    if unit != "N" and has_hull and not table:
+        raise unfit(f"{unit} with a hull, whose coefficients need N", f"thrust_table: rows of {unit} and N")
+    increasing(table)
+    increasing(inverse(table))
+    if table and not (table[0][0] > 0.0 and table[0][1] > 0.0 and table[-1][0] == largest):
+        found = f"thrust_table from {table[0][0]:g} to {table[-1][0]:g} {SYMBOLS[unit]}"
+        raise unfit(found, f"rows above 0 up to thrust_max, {largest:g}")

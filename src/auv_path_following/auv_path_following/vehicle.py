@@ -10,16 +10,18 @@ import pydantic
 
 from auv_msgs_py.settings import yaml_file
 from auv_msgs_py.settings.schema import Pair, setting, settings
-from auv_msgs_py.settings.validators import increasing, unfit
+from auv_msgs_py.settings.validators import unfit
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_path_following.abilities import Cruise, DepthRange, Pitching, Turning
+from auv_path_following.abilities import Rudder as Rudder
 from auv_path_following.hull_coefficients import GRAVITY as GRAVITY
 from auv_path_following.hull_coefficients import Hull as Hull
 from auv_path_following.thrust_units import (
     SYMBOLS,
     Rows,
     ThrustUnit,
+    check_thrust,
     interpolated,
     inverse,
     speed_between,
@@ -29,31 +31,6 @@ from auv_path_following.vertical_hull import check_planes, floating_depth
 
 #: Hulls that the simulator has as programs, without coefficients, as a vehicle file names them.
 BuiltInHull = Literal["mss_remus100"]
-
-
-@settings
-class Rudder:
-    """Limits of the rudder, or of the stern planes, equal to both sides."""
-
-    max_angle_deg: float = setting(doc="largest angle", unit="deg", gt=0.0, lt=90.0)
-    max_rate_deg_s: float = setting(doc="largest rate", unit="deg/s", gt=0.0)
-    dead_time: float = setting(
-        0.0,
-        "time from a command to the start of the fin: of the link and of the servo",
-        unit="s",
-        ge=0.0,
-        le=2.0,
-    )
-
-    @property
-    def max_angle(self) -> float:
-        """Largest angle, rad."""
-        return math.radians(self.max_angle_deg)
-
-    @property
-    def max_rate(self) -> float:
-        """Largest rate, rad/s."""
-        return math.radians(self.max_rate_deg_s)
 
 
 @settings
@@ -122,20 +99,7 @@ class Vehicle:
 
     @pydantic.model_validator(mode="after")
     def _thrust_has_newtons_where_they_are_needed(self) -> Vehicle:
-        unit, table = self.thrust_unit, self.thrust_table
-        if unit == "percent" and self.thrust_max != 100.0:
-            raise unfit(f"percent with thrust_max: {self.thrust_max:g}", "thrust_max: 100")
-        if unit == "N" and table:
-            raise unfit("thrust_table with thrust_unit: N", "another unit, or no table")
-        if unit != "N" and self.hull is not None and not table:
-            raise unfit(
-                f"{unit} with a hull, whose coefficients need N", f"thrust_table: rows of {unit} and N"
-            )
-        increasing(table)
-        increasing(inverse(table))
-        if table and not (table[0][0] > 0.0 and table[0][1] > 0.0 and table[-1][0] == self.thrust_max):
-            found = f"thrust_table from {table[0][0]:g} to {table[-1][0]:g} {SYMBOLS[unit]}"
-            raise unfit(found, f"rows above 0 up to thrust_max, {self.thrust_max:g}")
+        check_thrust(self.thrust_unit, self.thrust_max, self.thrust_table, has_hull=self.hull is not None)
         return self
 
     @property
