@@ -24,7 +24,9 @@ from auv_sim.flight import closed_loop
 from auv_sim.flight.scenario import Scenario
 from auv_sim.sim_parameters import SUITE
 from auv_sim.vehicle.diving.simulated_diver import SimulatedDiver
-from auv_sim.vehicle.hulls.mss_remus100 import IY, MASS, ZG, mss_remus100, propeller_loads
+from auv_sim.vehicle.hulls.mss_particulars import IY, MASS, ZG
+from auv_sim.vehicle.hulls.mss_propeller import propeller_loads
+from auv_sim.vehicle.hulls.mss_remus100 import mss_remus100
 from auv_sim.vehicle.hulls.rigid_body import BodyState, body_at, to_body
 from hulls import DIVER
 from peer_course import CORNERS, PEER, course_start, distances, drift, rms

@@ -10,12 +10,11 @@ import pytest
 
 from auv_path_following import vehicle
 from auv_path_following.vehicle import BuiltInHull
+from auv_sim.vehicle.hulls.mss_propeller import propeller_loads, revolutions_for
 from auv_sim.vehicle.hulls.mss_remus100 import (
     mss_accelerations,
     mss_remus100,
     mss_remus100_step,
-    propeller_loads,
-    revolutions_for,
 )
 from auv_sim.vehicle.hulls.rigid_body import BodyState, angles_of, body_at
 from auv_sim.vehicle.hulls.spatial_plant import BUILT_IN

@@ -8,16 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from auv_sim.vehicle.hulls.mss_remus100 import (
-    cross_flow,
     mss_accelerations,
     mss_remus100,
     mss_remus100_step,
-    propeller_loads,
-    revolutions_for,
 )
 from auv_sim.vehicle.hulls.rigid_body import BodyState, angles_of, body_at, quaternion_of, to_world
 
@@ -41,16 +36,6 @@ def test_the_derivatives_are_those_of_the_published_model(case: dict) -> None:
     expected = np.array(case["derivative"])
     assert np.abs(found - expected[:6]).max() < 1e-7
     assert np.abs(np.array(to_world(*body[3:7], u, v, w)) - expected[6:9]).max() < 1e-7
-
-
-@given(st.floats(0.0, 20.0), st.floats(0.0, 2.5))
-def test_revolutions_give_the_thrust_that_is_asked_for(thrust: float, speed: float) -> None:
-    assert propeller_loads(revolutions_for(thrust, speed), speed)[0] == pytest.approx(thrust, abs=1e-9)
-
-
-def test_cross_flow_opposes_the_motion() -> None:
-    assert cross_flow(0.5, 0.0, 0.8)[0] < 0.0 < cross_flow(-0.5, 0.0, 0.8)[0]
-    assert cross_flow(0.0, 0.3, 0.8)[1] < 0.0 < cross_flow(0.0, -0.3, 0.8)[1]
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])

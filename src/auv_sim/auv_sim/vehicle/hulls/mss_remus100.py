@@ -13,6 +13,9 @@ import math
 from typing import NamedTuple
 
 from auv_msgs_py.values.pure import pure
+from auv_sim.vehicle.hulls.mss_cross_flow import cross_flow, cylinder_drag
+from auv_sim.vehicle.hulls.mss_particulars import DIAMETER, IX, IY, LENGTH, MASS, RHO, WEIGHT, ZG, A, B
+from auv_sim.vehicle.hulls.mss_propeller import propeller_loads, revolutions_for
 from auv_sim.vehicle.hulls.remus_6dof import BodyInputs
 from auv_sim.vehicle.hulls.rigid_body import (
     Accelerations,
@@ -25,17 +28,6 @@ from auv_sim.vehicle.hulls.rigid_body import (
     to_body,
 )
 
-LENGTH, DIAMETER = 1.6, 0.19  # m
-#: Densities of the water in the published model: for body and strips; for added mass, lift and fins.
-RHO_BODY, RHO = 1025.0, 1026.0
-#: Semi-axes of the spheroid, m; it is a little larger than the hull.
-A, B = 1.0096 * LENGTH / 2.0, 1.0096 * DIAMETER / 2.0
-ZG = 0.02  # m, centre of gravity below the centre of buoyancy
-_SINE = math.sin(math.radians(63.446827)) ** 2
-GRAVITY = 9.7803253359 * (1.0 + 0.00193185265241 * _SINE) / math.sqrt(1.0 - 0.00669437999013 * _SINE)
-MASS = 4.0 / 3.0 * math.pi * RHO_BODY * A * B * B
-WEIGHT = MASS * GRAVITY
-IX, IY = 0.4 * MASS * B * B, 0.2 * MASS * (A * A + B * B)  # kg m^2, about the centre of gravity
 #: Lift and drag of the body.
 _AREA = 0.7 * LENGTH * DIAMETER
 _ASPECT = DIAMETER * DIAMETER / _AREA
@@ -43,24 +35,6 @@ _LIFT = math.pi * _ASPECT / (1.0 + math.sqrt(1.0 + (0.5 * _ASPECT) ** 2))
 _DRAG = 0.42 * math.pi * B * B / _AREA
 #: Fins: area of a pair, m^2, and slopes of their lift.
 _FIN_AREA, _RUDDER_LIFT, _PLANE_LIFT = 2.0 * 0.00665, 0.5, 0.7
-PROPELLER = 0.14  # m, diameter
-#: Strips of the cross-flow drag: their number and their width, m.
-STRIPS, _WIDTH = 21, LENGTH / 20.0
-#: Reduction of the drag for the finite length, below and above the critical Reynolds number (DNV-RP-C205):
-#: linear in length over diameter between 5 and 10.
-_FINITE_SLOW = 0.62 + 0.06 * (LENGTH / DIAMETER - 5.0) / 5.0
-_FINITE_FAST = 0.80 + 0.02 * (LENGTH / DIAMETER - 5.0) / 5.0
-#: Drag of a smooth cylinder over the Reynolds number (thousands), as DNV-RP-C205 has it.
-_REYNOLDS = (
-    10.2110, 15.5435, 24.4349, 35.7199, 60.8808, 86.1747, 118.0864, 149.2623,
-    214.7089, 230.9404, 271.5814, 297.0982, 325.2520, 361.9428, 409.7982, 475.3024,
-    524.7350, 578.9219, 638.2929, 744.0464, 853.2376, 1068.6857, 1393.3814, 1831.8504,
-)  # fmt: skip
-_CYLINDER = (
-    1.20769, 1.20369, 1.20823, 1.21060, 1.21093, 1.20901, 1.21134, 1.21148,
-    1.21171, 1.20109, 1.16918, 1.11163, 1.00926, 0.89411, 0.70855, 0.53155,
-    0.40785, 0.32683, 0.28422, 0.29711, 0.32280, 0.38909, 0.47033, 0.53878,
-)  # fmt: skip
 
 
 class MssRemus100(NamedTuple):
@@ -94,68 +68,6 @@ def mss_remus100() -> MssRemus100:
         0.3 * 0.4 * mass * B * B,
         turning * 0.2 * mass * (A * A + B * B),
     )
-
-
-@pure
-def cylinder_drag(speed: float) -> float:
-    """Return the drag coefficient of the hull across the flow.
-
-    Args:
-        speed: across the hull, m/s.
-    """
-    reynolds = speed * LENGTH / 1.0e-6
-    finite_length = _FINITE_SLOW if reynolds < 2.0e5 else _FINITE_FAST
-    thousands = 1.0e-3 * reynolds
-    if thousands <= _REYNOLDS[0]:
-        return finite_length * _CYLINDER[0]
-    for k in range(1, len(_REYNOLDS)):
-        if thousands < _REYNOLDS[k]:
-            share = (thousands - _REYNOLDS[k - 1]) / (_REYNOLDS[k] - _REYNOLDS[k - 1])
-            return finite_length * (_CYLINDER[k - 1] + share * (_CYLINDER[k] - _CYLINDER[k - 1]))
-    return finite_length * _CYLINDER[-1]
-
-
-@pure
-def cross_flow(velocity: float, rate: float, coefficient: float) -> tuple[float, float]:
-    """Return force (N) and moment (N m) of the drag across the hull, strip by strip.
-
-    Args:
-        velocity: across the hull, m/s: vr or wr.
-        rate: r or q, rad/s, that adds x times itself (the published model has +x q in heave, too).
-        coefficient: of the drag.
-    """
-    scale = -0.5 * RHO_BODY * DIAMETER * coefficient * _WIDTH
-    force = moment = 0.0
-    for k in range(STRIPS):
-        x = -0.5 * LENGTH + k * _WIDTH
-        flow = velocity + x * rate
-        strip = scale * abs(flow) * flow
-        force += strip
-        moment += x * strip
-    return force, moment
-
-
-@pure
-def propeller_loads(revolutions: float, speed: float) -> tuple[float, float]:
-    """Return thrust (N) and roll moment (N m), as the published model scales them.
-
-    Args:
-        revolutions: 1/s, ahead.
-        speed: over ground, m/s; 0.944 of it arrives at the propeller.
-    """
-    advance = 0.944 * speed / PROPELLER
-    n = abs(revolutions)
-    thrust = RHO * PROPELLER**4 * (0.4566 * n * revolutions + (0.1798 - 0.4566) / 0.6632 * advance * n)
-    moment = RHO * PROPELLER**5 * (0.0700 * n * revolutions + (0.0312 - 0.0700) / 0.6632 * advance * n)
-    return 0.9 * thrust, moment / 10.0
-
-
-@pure
-def revolutions_for(thrust: float, speed: float) -> float:
-    """Return the revolutions, 1/s, that give a thrust (N, at least 0) at a speed over ground (m/s)."""
-    square = 0.9 * RHO * PROPELLER**4 * 0.4566
-    linear = 0.9 * RHO * PROPELLER**3 * (0.1798 - 0.4566) / 0.6632 * 0.944 * speed
-    return (-linear + math.sqrt(linear * linear + 4.0 * square * max(thrust, 0.0))) / (2.0 * square)
 
 
 @pure
