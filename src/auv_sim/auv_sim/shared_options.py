@@ -71,5 +71,5 @@ def add_flown_option(parser: argparse.ArgumentParser, default: float | None) -> 
         type=share,
         default=default,
         metavar="SHARE",
-        help=f"a mission of which a smaller share of the path was flown is incomplete (default: {usual})",
+        help=f"least share of the path for a complete mission (default: {usual})",
     )

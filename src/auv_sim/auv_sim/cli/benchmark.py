@@ -25,10 +25,20 @@ SECTIONS = (
 
 def parser() -> argparse.ArgumentParser:
     """Return the command line's parser."""
-    p = Parser(prog="benchmark.py", description=__doc__, allow_abbrev=False)
-    p.add_argument("--quick", action="store_true", help="a minute, to see that it works, not how fast it is")
+    p = Parser(
+        prog="benchmark.py",
+        description="Measure how fast the suite is on this machine, as ratios within one run.",
+        allow_abbrev=False,
+    )
     p.add_argument(
-        "--only", nargs="+", choices=SECTIONS, metavar="SECTION", help=f"some of {', '.join(SECTIONS)}"
+        "--quick", action="store_true", help="take a minute: shows that everything runs, not how fast"
+    )
+    p.add_argument(
+        "--only",
+        nargs="+",
+        choices=SECTIONS,
+        metavar="SECTION",
+        help=f"measure only these of {', '.join(SECTIONS)}",
     )
     p.add_argument(
         "--against", type=Path, metavar="DIR", help="compare with another checkout of the suite, in turns"

@@ -22,16 +22,18 @@ def parser() -> argparse.ArgumentParser:
     shipped = ", ".join(config_files.shipped("studies"))
     p.add_argument("study", metavar="STUDY", help=f"file, directory of a campaign, or one of: {shipped}")
     p.add_argument("--out", type=Path, metavar="DIR", help="campaign directory (default: campaigns/STUDY)")
-    p.add_argument("--workers", type=at_least_one, metavar="N", help="processes (default: one for each core)")
     p.add_argument(
-        "--chunk", type=at_least_one, metavar="N", help="runs that are handed out and kept together"
+        "--workers", type=at_least_one, metavar="N", help="worker processes (default: one for each core)"
+    )
+    p.add_argument(
+        "--chunk", type=at_least_one, metavar="N", help="runs that one worker flies and stores at once"
     )
     p.add_argument(
         "--dask", nargs="?", const="", metavar="ADDRESS",
-        help="through Dask: a scheduler such as tcp://host:8786; without one a cluster on this machine",
+        help="use Dask: a scheduler such as tcp://host:8786, or without ADDRESS a cluster on this machine",
     )  # fmt: skip
     p.add_argument("--replay-run", type=_number, metavar="K", help="fly run K (from 0) again, and draw it")
-    p.add_argument("--graph", action="store_true", help="with --replay-run: over ROS 2, recorded")
+    p.add_argument("--graph", action="store_true", help="with --replay-run: fly it over ROS 2, and record it")
     p.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
     return p
 

@@ -13,33 +13,31 @@ from auv_sim.views.console.listening import INSTALL, LOOPBACK, PORT
 
 def parser() -> argparse.ArgumentParser:
     """Return the command line's parser."""
-    p = Parser(
-        prog="console.py", description="Watch missions and steer them, in any browser.", allow_abbrev=False
-    )
+    p = Parser(prog="console.py", description="Watch and steer missions in the browser.", allow_abbrev=False)
     p.add_argument(
         "--namespace",
         type=ros_namespace,
         action="append",
         default=[],
-        help="of a vehicle; several times for several ones (default: all that are discovered)",
+        help="namespace of a vehicle; repeat it for several (default: all that are discovered)",
     )
     p.add_argument("--domain", type=ros_domain, help="ROS domain (default: ROS_DOMAIN_ID, or 0)")
     p.add_argument(
         "--port",
         type=whole,
-        help=f"for the browser; 0: a free one (default: {PORT}, or a free one if it is taken)",
+        help=f"port for the browser; 0: any free one (default: {PORT}, or a free one if it is taken)",
     )
     p.add_argument(
         "--address",
         default=LOOPBACK,
-        help="listen there (default %(default)s: this machine only); any other one is open to its network",
+        help="address to listen on (default %(default)s); any other opens the port to its network",
     )
-    p.add_argument("--view-only", action="store_true", help="no browser may command")
+    p.add_argument("--view-only", action="store_true", help="accept no commands from any browser")
     p.add_argument(
         "--missions", type=Path, metavar="DIR", help="folder of further mission files to choose from"
     )
     p.add_argument(
-        "--forget", action="store_true", help="keep neither track nor cookies for a restart of the console"
+        "--forget", action="store_true", help="store neither tracks nor cookies for a restart of the console"
     )
     return p
 

@@ -13,7 +13,7 @@ def parser() -> argparse.ArgumentParser:
     """Return the command line's parser."""
     p = Parser(
         prog="fault_matrix.py",
-        description="Kill nodes and spoil topics in flight; check what is noticed and what is done.",
+        description="Kill nodes and disturb topics in flight, and check how the suite reacts.",
         allow_abbrev=False,
     )
     p.add_argument(
@@ -22,13 +22,19 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--full", action="store_true", help="all rows of the table in docs/safety.md")
     p.add_argument(
         "--hostile", type=positive, metavar="S",
-        help="no rows: fly for S seconds of wall time beside a node that publishes nonsense on every topic",
+        help="instead: fly for S seconds of wall time beside a node that publishes nonsense on every topic",
     )  # fmt: skip
     p.add_argument("--list", action="store_true", help="print the names of all rows")
-    p.add_argument("--speed", type=positive, default=4.0, metavar="N", help="of the simulator (default 4)")
-    p.add_argument("--json", type=target, metavar="FILE", help="write the results there")
-    p.add_argument("--out", type=Path, metavar="DIR", help="keep logs and bag there (default: thrown away)")
-    p.add_argument("--domain", type=ros_domain, help="ROS domain (default: one of its own)")
+    p.add_argument(
+        "--speed",
+        type=positive,
+        default=4.0,
+        metavar="N",
+        help="speed of the simulator, times real time (default 4)",
+    )
+    p.add_argument("--json", type=target, metavar="FILE", help="write the results to FILE")
+    p.add_argument("--out", type=Path, metavar="DIR", help="keep logs and bag there (default: delete them)")
+    p.add_argument("--domain", type=ros_domain, help="ROS domain (default: a free one)")
     return p
 
 

@@ -11,7 +11,11 @@ from auv_sim.command_line import EXIT_DONE, Parser, command
 
 def parser() -> argparse.ArgumentParser:
     """Return the command line's parser."""
-    p = Parser(prog="gallery.py", description=__doc__, allow_abbrev=False)
+    p = Parser(
+        prog="gallery.py",
+        description="Fly, draw and tabulate the five kinds of path over the same waypoints.",
+        allow_abbrev=False,
+    )
     p.add_argument(
         "--page", type=Path, default=Path("docs/missions.md"),
         help="page with the table (default: %(default)s)",

@@ -16,15 +16,17 @@ def parser() -> argparse.ArgumentParser:
         description="Show a running mission in Foxglove; nothing can be sent to the vehicle.",
         allow_abbrev=False,
     )
-    p.add_argument("--namespace", type=ros_namespace, default="/auv", help="of the vehicle (default /auv)")
+    p.add_argument(
+        "--namespace", type=ros_namespace, default="/auv", help="namespace of the vehicle (default /auv)"
+    )
     p.add_argument("--domain", type=ros_domain, help="ROS domain (default: ROS_DOMAIN_ID, or 0)")
-    p.add_argument("--port", type=whole, default=8765, help="for Foxglove (default %(default)s)")
+    p.add_argument("--port", type=whole, default=8765, help="port for Foxglove (default %(default)s)")
     p.add_argument(
         "--address",
         default="127.0.0.1",
-        help="listen there (default %(default)s: this machine only); any other one is open to its network",
+        help="address to listen on (default %(default)s); any other opens the port to its network",
     )
-    p.add_argument("--layout", type=target, metavar="FILE", help="write a layout for Foxglove, and end")
+    p.add_argument("--layout", type=target, metavar="FILE", help="write a layout for Foxglove, and exit")
     return p
 
 

@@ -42,7 +42,7 @@ def parser() -> Parser:
 def parser_of_one() -> Parser:
     """Return the parser without fleets, for `ros2 launch` as well."""
     p = Parser(
-        prog="mission.py", description="Fly a mission over ROS 2, record it, draw it.", allow_abbrev=False
+        prog="mission.py", description="Fly a mission over ROS 2, record it and draw it.", allow_abbrev=False
     )
     _add_files(p)
     _add_simulation(p)
@@ -64,14 +64,14 @@ def _add_files(p: argparse.ArgumentParser) -> None:
     model.add_argument(
         "--controller-model",
         metavar="FILE",
-        help="the nodes' model of the hull, where the simulator has another hull (default: --vehicle's)",
+        help="vehicle file that the nodes use, if the simulated hull differs (default: that of --vehicle)",
     )
     model.add_argument("--believed", dest="controller_model", action=Renamed, help=argparse.SUPPRESS)
     p.add_argument(
         "--params",
         metavar="FILE",
-        help=f"file or one of: {shipped['params']}; or {BY_RULE}: gains by rule for the vehicle"
-        f" (default: what the vehicle's file names, else {BY_RULE})",
+        help=f"gains: file or one of: {shipped['params']}; or {BY_RULE}: computed for the vehicle by rule"
+        f" (default: those that the vehicle's file names, else {BY_RULE})",
     )
 
 
@@ -94,40 +94,40 @@ def _add_simulation(p: argparse.ArgumentParser) -> None:
         "--depth",
         type=not_negative,
         metavar="M",
-        help="start level at this depth, m (default: the path's first depth, along the path)",
+        help="start level at this depth, m (default: at the path's first depth, pitched along the path)",
     )
     p.add_argument(
         "--sea",
         metavar="FILE",
-        help="what is not ideal: noise, fixes, currents, rudder;"
-        f" file or one of: {seas} (default: all is ideal)",
+        help="sensor errors, position fixes, varying current, rudder play:"
+        f" file or one of: {seas} (default: none)",
     )
-    p.add_argument("--seed", type=whole, metavar="N", help="of all that is random in the sea (default 0)")
-    p.add_argument("--switching", choices=MODES, help="joints with a circle of acceptance")
+    p.add_argument("--seed", type=whole, metavar="N", help="seed of the sea (default 0)")
+    p.add_argument("--switching", choices=MODES, help="which joints have a circle of acceptance")
     p.add_argument(
         "--speed",
         type=positive,
         metavar="N",
-        help="free running at N times real time (not the vehicle's speed); default: lockstep",
+        help="run freely at N times real time (default: lockstep, as fast as possible)",
     )
 
 
 def _add_vehicle(p: argparse.ArgumentParser) -> None:
     p.add_argument(
-        "--no-sim", action="store_true", help="all but the simulator: a vehicle speaks the contract's topics"
+        "--no-sim", action="store_true", help="no simulator: a vehicle publishes the contract's topics"
     )
     p.add_argument(
-        "--use-sim-time", action="store_true", help="with --no-sim: follow the /clock of another publisher"
+        "--use-sim-time", action="store_true", help="with --no-sim: use the /clock of another publisher"
     )
     p.add_argument(
         "--vehicle-driver",
         choices=tuple(DRIVERS),
-        help="a vehicle behind this driver, not the simulator (emulated, unless --vehicle-address)",
+        help="fly a vehicle through this driver; an emulated one without --vehicle-address",
     )
     p.add_argument(
         "--vehicle-address",
         metavar="ADDRESS",
-        help="with --vehicle-driver: udpin:HOST:PORT to wait there, udpout:HOST:PORT to talk to it",
+        help="with --vehicle-driver: udpin:HOST:PORT to listen there, udpout:HOST:PORT to send there",
     )
 
 
@@ -135,33 +135,33 @@ def _add_run(p: argparse.ArgumentParser) -> None:
     p.add_argument(
         "--start-at",
         metavar="PLACE",
-        help="begin at this place of the path: 'subpath 3', or '120 m' along it (default: its start)",
+        help="where on the path to begin: 'subpath 3', or '120 m' along it (default: its start)",
     )
     p.add_argument(
         "--wait",
         action="store_true",
-        help="begin when the service start is called, and stay for further missions until Ctrl-C",
+        help="begin when the service start is called; accept further missions until Ctrl-C",
     )
     p.add_argument(
         "--console",
         action="store_true",
-        help="watch and steer in the browser: prints the address, begins at its Start, stays until Ctrl-C",
+        help="as --wait, and watch and steer in the browser: prints the address",
     )
     p.add_argument("--out", type=Path, metavar="DIR", help="run directory (default: runs/MISSION-DATE)")
-    p.add_argument("--display", action="store_true", help="markers, transforms and model for RViz, Foxglove")
-    p.add_argument("--composed", action="store_true", help="all nodes but the display in one process")
+    p.add_argument("--display", action="store_true", help="show the mission in RViz or Foxglove")
+    p.add_argument("--composed", action="store_true", help="run all nodes but the display in one process")
     p.add_argument(
         "--any-processor", action="store_true", help="lockstep: let the system choose where each process runs"
     )
-    p.add_argument("--namespace", type=ros_namespace, default="/auv", help="of all nodes (default /auv)")
+    p.add_argument("--namespace", type=ros_namespace, default="/auv", help="namespace (default /auv)")
     p.add_argument(
-        "--domain", type=ros_domain, help="ROS domain (default: one of its own; with --no-sim ROS_DOMAIN_ID)"
+        "--domain", type=ros_domain, help="ROS domain (default: a free one; with --no-sim ROS_DOMAIN_ID)"
     )
     add_flown_option(p, None)
     p.add_argument(
-        "--force", action="store_true", help="fly what the check of the plan refuses, in flight too"
+        "--force", action="store_true", help="fly what the plan check refuses, even if set in flight"
     )
-    p.add_argument("--quiet", action="store_true", help="print failures only, and the addresses of --console")
+    p.add_argument("--quiet", action="store_true", help="print only failures, and the addresses of --console")
 
 
 @command("mission", interrupted="mission interrupted")

@@ -17,7 +17,7 @@ def parser() -> argparse.ArgumentParser:
     shipped = {kind: ", ".join(config_files.shipped(kind)) for kind in ("missions", "vehicles", "params")}
     p = Parser(
         prog="plan.py",
-        description="Check a mission, draw it, and say whether the vehicle can fly it.",
+        description="Check whether the vehicle can fly a mission, and draw it.",
         epilog="Exit code 0: it can be flown, perhaps with warnings. 2: it is refused, or a file is wrong.",
         allow_abbrev=False,
     )
@@ -26,7 +26,7 @@ def parser() -> argparse.ArgumentParser:
         "--vehicle", default="remus100", metavar="FILE", help=f"file or one of: {shipped['vehicles']}"
     )
     p.add_argument(
-        "--params", metavar="FILE", help=f"for its circles of acceptance: file or one of: {shipped['params']}"
+        "--params", metavar="FILE", help=f"file with circles of acceptance, or one of: {shipped['params']}"
     )
     p.add_argument(
         "--current",
@@ -39,10 +39,12 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument(
         "--upwelling", type=finite, metavar="V", help="current upwards, for a vehicle with stern planes, m/s"
     )
-    p.add_argument("--switching", choices=MODES, help="joints with a circle of acceptance")
-    p.add_argument("--out", type=Path, metavar="PNG", help="the picture (default: plan-MISSION.png here)")
+    p.add_argument("--switching", choices=MODES, help="which joints have a circle of acceptance")
+    p.add_argument(
+        "--out", type=Path, metavar="PNG", help="picture to write (default: plan-MISSION.png here)"
+    )
     p.add_argument("--export", type=Path, metavar="FILE", help="write the path for a chart: .geojson or .kml")
-    p.add_argument("--quiet", action="store_true", help="print nothing but a refusal, draw only with --out")
+    p.add_argument("--quiet", action="store_true", help="print only a refusal; draw only with --out")
     return p
 
 

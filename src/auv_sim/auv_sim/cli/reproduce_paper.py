@@ -28,14 +28,16 @@ def parser() -> argparse.ArgumentParser:
         "--out", type=Path, default=Path("reproduction"), metavar="DIR",
         help="where to write (default: reproduction)",
     )  # fmt: skip
-    p.add_argument("--workers", type=at_least_one, default=2, metavar="N", help="processes (default 2)")
+    p.add_argument(
+        "--workers", type=at_least_one, default=2, metavar="N", help="worker processes (default 2)"
+    )
     p.add_argument(
         "--quick", action="store_true",
-        help="10 instead of 20 odometries a second, a shorter search at the corner",
+        help="use 10 instead of 20 odometries a second, and a shorter search at the corner",
     )  # fmt: skip
     p.add_argument(
         "--time-limit", type=_seconds, default=1500.0, metavar="S",
-        help="end of every flight at the latest; what comes later counts as never reached (default 1500 s)",
+        help="longest flight; a path not reached by then counts as never reached (default 1500 s)",
     )  # fmt: skip
     _add_studies(p)
     return p
@@ -48,14 +50,18 @@ def _add_studies(p: argparse.ArgumentParser) -> None:
         "pictures, those of docs/reproduction.md and docs/tuning.md",
     )  # fmt: skip
     p.add_argument(
-        "--runs", type=at_least_one, default=1000, metavar="N", help="study starts: how many (default 1000)"
+        "--runs",
+        type=at_least_one,
+        default=1000,
+        metavar="N",
+        help="study starts: number of flights (default 1000)",
     )
     p.add_argument("--seed", type=whole, default=1, metavar="N", help="study starts: seed (default 1)")
     p.add_argument(
-        "--laws", nargs="+", choices=tuple(START_LAWS), default=["robust"], help="study starts: which laws"
+        "--laws", nargs="+", choices=tuple(START_LAWS), default=["robust"], help="study starts: laws to fly"
     )
     p.add_argument(
-        "--plants", nargs="+", choices=tuple(PLANTS), default=list(PLANTS), help="study starts: which hulls"
+        "--plants", nargs="+", choices=tuple(PLANTS), default=list(PLANTS), help="study starts: hulls to fly"
     )
 
 

@@ -23,19 +23,27 @@ def parser() -> argparse.ArgumentParser:
     )
     _add_flights(p)
     p.add_argument(
-        "--limit", type=positive, default=2.5, metavar="M", help="largest true distance to the path (2.5 m)"
+        "--limit",
+        type=positive,
+        default=2.5,
+        metavar="M",
+        help="largest true distance to the path that passes (default 2.5)",
     )
     p.add_argument(
         "--depth-limit", type=positive, default=0.5, metavar="M",
-        help="for a vehicle that dives: largest difference of true and requested depth (0.5 m)",
+        help="for a vehicle that dives: largest depth error that passes (default 0.5)",
     )  # fmt: skip
     add_flown_option(p, LEAST_SHARE_AT_SEA)
     p.add_argument(
         "--study", choices=("noise",),
-        help="instead: rudder activity against the level of noise, as a picture and a table",
+        help="instead: tabulate and draw rudder activity over the level of noise",
     )  # fmt: skip
     p.add_argument(
-        "--workers", type=at_least_one, default=os.cpu_count() or 1, metavar="N", help="processes (all)"
+        "--workers",
+        type=at_least_one,
+        default=os.cpu_count() or 1,
+        metavar="N",
+        help="worker processes (default: one for each core)",
     )
     p.add_argument(
         "--out", type=Path, default=Path("sea_trials"), metavar="DIR",
@@ -57,7 +65,7 @@ def _add_flights(p: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     seas = ", ".join(config_files.shipped("seas"))
     p.add_argument("--sea", default="rough", metavar="FILE", help=f"file or one of: {seas} (default: rough)")
-    p.add_argument("--seeds", type=at_least_one, default=50, metavar="N", help="how many (default 50)")
+    p.add_argument("--seeds", type=at_least_one, default=50, metavar="N", help="number of seeds (default 50)")
     p.add_argument("--first", type=whole, default=0, metavar="N", help="the first seed (default 0)")
 
 

@@ -13,7 +13,7 @@ def parser() -> argparse.ArgumentParser:
     """Return the command line's parser."""
     p = Parser(
         prog="soak.py",
-        description="Fly a looped survey for an hour of mission time and watch.",
+        description="Fly a looped survey for an hour of mission time, and watch memory and losses.",
         allow_abbrev=False,
     )
     p.add_argument(
@@ -23,7 +23,7 @@ def parser() -> argparse.ArgumentParser:
         help="vehicle file, or the name of a shipped one; with stern planes the survey has depths"
         " (default %(default)s)",
     )
-    p.add_argument("--minutes", type=positive, default=60.0, help="of mission time at least (default 60)")
+    p.add_argument("--minutes", type=positive, default=60.0, help="least mission time (default 60)")
     p.add_argument(
         "--flat",
         type=positive,

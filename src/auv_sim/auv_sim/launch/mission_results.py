@@ -63,7 +63,7 @@ _FILES = (
     ("summary.json", "the figures above, for programs"),
     ("bag", "every topic, rosbag2 (MCAP): ros2 bag play, Foxglove, rosbags"),
     ("config", "mission, vehicle and parameters as flown"),
-    ("log", "what each node said"),
+    ("log", "the log of each node"),
 )
 
 

@@ -51,12 +51,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "bag", type=Path, nargs="+", metavar="BAG", help="two or more recordings or run directories"
     )
-    parser.add_argument("--mission", metavar="FILE", help="the flown mission, where it is not recorded")
+    parser.add_argument("--mission", metavar="FILE", help="the flown mission, if it is not recorded")
     add_choice(parser)
     parser.add_argument(
-        "--png", type=target, metavar="FILE", default=Path("compare.png"), help="default: compare.png"
+        "--png",
+        type=target,
+        metavar="FILE",
+        default=Path("compare.png"),
+        help="picture to write (default: compare.png)",
     )
-    parser.add_argument("--json", action="store_true", help="for programs")
+    parser.add_argument("--json", action="store_true", help="print JSON, for programs")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -36,8 +36,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "bag", type=Path, nargs="+", metavar="BAG", help="recording, run directory, or a directory of many"
     )
-    parser.add_argument("--json", action="store_true", help="for programs")
-    parser.add_argument("--mission", metavar="FILE", help="the flown mission, where it is not recorded")
+    parser.add_argument("--json", action="store_true", help="print JSON, for programs")
+    parser.add_argument("--mission", metavar="FILE", help="the flown mission, if it is not recorded")
     add_choice(parser)
 
 

@@ -17,10 +17,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The verb's options."""
     parser.add_argument("bag", type=Path, metavar="BAG", help="recording, run directory or storage file")
     parser.add_argument(
-        "--out", type=Path, metavar="DIR", help="write the whole recording there, leave this one"
+        "--out",
+        type=Path,
+        metavar="DIR",
+        help="write the repaired recording to DIR, and leave this one unchanged",
     )
     parser.add_argument(
-        "--compression", choices=("zstd", "none"), default="zstd", help="of the new file (default zstd)"
+        "--compression",
+        choices=("zstd", "none"),
+        default="zstd",
+        help="compression of the new file (default zstd)",
     )
 
 

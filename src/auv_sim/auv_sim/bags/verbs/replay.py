@@ -19,18 +19,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The verb's options."""
     parser.add_argument("bag", type=Path, metavar="BAG", help="recording or run directory")
     parser.add_argument(
-        "--rate", type=positive, default=1.0, metavar="N", help="times the recorded speed (default 1)"
+        "--rate",
+        type=positive,
+        default=1.0,
+        metavar="N",
+        help="play at N times the recorded speed (default 1)",
     )
     parser.add_argument("--start", type=not_negative, default=0.0, metavar="S", help="skip this many seconds")
     parser.add_argument(
         "--duration", type=positive, metavar="S", help="play this many seconds of the recording"
     )
-    parser.add_argument("--loop", action="store_true", help="begin again at the end, until stopped")
+    parser.add_argument("--loop", action="store_true", help="repeat until stopped")
     parser.add_argument("--clock", action="store_true", help="publish the recorded time on /clock")
     parser.add_argument(
-        "--topics", nargs="+", metavar="NAME", help="only these; the last part of a name is enough"
+        "--topics", nargs="+", metavar="NAME", help="play only these; the last part of a name is enough"
     )
-    parser.add_argument("--exclude", nargs="+", default=[], metavar="NAME", help="not these")
+    parser.add_argument("--exclude", nargs="+", default=[], metavar="NAME", help="do not play these")
     parser.add_argument(
         "--remap", nargs="+", default=[], metavar="OLD:=NEW", help="publish under another name"
     )
@@ -41,7 +45,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="S",
         help="time to wait for subscribers first (default 1)",
     )
-    parser.add_argument("--start-paused", action="store_true", help="wait for the space bar")
+    parser.add_argument(
+        "--start-paused", action="store_true", help="start paused, until the space bar is pressed"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:

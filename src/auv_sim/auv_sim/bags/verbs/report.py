@@ -49,9 +49,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The verb's options."""
     parser.add_argument("bag", type=Path, metavar="BAG", help="recording or run directory")
     parser.add_argument(
-        "--out", type=Path, metavar="DIR", help="where to (default: report/ beside the recording)"
+        "--out", type=Path, metavar="DIR", help="directory to write (default: report/ beside the recording)"
     )
-    parser.add_argument("--mission", metavar="FILE", help="the flown mission, where it is not recorded")
+    parser.add_argument("--mission", metavar="FILE", help="the flown mission, if it is not recorded")
     add_choice(parser)
 
 

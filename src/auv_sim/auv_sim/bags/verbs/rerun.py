@@ -55,15 +55,13 @@ _UNITS = {
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The verb's options."""
     parser.add_argument("bag", type=Path, metavar="BAG", help="recording or run directory")
-    parser.add_argument(
-        "--params", metavar="FILE", help="parameters to try; what the file leaves out stays as flown"
-    )
-    parser.add_argument("--mission", metavar="FILE", help="another mission than the recorded one")
-    parser.add_argument("--vehicle", metavar="FILE", help="another hull than the recorded one of the nodes")
+    parser.add_argument("--params", metavar="FILE", help="parameters to try; all others stay as flown")
+    parser.add_argument("--mission", metavar="FILE", help="mission to use in place of the recorded one")
+    parser.add_argument("--vehicle", metavar="FILE", help="vehicle file to use in place of the recorded one")
     add_choice(parser)
     parser.add_argument("--png", type=target, metavar="FILE", help="draw recorded and new commands")
     parser.add_argument("--csv", type=target, metavar="FILE", help="write recorded and new commands")
-    parser.add_argument("--json", action="store_true", help="for programs")
+    parser.add_argument("--json", action="store_true", help="print JSON, for programs")
 
 
 def run(arguments: argparse.Namespace) -> int:

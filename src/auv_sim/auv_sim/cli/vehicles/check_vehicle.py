@@ -22,28 +22,32 @@ def parser() -> argparse.ArgumentParser:
     )
     p.add_argument(
         "--namespace", type=ros_namespace,
-        help="of the vehicle's topics (default: that of `-r __ns:=`, else /auv); / is the root",
+        help="namespace of the vehicle's topics (default: that of `-r __ns:=`, else /auv); / is the root",
     )  # fmt: skip
     p.add_argument(
         "--duration", type=positive, default=10.0, metavar="S", help="time to listen (default 10 s)"
     )
     p.add_argument(
         "--vehicle", default="remus100", metavar="FILE",
-        help="what the vehicle is: file or shipped name (default remus100)",
+        help="vehicle file or name of a shipped one (default remus100)",
     )  # fmt: skip
     p.add_argument(
         "--wiggle", action="store_true",
-        help="move: a small test of rudder and thrust, 20 s within 40 m; with stern planes in the file 27 s,"
-        " and within 4 m of the depth; asks first",
+        help="ask, then move the vehicle: rudder and thrust for 20 s within 40 m; with stern planes 27 s,"
+        " and within 4 m of the depth",
     )  # fmt: skip
-    p.add_argument(_CONSENT, action="store_true", dest="consent", help="the answer to that question")
+    p.add_argument(_CONSENT, action="store_true", dest="consent", help="with --wiggle: move without asking")
     p.add_argument(
-        "--wait", type=positive, default=15.0, metavar="S", help="for the first message (default 15 s)"
+        "--wait",
+        type=positive,
+        default=15.0,
+        metavar="S",
+        help="time to wait for the first message (default 15 s)",
     )
     p.add_argument("--json", action="store_true", help="print JSON in place of the table")
     p.add_argument(
         "--self-test", action="store_true",
-        help="check the check: simulated vehicles with one mistake each, over ROS 2, nothing else moves",
+        help="test this command on simulated vehicles with one mistake each; no real vehicle moves",
     )  # fmt: skip
     return p
 
