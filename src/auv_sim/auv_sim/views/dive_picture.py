@@ -99,7 +99,7 @@ def _in_space(figure: Figure, flown: SpatialRun, spatial: SpatialPath | None, aw
     plane = "distance" if spatial is not None else "horizontal distance"
     bar.set_label(f"{plane} to the path (m), largest {np.nanmax(away):.2f}", color=INK)
     if stretch > 1.0:
-        note = f"depths are drawn {stretch:g} times as large"
+        note = f"depths drawn {stretch:g} times as large"
         figure.text(0.27, 0.875, note, fontsize=10, color=MUTED, va="center")
     axes.legend(loc="upper left", bbox_to_anchor=(0.08, 1.04), ncols=2, frameon=False)
 
@@ -120,8 +120,8 @@ def _scale(axes: Axes3D, points: Any) -> float:
     axes.set_box_aspect((size[0], size[1], stretch * (deepest - highest)), zoom=0.9)
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
         axis.set_major_locator(MaxNLocator(5))
-    axes.set_xlabel("east (m)", color=INK)
-    axes.set_ylabel("north (m)", color=INK)
+    axes.set_xlabel("east (m)", color=INK, labelpad=12.0)
+    axes.set_ylabel("north (m)", color=INK, labelpad=12.0)
     axes.set_zlabel("depth (m)", color=INK)
     corners = np.array([[-1, -1], [-1, 1], [1, 1], [1, -1], [-1, -1]]) * 0.5 * size[:2] + middle[:2]
     axes.plot(

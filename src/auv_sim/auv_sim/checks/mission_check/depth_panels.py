@@ -77,8 +77,8 @@ def _slope(axes: Axes, survey: DepthSurvey, bounds: DepthBounds | None) -> None:
         for sign in (1.0, -1.0):
             axes.axhline(sign * limit, color=RED, linewidth=1.4, linestyle="--")
         text = f"steepest slope {limit:.1f} deg (largest pitch {math.degrees(bounds.steepest):.1f} deg)"
-        axes.text(0.995, limit, text, color=RED, ha="right", va="bottom", **place)
+        axes.text(0.995, 1.04 * limit, text, color=RED, ha="right", va="bottom", **place)
     axes.axhline(0.0, color=MUTED, linewidth=0.8)
-    axes.set_ylim(-1.35 * max(largest, 1.0), 1.35 * max(largest, 1.0))
+    axes.set_ylim(-1.4 * max(largest, 1.0), 1.4 * max(largest, 1.0))
     axes.text(0.005, 0.96, "up", color=MUTED, va="top", fontsize=9, transform=axes.transAxes)
     axes.text(0.005, 0.04, "down", color=MUTED, va="bottom", fontsize=9, transform=axes.transAxes)

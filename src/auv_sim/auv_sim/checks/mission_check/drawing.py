@@ -24,6 +24,8 @@ _MEANING = {"G0": "corner", "G1": "curvature jumps", "G2": "smooth"}
 #: More joints or waypoints than this are drawn small and without numbers.
 _FEW = 60
 _ERROR = 0.05
+#: Distance of a text from its line, as a share of the largest curvature.
+_TEXT_GAP = 0.03
 
 
 def draw(
@@ -172,9 +174,10 @@ def _curvature(axes: Axes, mission: Mission, findings: Findings, vehicle_name: s
     turn = f"radius {findings.turn.radius:.2f} m, {findings.turn.source}"
     look_of: dict[str, Any] = {"transform": axes.get_yaxis_transform(), "parse_math": False}
     text = f"tightest turn of {vehicle_name}: {turn}"
-    axes.text(0.995, limit, text, color=RED, fontsize=10, ha="right", va="bottom", **look_of)
-    axes.text(0.005, -limit, "to port", color=MUTED, fontsize=9, va="bottom", **look_of)
-    axes.text(0.005, limit, "to starboard", color=MUTED, fontsize=9, va="top", **look_of)
     largest = max(limit, float(np.abs(np.concatenate(kappa)).max()))
+    gap = _TEXT_GAP * largest
+    axes.text(0.995, limit + gap, text, color=RED, fontsize=10, ha="right", va="bottom", **look_of)
+    axes.text(0.005, gap - limit, "to port", color=MUTED, fontsize=9, va="bottom", **look_of)
+    axes.text(0.005, limit - gap, "to starboard", color=MUTED, fontsize=9, va="top", **look_of)
     axes.set_ylim(-1.25 * largest, 1.25 * largest)
     axes.set_xlim(0.0, done)
