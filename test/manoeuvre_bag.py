@@ -60,7 +60,7 @@ def _odometry(flown: Manoeuvred, k: int, at: int, ned: bool) -> Any:
 
 def write_manoeuvres(
     directory: Path, flown: Manoeuvred, names: Mapping[str, str] = NAMES, ned: bool = False,
-    repeated: bool = True, late: float = 0.0,
+    repeated: bool = True, late: float = 0.0, set_back: float = 0.0,
 ) -> Path:  # fmt: skip
     """Write a recording; return its directory.
 
@@ -71,6 +71,7 @@ def write_manoeuvres(
         ned: frames NED and FRD in place of ENU and FLU.
         repeated: whether every odometry comes with the last velocity through the water; else new ones alone.
         late: time by which every command is logged later, s.
+        set_back: time by which the clock of the stamps is set back in the middle, s.
     """
     side, body = (1.0, "base_link_frd") if ned else (-1.0, "base_link")
     last = np.searchsorted(flown.water_t, flown.t + 1e-6) - 1
@@ -84,11 +85,12 @@ def write_manoeuvres(
 
         for k in range(flown.t.size):
             at, row = round(float(flown.t[k]) * 1e9), last[k]
-            put("odom", at, _odometry(flown, k, at, ned))
+            stamp = at - round(set_back * 1e9) * (2 * k > flown.t.size)
+            put("odom", at, _odometry(flown, k, stamp, ned))
             if row >= 0 and (repeated or abs(flown.water_t[row] - flown.t[k]) < 1e-6):
                 twist = _twist(float(flown.water_u[row]), side * float(flown.water_v[row]), 0.0)
                 stamped = "geometry_msgs/msg/TwistWithCovarianceStamped"
-                put("velocity_through_water", at, _made(stamped, _header(at, body), twist))
+                put("velocity_through_water", at, _made(stamped, _header(stamp, body), twist))
             for name, column in (("rudder_cmd", flown.rudder), ("thrust_cmd", flown.thrust)):
                 put(name, at + 1_000_000 + round(late * 1e9), _made("std_msgs/msg/Float64", float(column[k])))
     return directory

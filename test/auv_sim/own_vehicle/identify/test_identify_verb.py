@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_path_following import vehicle as vehicle_file
 from auv_sim.bags.content.recorded_manoeuvres import manoeuvres_in
@@ -118,6 +119,15 @@ def test_commands_after_the_odometry_are_missing(
     bag = write_manoeuvres(tmp_path / "bag", _first(flown, 200), late=1000.0)
     line = _refused(["identify", str(bag), "--out", str(tmp_path / "x.yaml")], capsys)
     assert "no rudder_cmd" in line and "while the odometry runs" in line
+
+
+def test_a_clock_that_is_set_back_is_refused(flown: Manoeuvred, tmp_path: Path) -> None:
+    short = _first(flown, 400)
+    with pytest.raises(
+        ConfigurationError, match=r"odom: found stamps that go back by [45]\.\d s, 10 s after"
+    ):
+        manoeuvres_in(write_manoeuvres(tmp_path / "bag", short, set_back=5.0))
+    manoeuvres_in(write_manoeuvres(tmp_path / "jitter", short, set_back=0.12))
 
 
 @pytest.fixture(scope="module")

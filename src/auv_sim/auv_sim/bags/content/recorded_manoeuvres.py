@@ -30,6 +30,9 @@ _COMMANDS = (topics.RUDDER_CMD, topics.THRUST_CMD, topics.STERNPLANE_CMD)
 #: Types of commands beside the contract's: one number named `data`.
 _NUMBERS = ("std_msgs/msg/Float64", "std_msgs/msg/Float32")
 
+#: Stamps that go back by more, in the order of the log, come from a clock that was set, s.
+_SET_BACK = 1.0
+
 
 class TimedCommands(NamedTuple):
     """TimedCommands of one kind: times of the odometry's clock (s), and values (rad, N or per cent)."""
@@ -84,6 +87,7 @@ def manoeuvres_in(
         motion[planes.name] = dataclasses.replace(planes, type=topics.STERNPLANE_CMD.type)
     run = run_of(dataclasses.replace(bag, topics=motion), namespace)
     odom = _columns(bag, found[topics.ODOM], topics.ODOM)
+    _check_clock(path, odom)
     water_t, water = _water(bag, found[topics.WATER_VELOCITY])
     rudder, thrust, sternplanes = (_commands(bag, found[topic], odom) for topic in _COMMANDS)
     if rudder is None or thrust is None:
@@ -147,6 +151,15 @@ def _columns(bag: Bag, topic: RecordedTopic | None, row: Topic) -> _Decoded:
             f"{bag.path}: {topic.name}", f"a damaged message ({reason})", row.type
         ) from None
     return _Decoded(np.array(topic.log_ns, np.int64)[kept], columns)
+
+
+def _check_clock(path: Path, odom: _Decoded) -> None:
+    """Refuse a clock that was set back: neither order of the messages is that of the motion."""
+    back = (np.maximum.accumulate(odom.columns.stamp_ns) - odom.columns.stamp_ns) * 1e-9
+    if back.size and back.max() > _SET_BACK:
+        at = (odom.log_ns[int(np.argmax(back > _SET_BACK))] - odom.log_ns[0]) * 1e-9
+        found = f"stamps that go back by {back.max():.1f} s, {at:.0f} s after the begin"
+        raise ConfigurationError(f"{path}: {topics.ODOM.name}", found, "one clock: cut the recording there")
 
 
 def _convention(bag: Bag, topic: Topic, frames: tuple[tuple[str, ...], ...]) -> Convention:

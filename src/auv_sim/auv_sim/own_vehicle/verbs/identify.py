@@ -44,6 +44,7 @@ from auv_sim.own_vehicle.identify.results.known_vehicle import (
     in_plane,
     known_hull,
 )
+from auv_sim.own_vehicle.identify.results.plausibility import check_fit, check_yaw_rate, doubts
 from auv_sim.own_vehicle.identify.time_grid import PlanarData, shared_time
 from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, LATENCY, RATE, DataSheet, typed
 from auv_sim.own_vehicle.identify.water_current import mean_current
@@ -128,6 +129,7 @@ def run(arguments: argparse.Namespace) -> int:
     recordings = [one.plane for one in recorded]
     where = ", ".join(map(str, arguments.bag))
     check_excitation(recordings, where)
+    check_yaw_rate(recordings, where)
     used, left_out = divided(recordings, arguments.left_out)
     if left_out is not None:
         check_excitation(used, where if arguments.left_out is None else "--left-out")
@@ -138,6 +140,9 @@ def run(arguments: argparse.Namespace) -> int:
     with progress_bar(terminal()) as bar:
         found = identify(used, hull, sheet, band, _reporter(bar))
     check_sign(found, where)
+    check_fit(found, where)
+    for doubt in doubts(found, used, vehicle, -hull.Xuu):
+        say(f"notice {doubt}", error=True)
     dives = [one.dive for one in recorded if one.dive is not None]
     report(arguments, vehicle, recordings, left_out, found, _dive(dives, vehicle, hull, sheet, found))
     return 0

@@ -14,6 +14,7 @@ from auv_sim.bags.content.recorded_manoeuvres import READ, Manoeuvring, manoeuvr
 from auv_sim.flight.run_record import SpatialRun
 from auv_sim.own_vehicle.identify.dive.dive_data import DiveData, coupling_of
 from auv_sim.own_vehicle.identify.results.known_vehicle import forces
+from auv_sim.own_vehicle.identify.results.plausibility import check_commands
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
 
 #: With at least this much data (s) the last part is left out, and predicted.
@@ -41,7 +42,7 @@ def read(
         vehicle, hull: limits, unit of the thrust, drag.
 
     Raises:
-        ConfigurationError: as `manoeuvres_in`; also an unknown name in `topics`.
+        ConfigurationError: as `manoeuvres_in` and `check_commands`; also an unknown name in `topics`.
     """
     names: dict[str, str] = {}
     for name, other in map(_renaming, topics):
@@ -51,6 +52,7 @@ def read(
     found = []
     for path in bags:
         recorded = manoeuvres_in(path, names, namespace)
+        check_commands(recorded.rudder.value, recorded.thrust.value, vehicle, str(path))
         found.append(Recorded(planar(recorded, vehicle, hull, path.name), diving(recorded, vehicle, hull)))
     return found
 

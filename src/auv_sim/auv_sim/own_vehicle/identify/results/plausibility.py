@@ -1,0 +1,115 @@
+"""Checks that a recording is in the units of the wire contract, and that what was identified explains it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following.vehicle import Vehicle
+from auv_sim.own_vehicle.identify.combinations import Numbers
+from auv_sim.own_vehicle.identify.identification import Identified
+from auv_sim.own_vehicle.identify.predictions import predictions_of
+from auv_sim.own_vehicle.identify.time_grid import PlanarData
+from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME
+
+#: Share of the commands that may exceed a limit: a controller may request more than there is for a moment.
+_EXCEEDING = 0.02
+#: Largest thrust over the file's; largest angle of a rudder, rad.
+_MORE_THRUST, _LARGEST_ANGLE = 1.1, 0.5 * math.pi
+#: Range of the heading's change over that by the yaw rate; changes in longer gaps (s) are left out.
+_RATE, _LONGEST_STEP = (0.7, 1.4), 0.5
+#: Horizon of predictions of the identified data (s), and their largest error over the rms yaw rate.
+_HORIZON, _LARGEST_ERROR = 2.0, 0.2
+#: Factor between the speed that the file expects at the recorded thrust, and the measured one.
+_SPEEDS = 2.5
+#: Dead time below which the commands were recorded too late, s.
+_LATE = -0.01
+
+
+def check_commands(rudder: Numbers, thrust: Numbers, vehicle: Vehicle, where: str) -> None:
+    """Check that commands have the units of the wire contract and of the vehicle's file.
+
+    Args:
+        rudder, thrust: as recorded.
+        vehicle: limits.
+        where: name of the recording.
+
+    Raises:
+        ConfigurationError: angles that no rudder has, or more thrust than the vehicle has.
+    """
+    if rudder.size and np.mean(np.abs(rudder) > _LARGEST_ANGLE) > _EXCEEDING:
+        found = f"angles up to {np.max(np.abs(rudder)):.3g}"
+        expected = f"rad, up to {vehicle.rudder.max_angle:.2g}: no degrees, no per cent"
+        raise ConfigurationError(f"{where}: rudder_cmd", found, expected)
+    if thrust.size and np.mean(thrust > _MORE_THRUST * vehicle.thrust_max) > _EXCEEDING:
+        symbol = vehicle.thrust_symbol
+        expected = f"up to thrust_max of {vehicle.name}, {vehicle.thrust_max:g} {symbol}, in that unit"
+        raise ConfigurationError(f"{where}: thrust_cmd", f"up to {np.max(thrust):.3g}", expected)
+
+
+def check_yaw_rate(recordings: Sequence[PlanarData], where: str) -> None:
+    """Check that the yaw rate is the derivative of the heading.
+
+    Raises:
+        ConfigurationError: it is not, as with a rate in deg/s, another sign, or a stamp that is none.
+    """
+    turned = rates = 0.0
+    for data in recordings:
+        step, change = np.diff(data.t), np.mod(np.diff(data.psi) + math.pi, 2.0 * math.pi) - math.pi
+        by_rate = 0.5 * (data.r[1:] + data.r[:-1]) * step
+        kept = (step < _LONGEST_STEP) & np.isfinite(change) & np.isfinite(by_rate)
+        turned += float(np.sum(change[kept] * by_rate[kept]))
+        rates += float(np.sum(by_rate[kept] ** 2))
+    if rates > 0.0 and not _RATE[0] <= turned / rates <= _RATE[1]:
+        shown = "0" if turned == 0.0 else f"{rates / turned:.3g}"
+        expected = "its derivative in rad/s, by the stamps, with the sign of its frame"
+        raise ConfigurationError(
+            f"{where}: odom", f"a yaw rate of {shown} times that of the heading", expected
+        )
+
+
+def check_fit(found: Identified, where: str) -> None:
+    """Check that the identified hull predicts its own recordings over 2 s.
+
+    Raises:
+        ConfigurationError: it does not.
+    """
+    with np.errstate(all="ignore"):  # the prediction of a wrong hull can overflow
+        (prediction,) = predictions_of(found.channels, found.physical, (_HORIZON,))
+    if prediction.starts and not prediction.error <= _LARGEST_ERROR:
+        error = f"{prediction.error:.0%}" if prediction.error < 10.0 else "more than 1000 %"
+        raise ConfigurationError(
+            where,
+            f"a hull that predicts the yaw rate over {_HORIZON:g} s to {error}",
+            f"{_LARGEST_ERROR:.0%} or better: check sign and unit of rudder_cmd, and the stamps",
+        )
+
+
+def doubts(found: Identified, recordings: Sequence[PlanarData], vehicle: Vehicle, drag: float) -> list[str]:
+    """Return what a person should look at, one line each.
+
+    Args:
+        found: what was identified.
+        recordings: that it was identified from.
+        vehicle: known beforehand.
+        drag: of the known hull straight ahead over the speed squared, kg/m.
+    """
+    lines = []
+    dead_time = float(found.physical[DEAD_TIME])
+    if dead_time < _LATE:
+        lines.append(
+            f"a dead time of {dead_time:.3f} s: the commands are recorded later than they take effect. "
+            "The file has 0: write its true rudder.dead_time into it"
+        )
+    thrust = float(np.median(np.concatenate([data.thrust for data in recordings])))
+    speed = float(np.median(np.concatenate([data.u for data in recordings])))
+    expected = math.sqrt(max(thrust, 0.0) / drag)
+    if not expected / _SPEEDS <= speed <= expected * _SPEEDS:
+        lines.append(
+            f"{speed:.2f} m/s where {vehicle.name} makes {expected:.2f} m/s with the recorded thrust: "
+            "check the unit of thrust_cmd"
+        )
+    return lines

@@ -1,0 +1,98 @@
+"""Recordings in other units or with other signs are refused by name, before or after the estimate."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following import vehicle
+from auv_sim.own_vehicle.identify.results import plausibility
+from auv_sim.own_vehicle.identify.results.plausibility import (
+    check_commands,
+    check_fit,
+    check_yaw_rate,
+    doubts,
+)
+from auv_sim.own_vehicle.identify.study.simulated_data import planar_data
+from auv_sim.own_vehicle.identify.time_grid import PlanarData
+from auv_sim.own_vehicle.identify.unknowns import ALL, DEAD_TIME
+from auv_sim.own_vehicle.manoeuvres import program_file
+from auv_sim.own_vehicle.manoeuvres.manoeuvre_flight import simulate
+from auv_sim.vehicle import sea
+
+REMUS = vehicle.load("remus100")
+
+
+@pytest.fixture(scope="module")
+def data() -> PlanarData:
+    return planar_data(simulate(REMUS, sea.load("rough"), program_file.load("two_minutes"), 1))
+
+
+def test_the_contracts_units_pass(data: PlanarData) -> None:
+    check_commands(data.rudder, data.thrust, REMUS, "bag")
+    check_yaw_rate([data, data], "bag")
+    assert doubts(_found(0.0), [data], REMUS, 1.62) == []
+    spikes = data.rudder.copy()
+    spikes[:5] = 20.0
+    check_commands(spikes, 1.05 * data.thrust, REMUS, "bag")
+
+
+@pytest.mark.parametrize(
+    ("change", "found"),
+    [
+        (lambda rudder, thrust: (np.degrees(rudder), thrust), r"rudder_cmd: found angles up to 35, .*rad"),
+        (lambda rudder, thrust: (rudder, 15.0 * thrust), r"thrust_cmd: found up to 97\.2, .*6\.48 N"),
+    ],
+)
+def test_commands_in_other_units_are_refused(
+    data: PlanarData, change: Callable[..., tuple[Any, Any]], found: str
+) -> None:
+    with pytest.raises(ConfigurationError, match=found):
+        check_commands(*change(data.rudder, data.thrust), REMUS, "bag")
+
+
+@pytest.mark.parametrize(
+    ("change", "found"),
+    [
+        (lambda d: d._replace(r=np.degrees(d.r)), r"yaw rate of 57\.\d times"),
+        (lambda d: d._replace(r=-d.r), r"yaw rate of -1 times|yaw rate of -0\.99"),
+        (lambda d: d._replace(t=np.linspace(d.t[0], d.t[0] + 60.0, d.t.size)), r"yaw rate of 0\.\d+ times"),
+    ],
+    ids=["deg/s", "sign", "stamps"],
+)
+def test_a_yaw_rate_that_is_not_the_headings_is_refused(
+    data: PlanarData, change: Callable[[PlanarData], PlanarData], found: str
+) -> None:
+    with pytest.raises(ConfigurationError, match=found):
+        check_yaw_rate([change(data)], "bag")
+
+
+@pytest.mark.parametrize("error", [0.36, 1e200, math.nan])
+def test_a_hull_that_explains_nothing_is_refused(monkeypatch: pytest.MonkeyPatch, error: float) -> None:
+    prediction = SimpleNamespace(starts=40, error=error)
+    monkeypatch.setattr(plausibility, "predictions_of", lambda *_: [prediction])
+    with pytest.raises(ConfigurationError, match=r"bag: .*predicts the yaw rate over 2 s .* rudder_cmd"):
+        check_fit(_found(0.0), "bag")
+    prediction.error = 0.05
+    check_fit(_found(0.0), "bag")
+
+
+def test_late_commands_and_a_thrust_of_another_unit_raise_doubts(data: PlanarData) -> None:
+    late, slow = doubts(_found(-0.07), [data._replace(thrust=data.thrust / 20.0)], REMUS, 1.62)
+    assert "-0.070 s" in late and "thrust_cmd" in slow
+    percent = dataclasses.replace(REMUS, name="strong")
+    (fast,) = doubts(_found(0.1), [data._replace(thrust=20.0 * data.thrust)], percent, 1.62)
+    assert fast.startswith("1.") and "strong makes" in fast
+
+
+def _found(dead_time: float) -> Any:
+    physical = np.zeros(ALL)
+    physical[DEAD_TIME] = dead_time
+    return SimpleNamespace(channels=None, physical=physical)
