@@ -9,7 +9,8 @@ import pytest
 
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.kinds.line import Line
-from auv_sim.flight.metrics import CornerSummary, MissionSummary, farthest, summarise, under_way
+from auv_sim.flight.figures.mission_summary import MissionSummary
+from auv_sim.flight.metrics import summarise, under_way
 from auv_sim.flight.run_record import Run
 
 SPEED, STEP = 2.0, 0.05
@@ -167,10 +168,3 @@ def test_what_happens_near_a_corner_is_told_apart() -> None:
     summary = summarise(out, corner_path())
     assert summary.largest_distance == pytest.approx(3.0)
     assert summary.largest_distance_off_corners == pytest.approx(1.0)
-
-
-def test_the_farthest_parts_are_listed_in_the_order_of_the_path() -> None:
-    distances = (0.1, math.nan, 3.0, 0.5, 2.0)
-    corners = [CornerSummary(k + 1, 0.0, 0.0, distance) for k, distance in enumerate(distances)]
-    assert [corner.joint for corner in farthest(corners, 3)] == [3, 4, 5]
-    assert [corner.joint for corner in farthest(corners, 10)] == [1, 2, 3, 4, 5]

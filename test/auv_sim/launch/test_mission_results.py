@@ -15,7 +15,8 @@ from rich.console import Console
 
 from auv_sim.cli import mission as mission_command
 from auv_sim.flight import closed_loop
-from auv_sim.flight.metrics import CornerSummary, summarise
+from auv_sim.flight.figures.mission_summary import CornerSummary
+from auv_sim.flight.metrics import summarise
 from auv_sim.flight.run_record import Run
 from auv_sim.launch import launcher, mission_plan, mission_results
 from auv_sim.launch.options import Options

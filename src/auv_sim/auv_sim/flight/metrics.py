@@ -1,176 +1,27 @@
-"""The figures of a flown mission: per subpath, at the corners and as a whole."""
+"""Judges a flown mission against its path: per subpath, at the corners and as a whole."""
 
 from __future__ import annotations
 
-import dataclasses
-import json
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any, TypeVar
 
 import numpy as np
 
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
-from auv_sim.flight.flown_rows import FlownRows, largest_of
-from auv_sim.flight.flown_share import Stretch, flown_share, listed, percent
-from auv_sim.flight.least_share import LEAST_SHARE
+from auv_sim.flight.figures.flown_rows import FlownRows, largest_of
+from auv_sim.flight.figures.mission_summary import (
+    CornerSummary,
+    MissionSummary,
+    SpatialMissionSummary,
+    SpatialSubpathSummary,
+    SubpathSummary,
+)
+from auv_sim.flight.flown_share import flown_share
 from auv_sim.flight.path_cells import apart
 from auv_sim.flight.run_record import Column, Run, SpatialRun
 
 #: Time after the start from which the current estimate is judged, s.
 OBSERVER_SETTLING_TIME = 15.0
-
-
-@dataclass(frozen=True)
-class SubpathSummary:
-    """One subpath. NaN where nothing was flown or the recording lacks the signal.
-
-    Attributes:
-        number: counted from 1 as the paper does.
-        kind: of the segment (``line``).
-        duration: time on it, s.
-        rms_distance, largest_distance: to the path, m.
-        rms_heading_error: of psi_e, deg.
-        rudder_travel: sum of the rudder's movements, deg.
-        rudder_travel_per_metre: the same for each metre covered, deg/m.
-        distance_covered: length of the track over ground, m.
-    """
-
-    number: int
-    kind: str
-    duration: float
-    rms_distance: float
-    largest_distance: float
-    rms_heading_error: float
-    rudder_travel: float
-    rudder_travel_per_metre: float
-    distance_covered: float
-
-
-@dataclass(frozen=True)
-class CornerSummary:
-    """A joint at which the course jumps (G0).
-
-    Attributes:
-        joint: number of the subpath that ends here.
-        x, y: where it is, NED, m.
-        largest_distance: to the path within `CORNER_RADIUS` of the joint, on the two subpaths it joins, m.
-    """
-
-    joint: int
-    x: float
-    y: float
-    largest_distance: float
-
-
-Part = TypeVar("Part", SubpathSummary, CornerSummary)
-
-
-@dataclass(frozen=True)
-class MissionSummary:
-    """The whole mission, from the first thrust to the end of the path. NaN where the signal is missing.
-
-    Attributes:
-        completed: whether the virtual point reached the end of the path.
-        flown_share: share of the path that was flown, 0 to 1, as `flown_share` defines it.
-        missed: stretches that were not flown, m of path.
-        skipped: stretches that a rejoin after a hold skipped, m of path; they are not among the missed ones.
-        steps: odometries in the run.
-        duration: s.
-        path_length, distance_covered: m.
-        mean_speed: over ground, m/s.
-        rms_distance, largest_distance: to the path, m.
-        rms_heading_error: deg.
-        rudder_travel, rudder_travel_per_metre: deg, deg/m.
-        current_estimate_error: largest error of the estimate from `OBSERVER_SETTLING_TIME` after the
-            start on, m/s.
-        subpaths: one for each subpath of the path.
-        corners: one for each G0 joint.
-        largest_distance_off_corners: to the path, farther than `CORNER_RADIUS` from every G0 joint, m.
-        navigation_error: largest distance of the odometry from the truth, m.
-    """
-
-    completed: bool
-    flown_share: float
-    missed: tuple[Stretch, ...]
-    skipped: tuple[Stretch, ...]
-    steps: int
-    duration: float
-    path_length: float
-    distance_covered: float
-    mean_speed: float
-    rms_distance: float
-    largest_distance: float
-    rms_heading_error: float
-    rudder_travel: float
-    rudder_travel_per_metre: float
-    current_estimate_error: float
-    subpaths: tuple[SubpathSummary, ...]
-    corners: tuple[CornerSummary, ...]
-    largest_distance_off_corners: float
-    navigation_error: float
-
-    def to_json(self) -> str:
-        """Return strict JSON, indented; NaN becomes null."""
-        return json.dumps(without_nan(dataclasses.asdict(self)), indent=2, allow_nan=False)
-
-    def outcome(self, least_share: float = LEAST_SHARE) -> str:
-        """Return how the mission ended: complete, incomplete (too little flown), or not at the end."""
-        if not self.completed:
-            return "end of the path not reached"
-        return "incomplete" if self.shortfall(least_share) else "complete"
-
-    def shortfall(self, least_share: float = LEAST_SHARE) -> str:
-        """Return why a mission is incomplete, with the missed stretches; empty if enough was flown."""
-        if self.flown_share >= least_share:
-            return ""
-        return (
-            f"found {percent(self.flown_share)} of the path flown,"
-            f" expected at least {100.0 * least_share:g} %: missed {listed(self.missed)}"
-        )
-
-    def flown_line(self) -> str:
-        """Return the flown share and the stretches that were missed or skipped, as text."""
-        parts = [f"flown: {percent(self.flown_share)} of the path"]
-        parts += [f"missed {listed(self.missed)}"] if self.missed else []
-        parts += [f"skipped after a hold {listed(self.skipped)}"] if self.skipped else []
-        return "; ".join(parts)
-
-
-@dataclass(frozen=True)
-class SpatialSubpathSummary(SubpathSummary):
-    """One subpath in three dimensions: distances have a vertical part.
-
-    Attributes:
-        rms_depth_error, largest_depth_error: depth less that of the closest point of the path, m.
-        sternplane_travel, sternplane_travel_per_metre: of the stern planes, deg, deg/m.
-        largest_pitch: absolute, deg.
-    """
-
-    rms_depth_error: float
-    largest_depth_error: float
-    sternplane_travel: float
-    sternplane_travel_per_metre: float
-    largest_pitch: float
-
-
-@dataclass(frozen=True)
-class SpatialMissionSummary(MissionSummary):
-    """The whole mission in three dimensions.
-
-    Attributes:
-        rms_depth_error, largest_depth_error: m.
-        sternplane_travel, sternplane_travel_per_metre: deg, deg/m.
-        largest_pitch: absolute, deg.
-    """
-
-    rms_depth_error: float
-    largest_depth_error: float
-    sternplane_travel: float
-    sternplane_travel_per_metre: float
-    largest_pitch: float
 
 
 def summarise(run: Run, path: CompositePath | SpatialPath, begin: float = 0.0) -> MissionSummary:
@@ -230,17 +81,6 @@ def _navigation_errors(flown: Run) -> Column:
     return apart(dx, dy, flown.z_true - flown.z if isinstance(flown, SpatialRun) else None)
 
 
-def farthest(parts: Sequence[Part], most: int) -> list[Part]:
-    """Return the subpaths or corners on which the vehicle was farthest from the path, in the path's order.
-
-    Args:
-        parts: all of them, in the path's order.
-        most: most parts to return; those that were not reached rank last.
-    """
-    ranked = sorted(range(len(parts)), key=lambda k: -np.nan_to_num(parts[k].largest_distance, nan=-1.0))
-    return [parts[k] for k in sorted(ranked[:most])]
-
-
 def under_way(run: Run, n: int) -> Run:
     """Return the rows in which the mission runs.
 
@@ -269,12 +109,3 @@ def _current_estimate_error(flown: Run) -> float:
     settled = flown.t - flown.t[0] >= OBSERVER_SETTLING_TIME
     down = flown.Vz_est - flown.Vz_true if isinstance(flown, SpatialRun) else None
     return largest_of(apart(flown.Vx_est - flown.Vx_true, flown.Vy_est - flown.Vy_true, down)[settled])
-
-
-def without_nan(value: Any) -> Any:
-    """Return plain data with null where a number is not finite, for strict JSON."""
-    if isinstance(value, dict):
-        return {key: without_nan(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [without_nan(item) for item in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value

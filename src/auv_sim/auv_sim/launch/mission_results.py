@@ -18,13 +18,13 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_sim.bags.reading.load import load
 from auv_sim.command_line import to_type
-from auv_sim.flight.metrics import (
+from auv_sim.flight.figures.mission_summary import (
     MissionSummary,
     SpatialMissionSummary,
     SubpathSummary,
     farthest,
-    summarise,
 )
+from auv_sim.flight.metrics import summarise
 from auv_sim.flight.run_record import Run, SpatialRun
 from auv_sim.launch.mission_plan import Plan
 from auv_sim.launch.outcome import Outcome

@@ -16,12 +16,12 @@ from rich.progress import Progress
 from rich.table import Table
 
 from auv_msgs_py.settings.result_files import write_text
+from auv_msgs_py.values.strict_json import without_nan
 from auv_path_following import vehicle
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, make_directory, to_type
 from auv_sim.flight import closed_loop
 from auv_sim.flight.batch import engine
 from auv_sim.flight.flown_share import percent
-from auv_sim.flight.metrics import without_nan
 from auv_sim.flight.scenario import Scenario
 from auv_sim.launch import mission_plan
 from auv_sim.launch.options import Options

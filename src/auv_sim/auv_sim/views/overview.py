@@ -11,8 +11,9 @@ from matplotlib.gridspec import GridSpec
 
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
+from auv_sim.flight.figures.mission_summary import MissionSummary, SpatialMissionSummary
 from auv_sim.flight.flown_share import percent
-from auv_sim.flight.metrics import MissionSummary, SpatialMissionSummary, under_way
+from auv_sim.flight.metrics import under_way
 from auv_sim.flight.run_record import Run
 from auv_sim.views.plot_style import INK, MUTED, fact, save
 from auv_sim.views.signal_rows import NO_LIMITS, FinLimits, draw_rows, rows_of

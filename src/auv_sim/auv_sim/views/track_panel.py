@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 
 from auv_msgs_py.values.angles import wrap
 from auv_path_following.curves.composite import CompositePath
+from auv_sim.flight.figures.mission_summary import MissionSummary, SpatialMissionSummary, farthest
 from auv_sim.flight.flown_share import Stretch
-from auv_sim.flight.metrics import MissionSummary, SpatialMissionSummary, farthest
 from auv_sim.flight.path_cells import cells_of, middles_of
 from auv_sim.flight.run_record import Run
 from auv_sim.views.labels import Labels, arrow

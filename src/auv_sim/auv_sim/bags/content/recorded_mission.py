@@ -27,7 +27,8 @@ from auv_sim.bags.reading.load import run_of
 from auv_sim.bags.reading.recording import Bag
 from auv_sim.bags.texts import texts_below
 from auv_sim.flight.by_odometry import ByOdometry, by_odometry
-from auv_sim.flight.metrics import MissionSummary, summarise
+from auv_sim.flight.figures.mission_summary import MissionSummary
+from auv_sim.flight.metrics import summarise
 from auv_sim.flight.run_record import Run, SpatialRun
 from auv_sim.sim_parameters import SUITE
 

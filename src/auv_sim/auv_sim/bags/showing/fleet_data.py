@@ -10,7 +10,7 @@ import numpy as np
 
 from auv_sim.bags.content.recorded_mission import RecordedMission
 from auv_sim.bags.showing.space_data import packed
-from auv_sim.flight.metrics import SpatialMissionSummary
+from auv_sim.flight.figures.mission_summary import SpatialMissionSummary
 from auv_sim.flight.run_record import Run, SpatialRun
 from auv_sim.flight.separation import closest_over_time, separations
 

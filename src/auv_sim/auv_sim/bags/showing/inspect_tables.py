@@ -17,13 +17,13 @@ from auv_msgs_py.values.errors import printable
 from auv_sim.bags.content.events import Event
 from auv_sim.bags.content.recorded_mission import RecordedMission
 from auv_sim.bags.content.topic_facts import TopicFacts
-from auv_sim.flight.flown_share import percent
-from auv_sim.flight.metrics import (
+from auv_sim.flight.figures.mission_summary import (
     MissionSummary,
     SpatialMissionSummary,
     SpatialSubpathSummary,
     SubpathSummary,
 )
+from auv_sim.flight.flown_share import percent
 from auv_sim.flight.run_record import SpatialRun
 
 #: More events than this are counted, not listed.

@@ -23,8 +23,8 @@ from auv_sim.bags.showing.space_data import (
     vertical_panels,
 )
 from auv_sim.flight.by_odometry import ByOdometry
+from auv_sim.flight.figures.mission_summary import MissionSummary, SpatialMissionSummary, SubpathSummary
 from auv_sim.flight.flown_share import percent
-from auv_sim.flight.metrics import MissionSummary, SpatialMissionSummary, SubpathSummary
 from auv_sim.flight.run_record import Run, SpatialRun
 from auv_sim.flight.signals import ANGLES
 

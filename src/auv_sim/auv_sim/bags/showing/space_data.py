@@ -15,7 +15,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.content.recorded_mission import RecordedMission, configuration
 from auv_sim.bags.reading.load import messages_of
 from auv_sim.bags.reading.recording import Bag
-from auv_sim.flight.metrics import SpatialMissionSummary, SpatialSubpathSummary
+from auv_sim.flight.figures.mission_summary import SpatialMissionSummary, SpatialSubpathSummary
 from auv_sim.flight.path_cells import metres_of
 from auv_sim.flight.run_record import SpatialRun
 from auv_sim.vehicle import sea

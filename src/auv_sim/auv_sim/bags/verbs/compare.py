@@ -20,7 +20,7 @@ from auv_sim.bags.showing.compare_picture import draw
 from auv_sim.bags.verbs.arguments import add_choice
 from auv_sim.command_line import target, to_type
 from auv_sim.flight.by_odometry import ByOdometry
-from auv_sim.flight.metrics import MissionSummary, SpatialMissionSummary
+from auv_sim.flight.figures.mission_summary import MissionSummary, SpatialMissionSummary
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, wrote
 

@@ -15,6 +15,7 @@ from rich.console import Console
 
 from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.errors import ConfigurationError
+from auv_msgs_py.values.strict_json import without_nan
 from auv_sim.bags.content.events import events_of
 from auv_sim.bags.content.recorded_mission import RecordedMission, mission_in
 from auv_sim.bags.content.vehicle_parts import read_vehicles
@@ -24,7 +25,6 @@ from auv_sim.bags.showing.report_data import page_data
 from auv_sim.bags.showing.report_pictures import pictures
 from auv_sim.bags.verbs.arguments import add_choice
 from auv_sim.command_line import say, to_type
-from auv_sim.flight.metrics import without_nan
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, wrote
 

@@ -10,7 +10,7 @@ import numpy as np
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_sim.flight.batch import tally
 from auv_sim.flight.batch.kinds.spatial_tally import SETTLING_TIME
-from auv_sim.flight.flown_rows import FlownRows
+from auv_sim.flight.figures.flown_rows import FlownRows
 from auv_sim.flight.loops import followed_path
 from auv_sim.flight.metrics import summarise
 from auv_sim.flight.run_record import Run, SpatialRun

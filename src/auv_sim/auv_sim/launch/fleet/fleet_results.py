@@ -14,7 +14,7 @@ from rich.table import Table
 from auv_msgs_py.settings.result_files import write_text
 from auv_sim.bags.reading.load import load
 from auv_sim.command_line import to_type
-from auv_sim.flight.metrics import MissionSummary
+from auv_sim.flight.figures.mission_summary import MissionSummary
 from auv_sim.flight.run_record import Run
 from auv_sim.flight.separation import Separation, separations
 from auv_sim.launch import mission_results

@@ -15,10 +15,10 @@ from rich.progress import Progress, TaskID
 from auv_msgs_py.contract import topics
 from auv_msgs_py.settings import params_file
 from auv_msgs_py.settings.result_files import write_text
+from auv_msgs_py.values.strict_json import without_nan
 from auv_path_following import config_files, vehicle
 from auv_path_following.vehicle import Vehicle
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, make_directory, to_type
-from auv_sim.flight.metrics import without_nan
 from auv_sim.own_vehicle.output_files import check_outputs
 from auv_sim.own_vehicle.prove import proof_page
 from auv_sim.own_vehicle.prove.confidence import flights_needed

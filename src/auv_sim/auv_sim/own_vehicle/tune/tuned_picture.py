@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from auv_path_following.curves.composite import CompositePath
 from auv_sim.flight.batch import engine
-from auv_sim.flight.flown_rows import FlownRows
+from auv_sim.flight.figures.flown_rows import FlownRows
 from auv_sim.flight.loops import followed_path
 from auv_sim.flight.metrics import under_way
 from auv_sim.flight.scenario import Scenario

@@ -21,8 +21,9 @@ from auv_sim.bags.reading.load import load
 from auv_sim.cli import mission as mission_command
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, to_type
 from auv_sim.flight.batch import engine
+from auv_sim.flight.figures.mission_summary import SpatialMissionSummary
 from auv_sim.flight.loops import followed_path
-from auv_sim.flight.metrics import SpatialMissionSummary, summarise
+from auv_sim.flight.metrics import summarise
 from auv_sim.flight.run_record import Run, SpatialRun
 from auv_sim.flight.scenario import Scenario, start_of
 from auv_sim.sim_parameters import ConstantCurrent, InitialPose

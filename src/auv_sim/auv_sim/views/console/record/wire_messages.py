@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json
-import math
 import struct
 from typing import Any
 
+from auv_msgs_py.values.strict_json import without_nan
 from auv_sim.views.console.record.history import Rows
 
 PROTOCOL = 1
@@ -16,7 +16,7 @@ ROWS_HEADER = struct.Struct("<4I")
 
 def text_of(kind: str, **content: Any) -> str:
     """Return a message as JSON; a number that is not finite becomes null."""
-    return json.dumps(_finite({"kind": kind, **content}), separators=(",", ":"), allow_nan=False)
+    return json.dumps(without_nan({"kind": kind, **content}), separators=(",", ":"), allow_nan=False)
 
 
 def rows_message(vehicle: int, epoch: int, first: int, rows: Rows) -> bytes:
@@ -30,13 +30,3 @@ def rows_message(vehicle: int, epoch: int, first: int, rows: Rows) -> bytes:
     """
     head = ROWS_HEADER.pack(vehicle, epoch, first, len(rows))
     return head + rows.astype("<f4", copy=False).tobytes()
-
-
-def _finite(value: Any) -> Any:
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    if isinstance(value, dict):
-        return {key: _finite(each) for key, each in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_finite(each) for each in value]
-    return value

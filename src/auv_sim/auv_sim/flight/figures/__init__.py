@@ -1,0 +1,1 @@
+"""The figures of a flown mission, and the rows from which they are computed."""
