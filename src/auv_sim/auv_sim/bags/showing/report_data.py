@@ -9,18 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from auv_path_following.curves.composite import CompositePath
-from auv_sim.bags.content.events import Event, diagnostic_spans
+from auv_sim.bags.content.events import Event
 from auv_sim.bags.content.recorded_mission import RecordedMission, texts_of
+from auv_sim.bags.showing.report_panels import NOW, diagnostics_panel, panels
 from auv_sim.bags.showing.space_data import (
-    NOW,
     depth_figures,
     packed,
-    panel,
     published_path,
-    series,
     space,
     spatial_columns,
-    vertical_panels,
 )
 from auv_sim.flight.by_odometry import ByOdometry
 from auv_sim.flight.figures.mission_summary import MissionSummary, SpatialMissionSummary, SubpathSummary
@@ -48,8 +45,8 @@ def page_data(flight: RecordedMission, events: list[Event], title: str) -> dict[
         "joints": [{"index": j.index, "x": j.x, "y": j.y, "geometric": j.geometric} for j in joints],
         "switches": [event.time - start for event in events if event.kind == "switch"],
         "begin": 0.0,
-        "now": [n for n in (*_NOW, *NOW) if n["name"] in columns],
-        "panels": [*_panels(flight, columns), *_diagnostics_panel(flight, start)],
+        "now": [n for n in NOW if n["name"] in columns],
+        "panels": [*panels(flight, columns), *diagnostics_panel(flight, start)],
         "table": _missions_table(flight) if flight.parts else _table(summary, opinion),
         "events": [{"t": e.time - start, "kind": e.kind, "text": e.text, "level": e.level} for e in events],
         "config": texts_of(flight.bag),
@@ -196,71 +193,3 @@ def _table(summary: MissionSummary | None, opinion: ByOdometry | None) -> list[l
 
 def _number(value: float, digits: int) -> str:
     return f"{value:.{digits}f}" if math.isfinite(value) else "–"
-
-
-def _panels(flight: RecordedMission, columns: dict[str, Any]) -> list[dict[str, Any]]:
-    """Return the panels that have a recorded signal."""
-    hull, erring = flight.vehicle, "x_true" in columns
-    angle = [math.degrees(hull.rudder.max_angle)] if hull is not None else []
-    rate = [math.degrees(hull.rudder.max_rate)] if hull is not None else []
-    panels = [
-        panel("Distance to the path (m)", 0.2, [], [
-            series("distance", "true distance" if erring else "geometric distance", "path", 4.0),
-            series("distance_by_odometry", "by odometry", "orange", 1.2),
-            series("ye", "cross-track error ye", "blue"),
-        ]),
-        panel("Along-track error xe (m)", 0.2, [], [series("xe", "xe", "blue")]),
-        panel("Heading (°)", 5.0, [], [
-            series("psi_d", "desired ψd", "path", 4.0, True),
-            series("psi", "measured ψ", "blue", 1.5, True),
-        ]),
-        panel("Heading error (°)", 2.0, [], [series("psi_e", "ψ − ψd", "blue")]),
-        panel("Rudder (°)", 2.0, angle, [
-            series("rudder_cmd", "commanded", "orange", 3.0), series("rudder", "measured", "blue"),
-        ]),
-        panel("Rudder rate (°/s)", 2.0, rate, [series("rudder_rate", "from row to row", "blue")]),
-        *vertical_panels(flight),
-        panel("Speed through water (m/s)", 0.2, [], [
-            series("ur", "ur", "blue"), series("vr", "vr", "orange"),
-        ]),
-        panel("Current (m/s)", 0.1, [], [
-            series("Vx_true", "true north", "path", 5.0), series("Vy_true", "true east", "path", 5.0),
-            series("Vx_est", "estimated north", "blue"), series("Vy_est", "estimated east", "orange"),
-            series("Vz_true", "true down", "path", 5.0), series("Vz_est", "estimated down", "green"),
-        ]),
-    ]  # fmt: skip
-    for one in panels:
-        one["series"] = [line for line in one["series"] if line["name"] in columns]
-        one["limits"] = [sign * limit for limit in one["limits"] for sign in (1.0, -1.0)]
-    return [one for one in panels if one["series"]]
-
-
-def _diagnostics_panel(flight: RecordedMission, start: float) -> list[dict[str, Any]]:
-    """Return the panel of the diagnostics, if any were recorded."""
-    spans = diagnostic_spans(flight.bag)
-    if not spans:
-        return []
-    rows = [
-        {"name": name, "spans": [[a - start, b - start, level, text] for a, b, level, text in parts]}
-        for name, parts in sorted(spans.items())
-    ]
-    return [{"title": "Diagnostics (green OK, orange WARN, red ERROR)", "rows": rows}]
-
-
-_NOW = [
-    {"name": "s", "label": "s", "unit": "", "digits": 3},
-    {"name": "x", "label": "north x", "unit": "m", "digits": 2},
-    {"name": "y", "label": "east y", "unit": "m", "digits": 2},
-    {"name": "x_true", "label": "true north", "unit": "m", "digits": 2},
-    {"name": "y_true", "label": "true east", "unit": "m", "digits": 2},
-    {"name": "psi", "label": "heading ψ", "unit": "°", "digits": 1},
-    {"name": "psi_d", "label": "desired ψd", "unit": "°", "digits": 1},
-    {"name": "psi_e", "label": "error", "unit": "°", "digits": 2},
-    {"name": "ye", "label": "ye", "unit": "m", "digits": 3},
-    {"name": "distance", "label": "distance", "unit": "m", "digits": 3},
-    {"name": "distance_by_odometry", "label": "by odometry", "unit": "m", "digits": 3},
-    {"name": "rudder_cmd", "label": "rudder cmd", "unit": "°", "digits": 2},
-    {"name": "rudder", "label": "rudder", "unit": "°", "digits": 2},
-    {"name": "ur", "label": "speed ur", "unit": "m/s", "digits": 2},
-    {"name": "thrust_cmd", "label": "thrust", "unit": "N", "digits": 2},
-]

@@ -1,10 +1,9 @@
-"""What the report's page has of a vehicle that dives: columns, panels, and the view in three dimensions."""
+"""What the report's page has of a vehicle that dives: columns, and the view in three dimensions."""
 
 from __future__ import annotations
 
 import base64
 import contextlib
-import math
 from typing import Any
 
 import numpy as np
@@ -113,60 +112,8 @@ def _sea_bottom(flight: RecordedMission) -> Bottom | None:
     return None
 
 
-def vertical_panels(flight: RecordedMission) -> list[dict[str, Any]]:
-    """Return the panels of a vehicle that dives; the columns of others have none of their signals."""
-    planes = flight.vehicle.sternplanes if flight.vehicle is not None else None
-    limits = [math.degrees(planes.max_angle)] if planes is not None else []
-    at_altitude = flight.mission is not None and flight.mission.altitude is not None
-    against = "less the requested one" if at_altitude else "less that of the path"
-    lines = [
-        series("depth_path", "path", "path", 5.0), series("depth_d", "requested", "orange", 2.0),
-        series("depth", "flown", "blue"), series("bottom", "bottom", "brown"),
-    ]  # fmt: skip
-    return [
-        panel("Depth (m; down, the surface is 0)", 0.5, [], lines) | {"down": True, "marks": [0.0]},
-        panel("Depth error (m; below is positive)", 0.2, [], [
-            series("depth_error", against, "path", 4.0), series("ze", "error ze", "blue"),
-        ]),
-        panel("Pitch (°; bow up is positive)", 2.0, [], [
-            series("theta_d", "desired", "path", 4.0), series("theta", "measured", "blue"),
-        ]),
-        panel("Stern planes (°; bow down is positive)", 2.0, limits, [
-            series("sternplanes_cmd", "commanded", "orange", 3.0), series("sternplanes", "measured", "blue"),
-        ]),
-    ]  # fmt: skip
-
-
-def panel(title: str, least: float, limits: list[float], lines: list[dict[str, Any]]) -> dict[str, Any]:
-    """Return a panel of signals over time.
-
-    Args:
-        title: with the unit.
-        least: smallest range that is shown.
-        limits: magnitudes, drawn on both sides of 0 where they are near.
-        lines: of `series`.
-    """
-    return {"title": title, "least": least, "limits": limits, "series": lines}
-
-
-def series(name: str, label: str, color: str, width: float = 1.5, wraps: bool = False) -> dict[str, Any]:
-    """Return one line of a panel."""
-    return {"name": name, "label": label, "color": color, "width": width, "wraps": wraps}
-
-
 def depth_figures(part: object) -> list[float]:
     """Return the further figures of a row of the page's table: rms and largest depth error, m."""
     if isinstance(part, SpatialMissionSummary | SpatialSubpathSummary):
         return [part.rms_depth_error, part.largest_depth_error]
     return []
-
-
-NOW = [
-    {"name": "depth", "label": "depth", "unit": "m", "digits": 2},
-    {"name": "depth_d", "label": "requested", "unit": "m", "digits": 2},
-    {"name": "depth_error", "label": "below path", "unit": "m", "digits": 3},
-    {"name": "theta", "label": "pitch", "unit": "°", "digits": 1},
-    {"name": "theta_d", "label": "desired pitch", "unit": "°", "digits": 1},
-    {"name": "sternplanes", "label": "stern planes", "unit": "°", "digits": 2},
-    {"name": "altitude", "label": "altitude", "unit": "m", "digits": 1},
-]
