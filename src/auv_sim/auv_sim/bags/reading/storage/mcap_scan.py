@@ -11,23 +11,26 @@ import mmap
 import struct
 import zlib
 from collections.abc import Callable
-from io import BytesIO
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import zstandard
-from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
 from mcap.records import Attachment, Channel, Chunk, Footer, Header, Metadata, Schema, Statistics
-from mcap.stream_reader import CRCValidationError, get_chunk_data_stream
 
 from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.bags.reading.storage.mcap_chunks import (
+    RECORD,
+    beginning_of,
+    is_chunk,
+    next_chunk,
+    read_record,
+    size_of,
+    span_of,
+    unpack,
+)
 from auv_sim.bags.writing.mcap_file import MAGIC, MESSAGE_HEAD
 
-_RECORD = struct.Struct("<BQ")
-_PROLOGUE = struct.Struct("<QQQII")  # of a chunk: first, last, uncompressed size, its CRC, length of "zstd"
-_FOOTER_SIZE = _RECORD.size + 20 + len(MAGIC)
-_COMPRESSIONS = (b"", b"lz4", b"zstd")
+_FOOTER_SIZE = RECORD.size + 20 + len(MAGIC)
 _MCAP = "an MCAP file"
 #: Chunks are unpacked up to this many times the size of their file, and to that many bytes for a small file.
 #: A file that holds more was made to fill the memory.
@@ -109,18 +112,18 @@ class _Scanner:
         data, size = self._data, len(self._data)
         closed, position = False, len(MAGIC)
         if data[: len(MAGIC)] != MAGIC:
-            chunk = self._next_chunk(0)
+            chunk = next_chunk(data, 0)
             if chunk is None:
                 raise ConfigurationError(str(self._path), "neither its beginning nor any part of it", _MCAP)
             self._notes.append("the first bytes are damaged")
             # Records before the chunk name the topics; where the head is lost there may be none.
             position = min(chunk, position)
         reached = position
-        while position + _RECORD.size <= size:
-            opcode, length = _RECORD.unpack_from(data, position)
-            end = position + _RECORD.size + length
+        while position + RECORD.size <= size:
+            opcode, length = RECORD.unpack_from(data, position)
+            end = position + RECORD.size + length
             if not 1 <= opcode <= 15 or end > size or not self._take(opcode, position, end):
-                following = self._next_chunk(position + 1)
+                following = next_chunk(data, position + 1)
                 if following is None:
                     break
                 self._notes.append(f"damaged from byte {position} to {following}: left out")
@@ -146,13 +149,13 @@ class _Scanner:
 
     def _take(self, opcode: int, start: int, end: int) -> bool:
         """Take in one record; return False where it cannot be one, so that its length is wrong too."""
-        body = start + _RECORD.size
+        body = start + RECORD.size
         if opcode == Opcode.CHUNK:
             return self._chunk(start, body, end)
         if opcode == Opcode.MESSAGE:
             return self._batch(self._data[start:end], start)
         if opcode in _READERS:
-            record = _read(_READERS[opcode], self._data[body:end])
+            record = read_record(_READERS[opcode], self._data[body:end])
             if record is None:
                 return False
             if opcode == Opcode.ATTACHMENT and not self._intact(body, end):
@@ -186,104 +189,48 @@ class _Scanner:
             self._profile = record.profile
 
     def _chunk(self, start: int, body: int, end: int) -> bool:
-        if not self._is_chunk(start):
+        if not is_chunk(self._data, start):
             return False
-        chunk = _read(Chunk, self._data[body:end])
+        chunk = read_record(Chunk, self._data[body:end])
         if chunk is None:
             return False
-        unpacked = max(chunk.uncompressed_size, len(chunk.data), _frame_size(chunk))
+        unpacked = size_of(chunk)
         self._room -= unpacked
         if self._room < 0:
             said = f"{unpacked} bytes unpacked are too many for a file of {len(self._data)}"
-            self._notes.append(f"chunk at byte {start}: {said}; {_span(chunk)} left out")
+            self._notes.append(f"chunk at byte {start}: {said}; {span_of(chunk)} left out")
             return True
-        try:
-            stream, size = get_chunk_data_stream(chunk, validate_crc=True)
-            raw = stream.read(size)
-        except CRCValidationError:
-            self._notes.append(f"chunk at byte {start}: its checksum is wrong; {_span(chunk)} left out")
-            return True
-        except Exception as error:
-            # On damaged data a decompressor raises errors of several types.
-            reason = " ".join(str(error).split())
-            self._notes.append(f"chunk at byte {start}: {reason}; {_span(chunk)} left out")
-            return True
-        if not self._batch(raw, start):
+        raw, reason = unpack(chunk)
+        if reason:
+            self._notes.append(f"chunk at byte {start}: {reason}; {span_of(chunk)} left out")
+        elif not self._batch(raw, start):
             self._notes.append(f"chunk at byte {start}: ends in the middle of a record")
         return True
 
     def _batch(self, raw: bytes, start: int) -> bool:
         """Take in the records of a chunk, or a single one; return False where they do not fill `raw`."""
         position, size, sink, head = 0, len(raw), self._sink, MESSAGE_HEAD
-        while position + _RECORD.size <= size:
-            opcode, length = _RECORD.unpack_from(raw, position)
-            end = position + _RECORD.size + length
+        while position + RECORD.size <= size:
+            opcode, length = RECORD.unpack_from(raw, position)
+            end = position + RECORD.size + length
             if end > size or not opcode:
                 return False
-            if opcode == Opcode.MESSAGE and length >= head.size - _RECORD.size:
+            if opcode == Opcode.MESSAGE and length >= head.size - RECORD.size:
                 _, _, channel, sequence, log_ns, publish_ns = head.unpack_from(raw, position)
                 sink(channel, sequence, log_ns, publish_ns, raw[position + head.size : end])
                 self._messages += 1
             elif opcode in (Opcode.SCHEMA, Opcode.CHANNEL):
                 kind = Schema if opcode == Opcode.SCHEMA else Channel
-                self._keep(_read(kind, raw[position + _RECORD.size : end]))
+                self._keep(read_record(kind, raw[position + RECORD.size : end]))
             position = end
         return position == size
 
     def _salvage(self, position: int) -> None:
         """Take in the messages at the beginning of a chunk that was cut off."""
-        if not self._is_chunk(position):
+        if not is_chunk(self._data, position):
             return
-        *_, name_length = _PROLOGUE.unpack_from(self._data, position + _RECORD.size)
-        at = position + _RECORD.size + _PROLOGUE.size
-        name, rest = self._data[at : at + name_length], self._data[at + name_length + 8 :]
         before = self._messages
         with contextlib.suppress(Exception):
-            if name == b"zstd":
-                with zstandard.ZstdDecompressor().stream_reader(rest) as packed:
-                    rest = packed.read(max(self._room, 0))
-            if name != b"lz4":
-                self._batch(rest, position)
+            self._batch(beginning_of(self._data, position, max(self._room, 0)), position)
         if self._messages > before:
             self._notes.append(f"{self._messages - before} messages of the cut-off chunk are readable")
-
-    def _is_chunk(self, start: int) -> bool:
-        at = start + _RECORD.size
-        if at + _PROLOGUE.size > len(self._data) or self._data[start] != Opcode.CHUNK:
-            return False
-        first, last, _, _, name_length = _PROLOGUE.unpack_from(self._data, at)
-        at += _PROLOGUE.size
-        return first <= last and name_length <= 4 and self._data[at : at + name_length] in _COMPRESSIONS
-
-    def _next_chunk(self, position: int) -> int | None:
-        """Return where the next bytes begin that can be a whole chunk; None where none do."""
-        size = len(self._data)
-        while (position := self._data.find(b"\x06", position)) != -1:
-            if self._is_chunk(position):
-                (length,) = struct.unpack_from("<Q", self._data, position + 1)
-                if position + _RECORD.size + length <= size:
-                    return position
-            position += 1
-        return None
-
-
-def _read(kind: Any, body: bytes) -> Any:
-    """Return a record, or None where the bytes are not one of this kind."""
-    try:
-        stream = ReadDataStream(BytesIO(body))
-        return kind.read(stream)
-    except Exception:
-        return None
-
-
-def _frame_size(chunk: Chunk) -> int:
-    """Return the size that compressed data declare, bytes: the decompressor allocates it at once."""
-    try:
-        return zstandard.frame_content_size(chunk.data) if chunk.compression == "zstd" else 0
-    except zstandard.ZstdError:
-        return 0  # unpacking will report what is wrong
-
-
-def _span(chunk: Chunk) -> str:
-    length = (chunk.message_end_time - chunk.message_start_time) * 1e-9
-    return f"{length:.2f} s of messages"
