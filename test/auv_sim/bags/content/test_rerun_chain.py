@@ -19,7 +19,7 @@ from auv_path_following.missions.limits import LimitsConfig
 from auv_path_following.navigation import current_observer
 from auv_path_following.parameters import AutopilotParameters, GuidanceParameters, ObserverParameters
 from auv_sim.bags.content.rerun_chain import Chain, Sensed
-from auv_sim.bags.content.rerun_pilot import _in_phase, _Phase
+from auv_sim.bags.content.rerun_phases import Phase, in_phase
 
 DIVER = vehicle.load("remus100_6dof")
 DIVE = mission_file.load(str(Path(__file__).parents[3] / "data" / "short_dive.yaml"), DIVER)
@@ -53,7 +53,7 @@ def test_an_ascent_is_rerun_as_the_nodes_steered_it() -> None:
         to_go = distance_to_go(course.path, config.guide.follower.progress, nodes.guide.follower)
         _, guided, reference, command = out
         chain.guiding = chain.guiding._replace(
-            mission=_in_phase(chain.guiding.mission, _Phase(True, k == 0, False))
+            mission=in_phase(chain.guiding.mission, Phase(True, k == 0, False))
         )
         answer = chain.step(sensed, now, dt)
         assert answer == (*command, *chain.readings.sent(guided, reference.thrust)), k

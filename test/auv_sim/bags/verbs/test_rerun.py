@@ -19,7 +19,8 @@ from auv_path_following import config_files, vehicle
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.kinds.line import Line
 from auv_path_following.missions import mission_file
-from auv_sim.bags.content.rerun_pilot import _Phase, _RerunPilot, _Step
+from auv_sim.bags.content.rerun_phases import Phase
+from auv_sim.bags.content.rerun_pilot import _RerunPilot, _Step
 from auv_sim.bags.definitions import typestore
 from auv_sim.bags.writing.bag_writer import BagWriter
 from auv_sim.cli import bag as bag_command
@@ -159,7 +160,7 @@ def test_after_a_gap_the_chain_rejoins_as_the_nodes_did(resumes: bool) -> None:
         parameters, dataclasses.replace(mission, path=CompositePath([Line(0, 0, 100.0, 0)])), hull
     )
 
-    def step(seconds: float, north: float, phase: _Phase) -> float:
+    def step(seconds: float, north: float, phase: Phase) -> float:
         stamp = round(seconds * 1e9)
         pose = make(
             "geometry_msgs/msg/Pose",
@@ -176,11 +177,8 @@ def test_after_a_gap_the_chain_rejoins_as_the_nodes_did(resumes: bool) -> None:
         return answer[rerun_pilot.answered.index("path_parameter")]
 
     for k in range(26):
-        step(1.0 + 0.1 * k, 0.19 * k, _Phase(True, k == 0, False))
-    if resumes:
-        s = step(4.2, 12.0, _Phase(True, False, True))
-    else:
-        s = step(20.0, 12.0, _Phase(True, False, False))
+        step(1.0 + 0.1 * k, 0.19 * k, Phase(True, k == 0, False))
+    s = step(4.2, 12.0, Phase(True, False, True)) if resumes else step(20.0, 12.0, Phase(True, False, False))
     assert s == pytest.approx(0.12, abs=1e-4)
 
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import groupby
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,7 +16,6 @@ from numpy.typing import NDArray
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import nanoseconds
 from auv_msgs_py.contract.frames import FrameTable
-from auv_msgs_py.contract.mission_word import MissionState
 from auv_msgs_py.contract.spatial_conversions import altitude_from
 from auv_msgs_py.contract.stamps import StampGuard, StampVerdict
 from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
@@ -29,6 +27,7 @@ from auv_path_following.missions.mission_file import Mission
 from auv_path_following.vehicle import Vehicle
 from auv_sim.bags.content.parameter_changes import MISSION_NAMES, Change, changed
 from auv_sim.bags.content.rerun_chain import Chain, Sensed
+from auv_sim.bags.content.rerun_phases import Phase, in_phase, phases_of
 from auv_sim.bags.reading.beside import Beside
 from auv_sim.bags.reading.deserialize import deserializer
 from auv_sim.bags.reading.load import messages_of
@@ -55,14 +54,6 @@ class _Step(NamedTuple):
     log_ns: int
     water: Any | None
     altitude: Any | None = None
-
-
-class _Phase(NamedTuple):
-    """Whether the mission runs at an odometry, and whether it began or resumed after a hold there."""
-
-    runs: bool
-    begins: bool
-    resumes: bool
 
 
 def answers(
@@ -96,8 +87,8 @@ def answers(
     rerun = _RerunPilot(parameters, mission, vehicle)
     names = rerun.answered
     recorded = {name: _column(bag, name, namespace, log_ns, lockstep) for name in names}
-    running = _running(bag, namespace, recorded[topics.DESIRED_THRUST.name])
-    rows, kept = _rows(rerun, zip(steps, running, strict=True), changes, lockstep)
+    phases = phases_of(bag, namespace, recorded[topics.DESIRED_THRUST.name])
+    rows, kept = _rows(rerun, zip(steps, phases, strict=True), changes, lockstep)
     columns = np.array(rows, np.float64).reshape(-1, len(names))
     return Answers(
         np.array([steps[k].stamp for k in kept]) * 1e-9,
@@ -107,7 +98,7 @@ def answers(
 
 
 def _rows(
-    rerun: _RerunPilot, steps: Iterable[tuple[_Step, _Phase]], changes: Sequence[Change], lockstep: bool
+    rerun: _RerunPilot, steps: Iterable[tuple[_Step, Phase]], changes: Sequence[Change], lockstep: bool
 ) -> tuple[list[tuple[float, ...]], list[int]]:
     """Return the answers, and the indices of the odometries that have one."""
     rows, kept, left = [], [], list(reversed(changes))
@@ -154,7 +145,7 @@ class _RerunPilot:
         guidance = self._parameters[topics.GUIDANCE].with_mission_overrides(self._mission)
         self._chain.change(self._parameters, guidance, self._mission, self._vehicle)
 
-    def step(self, step: _Step, phase: _Phase) -> tuple[float, ...] | None:
+    def step(self, step: _Step, phase: Phase) -> tuple[float, ...] | None:
         """Return the answer; None for an odometry that the nodes refuse, too."""
         chain = self._chain
         if self._is_new and phase.resumes:
@@ -174,7 +165,7 @@ class _RerunPilot:
         mission = chain.guiding.mission
         if verdict is StampVerdict.RESTART:
             chain.restart()
-        chain.guiding = chain.guiding._replace(mission=_in_phase(mission, phase))
+        chain.guiding = chain.guiding._replace(mission=in_phase(mission, phase))
         return chain.step(inputs, step.stamp * 1e-9, dt)
 
     def _water(self, message: Any | None) -> Any | None:
@@ -186,16 +177,6 @@ class _RerunPilot:
         if message is None or not self._chain.with_altitude:
             return math.nan
         return altitude_from(message, topics.ALTITUDE.name)
-
-
-def _in_phase(mission: states.MissionStatus, phase: _Phase) -> states.MissionStatus:
-    """Return the recorded state; a mission that holds or is complete changes only through its own law."""
-    if phase.resumes:
-        return states.MissionStatus(states.HOLDING)
-    if phase.runs:
-        changes = mission.state in (states.HOLDING, states.COMPLETE) or states.is_surfacing(mission)
-        return mission if changes else states.MissionStatus(states.RUNNING)
-    return mission if mission.state == states.COMPLETE else states.MissionStatus()
 
 
 def _steps(bag: Bag, namespace: str | None, lockstep: bool, timeout: float) -> Iterator[_Step]:
@@ -237,31 +218,3 @@ def _column(
     there = row < len(values)
     column[there] = np.array(values)[row[there]]
     return column
-
-
-def _running(bag: Bag, namespace: str | None, thrust: NDArray[np.float64]) -> list[_Phase]:
-    """Return the mission's phase at each odometry.
-
-    Guidance's desired thrust shows exactly from which odometry on a mission ran. Where it falls to 0
-    because the path's end was reached, that odometry was still guided; after an abort it was not.
-    """
-    topic = bag.find(topics.MISSION_STATE.name, namespace)
-    recorded = [str(message.data) for _, message in messages_of(topic)] if topic is not None else []
-    words = [word for word, _ in groupby(recorded)]  # the state is repeated once a second
-    place, ran, rows = 0, False, []
-    for value in thrust:
-        runs = bool(value > 0.0)
-        begins = resumes = guided = False
-        if runs and not ran:
-            before = words[place - 1] if 0 < place <= len(words) else ""
-            while place < len(words) and words[place] != MissionState.RUNNING:
-                before = words[place]
-                place += 1
-            resumes = before == MissionState.HOLDING
-            begins = not resumes
-            place += 1
-        elif ran and not runs:
-            guided = place >= len(words) or words[place] == MissionState.COMPLETE
-        rows.append(_Phase(runs or guided, begins, resumes))
-        ran = runs
-    return rows

@@ -14,13 +14,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
-from rich import box
-from rich.table import Table
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.settings import params_file, yaml_file
-from auv_msgs_py.settings.result_files import replacing
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files, vehicle
 from auv_path_following.missions import mission_file
@@ -32,24 +28,12 @@ from auv_sim.bags.content.vehicle_parts import read_vehicles
 from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.load import is_used
 from auv_sim.bags.reading.recording import Bag
+from auv_sim.bags.showing.rerun_table import compared, is_same, show, write_csv
 from auv_sim.bags.verbs.arguments import add_choice
 from auv_sim.command_line import say, target
 from auv_sim.sim_parameters import SUITE
-from auv_sim.terminal import console as terminal
 
 _FURTHER = {topics.MISSION_STATE.name, topics.DESIRED_THRUST.name, topics.ALTITUDE.name, PARAMETER_EVENTS}
-_DEGREES = (
-    topics.RUDDER_CMD.name, topics.DESIRED_YAW.name, topics.DESIRED_YAW_RATE.name,
-    topics.STERNPLANE_CMD.name, topics.DESIRED_PITCH.name, topics.DESIRED_PITCH_RATE.name,
-)  # fmt: skip
-#: What the vehicle was commanded: rudder, thrust, and the stern planes of a vehicle that has them.
-_COMMANDS = (topics.RUDDER_CMD.name, topics.STERNPLANE_CMD.name, topics.THRUST_CMD.name)
-_UNITS = {
-    topics.RUDDER_CMD.name: "°", topics.THRUST_CMD.name: "N", topics.DESIRED_YAW.name: "°",
-    topics.DESIRED_YAW_RATE.name: "°/s", topics.DESIRED_THRUST.name: "N", topics.PATH_PARAMETER.name: "",
-    topics.STERNPLANE_CMD.name: "°", topics.DESIRED_PITCH.name: "°", topics.DESIRED_PITCH_RATE.name: "°/s",
-    topics.DESIRED_DEPTH.name: "m",
-}  # fmt: skip
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -86,9 +70,9 @@ def _run_one(bag: Bag, arguments: argparse.Namespace) -> int:
     )  # fmt: skip
     if not np.isfinite(found.recorded[topics.RUDDER_CMD.name]).any():
         raise ConfigurationError(str(arguments.bag), "no commands", f"messages on {topics.RUDDER_CMD.name}")
-    figures = {name: _figures(found, name) for name in found.new}
+    figures = {name: compared(found, name) for name in found.new}
     if arguments.csv:
-        _write_csv(found, arguments.csv)
+        write_csv(found, arguments.csv)
     if arguments.png:
         from auv_sim.bags.showing.rerun_picture import draw
 
@@ -96,9 +80,9 @@ def _run_one(bag: Bag, arguments: argparse.Namespace) -> int:
     if arguments.json:
         print(json.dumps({"steps": int(found.t.size), "topics": figures}, indent=2, allow_nan=False))
     else:
-        _show(found, figures)
+        show(found, figures)
     changed = arguments.params or arguments.mission or arguments.vehicle
-    return 0 if changed or _is_same(figures) else 1
+    return 0 if changed or is_same(figures) else 1
 
 
 def rerun(
@@ -175,76 +159,3 @@ def _flat(path: Path) -> dict[str, dict[str, Any]]:
     for pattern, body in yaml_file.parse(path).items():
         flat.setdefault(str(pattern).rsplit("/", 1)[-1], {}).update(dotted(body["ros__parameters"]))
     return flat
-
-
-def _figures(found: Answers, name: str) -> dict[str, Any]:
-    recorded, new = found.recorded[name], found.new[name]
-    both = np.isfinite(recorded)
-    if not both.any():
-        return {"compared": 0, "identical": 0, "rms": None, "largest": None, "largest_at_s": None}
-    a, b = np.ascontiguousarray(recorded[both]), np.ascontiguousarray(new[both])
-    difference = _shown(name, b - a)
-    worst = int(np.argmax(np.abs(difference)))
-    return {
-        "compared": int(both.sum()),
-        # As bits: -0.0 is not 0.0.
-        "identical": int((a.view(np.uint64) == b.view(np.uint64)).sum()),
-        "rms": float(np.sqrt(np.mean(difference**2))),
-        "largest": float(np.abs(difference[worst])),
-        "largest_at_s": float(found.t[both][worst]),
-    }
-
-
-def _shown(name: str, values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """In the units in which people read them; a yaw's difference is wrapped."""
-    if name == topics.DESIRED_YAW.name:
-        values = np.remainder(values + np.pi, 2 * np.pi) - np.pi
-    return np.degrees(values) if name in _DEGREES else values
-
-
-def _show(found: Answers, figures: dict[str, dict[str, Any]]) -> None:
-    console = terminal()
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    table.add_column("recorded against new")
-    for heading in ("compared", "same bits", "rms difference", "largest", "at s"):
-        table.add_column(heading, justify="right")
-    for name, f in figures.items():
-        if not f["compared"]:
-            table.add_row(name, "0", *["-"] * 4)
-            continue
-        same = f["identical"] == f["compared"]
-        colour = "green" if same else "yellow"
-        unit = f" {_UNITS[name]}".rstrip()
-        table.add_row(
-            name, str(f["compared"]), f"[{colour}]{'all' if same else f['identical']}[/{colour}]",
-            f"{f['rms']:.4g}{unit}", f"{f['largest']:.4g}{unit}", "-" if same else f"{f['largest_at_s']:.2f}",
-        )  # fmt: skip
-    console.print(table)
-    if _is_same(figures):
-        console.print(f"every command is the recorded one, bit for bit ({found.t.size} steps)")
-    fins = {"rudder": topics.RUDDER_CMD.name, "stern planes": topics.STERNPLANE_CMD.name}
-    for fin, name in fins.items():
-        for label, commands in (("recorded", found.recorded), ("new", found.new)):
-            angles = np.degrees(commands.get(name, np.empty(0)))
-            angles = angles[np.isfinite(angles)]
-            if not angles.size:
-                continue
-            travel, rms = np.abs(np.diff(angles)).sum(), np.sqrt(np.mean(angles**2))
-            console.print(
-                f"{fin} {label}: travel {travel:.1f}°, rms {rms:.3f}°, largest {np.abs(angles).max():.2f}°"
-            )
-
-
-def _is_same(figures: dict[str, dict[str, Any]]) -> bool:
-    """Return whether every command has the bits of the recorded one."""
-    commands = [figures[name] for name in _COMMANDS if name in figures]
-    return all(f["identical"] == f["compared"] for f in commands)
-
-
-def _write_csv(found: Answers, file: Path) -> None:
-    names = [f"{name}_{which}" for name in found.new for which in ("recorded", "new")]
-    columns = [column for name in found.new for column in (found.recorded[name], found.new[name])]
-    with replacing(file) as draft, draft.open("w", encoding="utf-8") as stream:
-        stream.write(",".join(["t [s]", *names]) + "\n")
-        for row in zip(found.t, *columns, strict=True):
-            stream.write(",".join(repr(float(value)) for value in row) + "\n")
