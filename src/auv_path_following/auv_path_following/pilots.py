@@ -7,7 +7,7 @@ from auv_path_following.control import autopilot, diving_autopilot
 from auv_path_following.control.autopilot import Autopilot, AutopilotConfig
 from auv_path_following.control.diving_autopilot import DivingAutopilot
 from auv_path_following.guidance.guide import Guide
-from auv_path_following.guidance.spatial.spatial_follow import SpatialFollower
+from auv_path_following.guidance.spatial.spatial_follower import SpatialFollower
 from auv_path_following.navigation.current_observer import Observer
 from auv_path_following.pilot import Pilot, begun, first_state, pilot
 from auv_path_following.spatial_pilot import SpatialPilot, spatial_begun, spatial_first_state, spatial_pilot

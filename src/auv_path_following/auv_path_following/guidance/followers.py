@@ -9,7 +9,8 @@ from auv_path_following.guidance import follow as planar
 from auv_path_following.guidance.follow import FollowerConfig, GuidanceOutput
 from auv_path_following.guidance.measured import Measured, SpatialMeasured
 from auv_path_following.guidance.spatial import spatial_follow as spatial
-from auv_path_following.guidance.spatial.spatial_follow import SpatialFollower, SpatialOutput
+from auv_path_following.guidance.spatial.spatial_follow import SpatialOutput
+from auv_path_following.guidance.spatial.spatial_follower import SpatialFollower
 from auv_path_following.missions.limits import LimitsInputs
 
 

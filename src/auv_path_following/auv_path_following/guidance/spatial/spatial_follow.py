@@ -31,15 +31,15 @@ from auv_path_following.guidance.progress import (
     move,
     settled,
 )
+from auv_path_following.guidance.spatial.spatial_follower import SpatialFollower
 from auv_path_following.guidance.spatial.spatial_laws import (
-    VerticalLaw,
     current_along,
     elevation_seen,
-    spatial_errors,
+    errors_from,
     spatial_speed,
     vertical_ailos,
 )
-from auv_path_following.guidance.spatial.spatial_limits import Steepness, steepest_at
+from auv_path_following.guidance.spatial.spatial_limits import steepest_at
 from auv_path_following.guidance.spatial.vertical_modes import (
     NO_REQUEST,
     VerticalInputs,
@@ -48,29 +48,6 @@ from auv_path_following.guidance.spatial.vertical_modes import (
 )
 from auv_path_following.guidance.virtual_point import VirtualPoint, driven, saturated
 from auv_path_following.navigation.levelled import Levelled, levelled
-
-
-class SpatialFollower(NamedTuple):
-    """Configuration.
-
-    Attributes:
-        plane: of the horizontal plane: law, virtual point, switching.
-        vertical: of the law in the vertical plane.
-        mode: of `vertical_step`: what that plane follows.
-        steepness: theta_max(u).
-        pitch_rate: bound of q_d, rad/s.
-    """
-
-    plane: FollowerConfig
-    vertical: VerticalLaw
-    mode: Any
-    steepness: Steepness
-    pitch_rate: float
-
-    @property
-    def progress(self) -> ProgressConfig:
-        """Configuration of P's motion, as a planar follower has it."""
-        return self.plane.progress
 
 
 class SpatialFollowerState(NamedTuple):
@@ -197,15 +174,6 @@ def follow_spatial(
         i + t, i, point.x, point.y, point.z, tangent.chi, tangent.gamma, U_P, depth, approach, switched,
         finished,
     )  # fmt: skip
-
-
-@pure
-def errors_from(
-    navigation: SpatialNavigation, point: SpatialPoint, tangent: Tangent
-) -> tuple[float, float, float]:
-    """Return xe, ye, ze of a vehicle for a virtual point, m: Eq. (3D-12)."""
-    offset = (navigation.x - point.x, navigation.y - point.y, navigation.z - point.z)
-    return spatial_errors(offset, tangent.chi, tangent.gamma)
 
 
 @pure

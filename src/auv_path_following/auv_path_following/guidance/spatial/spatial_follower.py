@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 from auv_path_following.control.pitch_plane import pitch_plane_of
 from auv_path_following.guidance import path_follower
 from auv_path_following.guidance.approach import agility_of
+from auv_path_following.guidance.follow import FollowerConfig
 from auv_path_following.guidance.path_follower import PathFollowerConfig
-from auv_path_following.guidance.spatial.spatial_follow import SpatialFollower
+from auv_path_following.guidance.progress import ProgressConfig
 from auv_path_following.guidance.spatial.spatial_laws import VerticalLaw
-from auv_path_following.guidance.spatial.spatial_limits import steepest_of
+from auv_path_following.guidance.spatial.spatial_limits import Steepness, steepest_of
 from auv_path_following.guidance.spatial.vertical_modes import FOLLOW_PATH, AltitudeHold
 from auv_path_following.missions.limits import LimitsConfig
 from auv_path_following.missions.mission_file import Mission
@@ -18,6 +19,29 @@ from auv_path_following.vehicle import Vehicle
 
 #: Bound of |theta_b|: the share of the speed that a current across the path may have.
 CURRENT_SHARE = 0.95
+
+
+class SpatialFollower(NamedTuple):
+    """Configuration.
+
+    Attributes:
+        plane: of the horizontal plane: law, virtual point, switching.
+        vertical: of the law in the vertical plane.
+        mode: of `vertical_step`: what that plane follows.
+        steepness: theta_max(u).
+        pitch_rate: bound of q_d, rad/s.
+    """
+
+    plane: FollowerConfig
+    vertical: VerticalLaw
+    mode: Any
+    steepness: Steepness
+    pitch_rate: float
+
+    @property
+    def progress(self) -> ProgressConfig:
+        """Configuration of P's motion, as a planar follower has it."""
+        return self.plane.progress
 
 
 def prepare(

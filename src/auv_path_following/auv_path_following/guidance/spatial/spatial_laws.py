@@ -11,7 +11,8 @@ from typing import NamedTuple
 
 from auv_msgs_py.values.angles import wrap
 from auv_msgs_py.values.pure import bounded, pure
-from auv_path_following.curves.spatial.spatial_point import Tangent
+from auv_msgs_py.values.types import SpatialNavigation
+from auv_path_following.curves.spatial.spatial_point import SpatialPoint, Tangent
 from auv_path_following.guidance.laws.ailos import adaptive_offset
 from auv_path_following.navigation.levelled import Levelled
 
@@ -35,6 +36,15 @@ def spatial_errors(offset: Vector, chi: float, gamma: float) -> Vector:
         -dx * sin_chi + dy * cos_chi,
         sin_gamma * along + cos_gamma * dz,
     )
+
+
+@pure
+def errors_from(
+    navigation: SpatialNavigation, point: SpatialPoint, tangent: Tangent
+) -> tuple[float, float, float]:
+    """Return xe, ye, ze of a vehicle for a virtual point, m: Eq. (3D-12)."""
+    offset = (navigation.x - point.x, navigation.y - point.y, navigation.z - point.z)
+    return spatial_errors(offset, tangent.chi, tangent.gamma)
 
 
 @pure
