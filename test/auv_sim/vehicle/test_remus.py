@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from auv_msgs_py.values.types import NO_CURRENT, STOP, Command, Current
 from auv_path_following import vehicle
-from auv_sim.vehicle.actuator import ServoState
+from auv_sim.vehicle.fins.actuator import ServoState
 from auv_sim.vehicle.remus import (
     Afloat,
     PlantState,

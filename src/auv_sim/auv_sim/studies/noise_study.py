@@ -18,7 +18,7 @@ from auv_sim.launch.options import Options
 from auv_sim.studies.settings_changes import changed
 from auv_sim.studies.trials import Trial, judge
 from auv_sim.terminal import headed_table
-from auv_sim.vehicle.actuator import RudderFlaws
+from auv_sim.vehicle.fins.actuator import RudderFlaws
 from auv_sim.vehicle.sea import Sea
 from auv_sim.views.doc_pages import markdown_table
 from auv_sim.views.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, save, style

@@ -8,9 +8,9 @@ from typing import NamedTuple
 from auv_msgs_py.values.pure import pure
 from auv_msgs_py.values.types import Current, Navigation, WaterVelocity
 from auv_path_following.vehicle import Vehicle
-from auv_sim.vehicle.actuator import FlawedServoState, flawed_servo_of
 from auv_sim.vehicle.currents import Water, flow, vary, water_of
 from auv_sim.vehicle.draws import Draws, Now, RunMemory
+from auv_sim.vehicle.fins.actuator import FlawedServoState, flawed_servo_of
 from auv_sim.vehicle.navigator import Navigator, NavigatorState, navigate, navigator_at, navigator_of
 from auv_sim.vehicle.noise import Noise, noise, noise_of
 from auv_sim.vehicle.remus import (

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from auv_msgs_py.values.pure import dispatched, pure
 from auv_msgs_py.values.types import Command, Current, Navigation
 from auv_path_following.vehicle import Vehicle
-from auv_sim.vehicle.actuator import Deflection, ServoState, servo_at, servo_of, servo_step
+from auv_sim.vehicle.fins.actuator import Deflection, ServoState, servo_at, servo_of, servo_step
 
 #: Longest Runge-Kutta step, s; longer steps are divided.
 MAX_STEP = 0.05

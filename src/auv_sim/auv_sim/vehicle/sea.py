@@ -5,9 +5,9 @@ from __future__ import annotations
 from auv_msgs_py.settings import yaml_file
 from auv_msgs_py.settings.schema import setting, settings
 from auv_path_following import config_files
-from auv_sim.vehicle.actuator import RudderFlaws
 from auv_sim.vehicle.currents import CurrentConfig
 from auv_sim.vehicle.diving.bottom import BottomConfig
+from auv_sim.vehicle.fins.actuator import RudderFlaws
 from auv_sim.vehicle.navigator import NavigatorConfig
 from auv_sim.vehicle.noise import NoiseConfig
 from auv_sim.vehicle.sensors import SensorsConfig

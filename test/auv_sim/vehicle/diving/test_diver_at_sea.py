@@ -17,11 +17,11 @@ from auv_sim.flight.batch import same_bits  # noqa: F401 - arithmetic of compile
 from auv_sim.flight.batch.compiled import COMPILED, compiled, take_over_pure
 from auv_sim.vehicle import sea
 from auv_sim.vehicle import simulated as simulated_module
-from auv_sim.vehicle.actuator import RudderFlaws
 from auv_sim.vehicle.currents import CurrentConfig, Upwelling
 from auv_sim.vehicle.diving.diver_at_sea import spatial_at_sea_of
 from auv_sim.vehicle.diving.simulated_diver import SimulatedDiver
 from auv_sim.vehicle.draws import Draws
+from auv_sim.vehicle.fins.actuator import RudderFlaws
 from auv_sim.vehicle.hulls.rigid_body import body_at
 from auv_sim.vehicle.noise import NoiseConfig
 from auv_sim.vehicle.sea import Sea

@@ -17,7 +17,7 @@ from auv_path_following.vehicle import Rudder, Vehicle
 from auv_sim.flight import closed_loop
 from auv_sim.flight.batch import engine
 from auv_sim.flight.closed_loop import Scenario
-from auv_sim.vehicle.actuator import (
+from auv_sim.vehicle.fins.actuator import (
     FlawedServo,
     FlawedServoState,
     RudderFlaws,

@@ -21,7 +21,7 @@ from auv_path_following.control.hull_model import tightest_turn
 from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.vehicle_check.samples import OdometrySample, WaterSample
 from auv_sim.checks.vehicle_check.verdict import Mistake
-from auv_sim.vehicle.actuator import with_rate
+from auv_sim.vehicle.fins.actuator import with_rate
 from auv_sim.vehicle.remus import PlantState
 from auv_sim.vehicle.simulated import SimulatedVehicle
 

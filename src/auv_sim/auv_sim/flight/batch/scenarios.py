@@ -18,7 +18,7 @@ from auv_sim.flight.batch.kinds.nearest import spatial_arrays_of, spatial_outlin
 from auv_sim.flight.loops import check_kind, followed_path, pilot_of
 from auv_sim.flight.path_cells import cells_of
 from auv_sim.flight.scenario import Scenario, spatial_start_of, start_of
-from auv_sim.vehicle.actuator import ring_size, servo_of
+from auv_sim.vehicle.fins.actuator import ring_size, servo_of
 from auv_sim.vehicle.hulls.spatial_plant import spatial_plant_of
 from auv_sim.vehicle.remus import plant_of
 

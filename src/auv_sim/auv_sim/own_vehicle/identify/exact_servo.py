@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from auv_msgs_py.values.pure import pure
-from auv_sim.vehicle.actuator import AT_REST
+from auv_sim.vehicle.fins.actuator import AT_REST
 
 
 @pure

@@ -11,7 +11,6 @@ from typing import NamedTuple
 from auv_msgs_py.values.pure import pure
 from auv_msgs_py.values.types import NO_SPATIAL_CURRENT, SpatialCurrent
 from auv_path_following.vehicle import Vehicle
-from auv_sim.vehicle.actuator import FlawedServoState, RudderFlaws, flawed_servo_of
 from auv_sim.vehicle.diving.bottom import Bottom, bottom_of
 from auv_sim.vehicle.diving.diver_navigator import (
     SpatialNavigator,
@@ -35,6 +34,7 @@ from auv_sim.vehicle.diving.water_column import (
     water_column_of,
 )
 from auv_sim.vehicle.draws import Draws, Now, RunMemory
+from auv_sim.vehicle.fins.actuator import FlawedServoState, RudderFlaws, flawed_servo_of
 from auv_sim.vehicle.hulls.rigid_body import BodyState
 from auv_sim.vehicle.hulls.spatial_plant import (
     SpatialAfloat,

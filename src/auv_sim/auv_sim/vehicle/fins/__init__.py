@@ -1,1 +1,1 @@
-"""Servos of fins beside the usual one."""
+"""Servos of the fins."""

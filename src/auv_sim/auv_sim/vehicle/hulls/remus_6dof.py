@@ -19,7 +19,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.pure import pure
 from auv_path_following.vehicle import Hull
 from auv_path_following.vertical_hull import immersed_share
-from auv_sim.vehicle.actuator import Deflection
+from auv_sim.vehicle.fins.actuator import Deflection
 from auv_sim.vehicle.hulls.rigid_body import (
     Accelerations,
     BodyState,

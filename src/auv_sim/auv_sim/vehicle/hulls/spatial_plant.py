@@ -10,7 +10,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.pure import dispatched, pure
 from auv_msgs_py.values.types import SpatialCommand, SpatialCurrent, SpatialNavigation, SpatialWater
 from auv_path_following.vehicle import BuiltInHull, Vehicle
-from auv_sim.vehicle.actuator import ServoState, servo_at, servo_of, servo_step
+from auv_sim.vehicle.fins.actuator import ServoState, servo_at, servo_of, servo_step
 from auv_sim.vehicle.hulls.mss_remus100 import MssRemus100, mss_remus100, mss_remus100_step
 from auv_sim.vehicle.hulls.remus_6dof import Remus6dof, remus_6dof_of, remus_6dof_step
 from auv_sim.vehicle.hulls.rigid_body import BodyState, angles_of, to_body

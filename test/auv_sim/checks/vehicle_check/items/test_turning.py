@@ -13,7 +13,7 @@ from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.vehicle_check.items.fits import STEP, Fit
 from auv_sim.checks.vehicle_check.items.turning import fit_turning
 from auv_sim.checks.vehicle_check.wiggle import END, Wiggle
-from auv_sim.vehicle.actuator import with_rate
+from auv_sim.vehicle.fins.actuator import with_rate
 from auv_sim.vehicle.remus import PlantState
 from auv_sim.vehicle.simulated import SimulatedVehicle
 

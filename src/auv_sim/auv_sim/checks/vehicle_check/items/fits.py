@@ -9,7 +9,7 @@ import numpy as np
 
 from auv_path_following.vehicle import Vehicle
 from auv_sim.checks.vehicle_check.samples import Array
-from auv_sim.vehicle.actuator import Servo, ServoState, turn
+from auv_sim.vehicle.fins.actuator import Servo, ServoState, turn
 
 #: Step of the grid on which commands and models stand, s.
 STEP = 0.05

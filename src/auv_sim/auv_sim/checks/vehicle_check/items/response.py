@@ -19,7 +19,7 @@ from auv_sim.checks.vehicle_check.items.turning import fit_turning
 from auv_sim.checks.vehicle_check.items.values import convention_of
 from auv_sim.checks.vehicle_check.samples import Array, Motion, Recording, Value
 from auv_sim.checks.vehicle_check.verdict import Mistake, Verdict, failed, passed, unknown, warned
-from auv_sim.vehicle.actuator import with_rate
+from auv_sim.vehicle.fins.actuator import with_rate
 from auv_sim.vehicle.remus import PlantState
 from auv_sim.vehicle.simulated import SimulatedVehicle
 

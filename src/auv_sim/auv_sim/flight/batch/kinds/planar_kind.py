@@ -17,8 +17,8 @@ from auv_sim.flight.batch.distance import Outlines, distance_to
 from auv_sim.flight.batch.flown_cells import pass_cells
 from auv_sim.flight.batch.kinds.nearest import Nearest
 from auv_sim.flight.path_cells import CORNER_RADIUS, Cells
-from auv_sim.vehicle.actuator import servo_begin
 from auv_sim.vehicle.at_sea import Seen
+from auv_sim.vehicle.fins.actuator import servo_begin
 from auv_sim.vehicle.remus import Afloat, Plant, PlantState
 
 

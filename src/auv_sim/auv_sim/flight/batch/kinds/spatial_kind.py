@@ -18,8 +18,8 @@ from auv_sim.flight.batch.flown_cells import pass_cells_in_space
 from auv_sim.flight.batch.kinds.nearest import UNTRACKED, Nearest, SpatialOutlines, off_subpath
 from auv_sim.flight.batch.kinds.spatial_tally import LAST_Z, PLANES_TRAVEL, count_depth
 from auv_sim.flight.path_cells import CORNER_RADIUS, Cells
-from auv_sim.vehicle.actuator import servo_begin
 from auv_sim.vehicle.diving.ideal_diver import SpatialSeen
+from auv_sim.vehicle.fins.actuator import servo_begin
 from auv_sim.vehicle.hulls.rigid_body import BodyState
 from auv_sim.vehicle.hulls.spatial_plant import SpatialAfloat, SpatialPlant
 

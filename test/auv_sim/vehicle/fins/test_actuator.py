@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from auv_path_following import vehicle
-from auv_sim.vehicle.actuator import (
+from auv_sim.vehicle.fins.actuator import (
     FlawedServoState,
     RudderFlaws,
     Servo,
