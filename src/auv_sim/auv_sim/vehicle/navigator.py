@@ -12,12 +12,10 @@ from typing import Any, NamedTuple
 from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.values.pure import modulus, numbers, numbers_of, pure, squared
 from auv_msgs_py.values.types import Navigation
+from auv_sim.vehicle.dead_reckoning import keep_way, track_of, way_since
 from auv_sim.vehicle.draws import Draws, Now, Ring, slot
 from auv_sim.vehicle.position_fixes import Fixes
 from auv_sim.vehicle.sensors import Measurements
-
-#: Time for which dead reckoning is kept, s: no fix is older.
-TRACK_TIME = 30.0
 
 
 @numbers
@@ -62,7 +60,7 @@ class Navigator(NamedTuple):
     Attributes:
         assumed: the numbers of a `NavigatorConfig`.
         latency, fixes: of the position fixes: s, and their ring.
-        track: ring of 30 s of dead reckoning: time (s), displacement north and east (m) since the start.
+        track: ring of dead reckoning, see `track_of`.
     """
 
     assumed: Any
@@ -109,8 +107,7 @@ def navigator_of(config: NavigatorConfig, fixes: Fixes, draws: Draws) -> Navigat
         fixes: its position fixes.
         draws: of the run.
     """
-    track = draws.ring(math.ceil(TRACK_TIME / draws.step) + 3, 3)
-    return Navigator(numbers_of(config), fixes.latency, fixes.ring, track)
+    return Navigator(numbers_of(config), fixes.latency, fixes.ring, track_of(draws))
 
 
 def navigator_at(config: Navigator, x: float, y: float) -> NavigatorState:
@@ -178,8 +175,7 @@ def _carry_on(
         P_water = variance
     shown *= math.exp(-dt / c.blend) if c.blend > 0.0 else 0.0
     way += step
-    at, kept = slot(config.track, now.k), now.memory.kept
-    kept[at], kept[at + 1], kept[at + 2] = now.time, way.real, way.imag
+    keep_way(config.track, way, now)
     return NavigatorState(
         z + step,
         shown,
@@ -212,7 +208,7 @@ def weigh(
     """
     c = config.assumed
     z, shown, P_z, P_ze, bottom, P_bottom, water, P_water, on_water, velocity, way, in_a_row, refused = state
-    innovation = fix - (z - _way_since(config.track, way, age, now))
+    innovation = fix - (z - way_since(config.track, way, age, now))
     S = P_z + deviation * deviation
     if squared(modulus(innovation)) > c.gate * c.gate * S:
         refused, in_a_row = refused + 1, in_a_row + 1
@@ -234,21 +230,3 @@ def weigh(
     return NavigatorState(
         z, shown, P_z, P_ze, bottom, P_bottom, water, P_water, on_water, velocity, way, in_a_row, refused
     )
-
-
-@pure
-def _way_since(track: Ring, newest: complex, age: float, now: Now) -> complex:
-    """Return the displacement by dead reckoning since `age` seconds ago, north + i east, m."""
-    then, kept = now.time - age, now.memory.kept
-    later, further = now.time, newest
-    for k in range(now.k, -1, -1):
-        at = slot(track, k)
-        time, way = float(kept[at]), complex(kept[at + 1], kept[at + 2])
-        if time <= then:
-            if k == now.k:
-                return newest - way
-            return newest - way - (further - way) * (then - time) / (later - time)
-        later, further = time, way
-        if time < now.time - TRACK_TIME:
-            break
-    return newest - further
