@@ -18,7 +18,7 @@ from auv_path_following.control.fin_watch import (
     prepare,
     watch_fin,
 )
-from auv_path_following.nodes.steering import steering_of
+from auv_path_following.nodes.spatial_steering import steering_of
 from auv_path_following.parameters import AutopilotParameters
 
 PLANES = vehicle.load("remus100_6dof").sternplanes

@@ -14,7 +14,7 @@ from auv_msgs_py.node.runtime import SuiteNode
 from auv_path_following import vehicle
 from auv_path_following.nodes.odometry_intake import OdometryIntake
 from auv_path_following.nodes.reference_input import ReferenceInput
-from auv_path_following.nodes.steering import steering_of
+from auv_path_following.nodes.spatial_steering import steering_of
 from auv_path_following.parameters import AutopilotParameters
 
 _STOPPED = "rudder and thrust are 0"

@@ -1,4 +1,4 @@
-"""The autopilot of the node: rudder and thrust, or stern planes as well."""
+"""The autopilot of the node: references to rudder and thrust."""
 
 from __future__ import annotations
 
@@ -8,11 +8,9 @@ from typing import Any
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.frames import flip_yaw
 from auv_msgs_py.contract.topics import Topic
-from auv_msgs_py.values.types import SPATIAL_STOP, STOP, Reference, SpatialReference
-from auv_path_following.control import fin_watch
+from auv_msgs_py.values.types import STOP, Reference
 from auv_path_following.control.autopilot import HeadingAutopilot
-from auv_path_following.control.diving_autopilot import SpatialAutopilot
-from auv_path_following.nodes.readings import PLANAR, SPATIAL
+from auv_path_following.nodes.readings import PLANAR
 from auv_path_following.parameters import AutopilotParameters
 from auv_path_following.vehicle import Vehicle
 
@@ -85,52 +83,3 @@ class PlanarSteering:
     def update(self, navigation: Any, reference: Any, dt: float) -> Any:
         """Return the command for a measurement; `dt` in s."""
         return self._autopilot.update(navigation, reference, dt).command
-
-
-class SpatialSteering(PlanarSteering):
-    """The autopilots of a vehicle that dives, in one executable.
-
-    Heading and pitch share odometry, references, thrust and the rule for stopping, so that both fins stop
-    together, and a step has no further process.
-    """
-
-    commands = SPATIAL.commands
-    watched = (topics.STERNPLANE_STATE,)
-    stop = SPATIAL_STOP
-
-    def __init__(self, vehicle: Vehicle, parameters: AutopilotParameters) -> None:
-        super().__init__(vehicle, parameters)
-        self._fin = fin_watch.NEUTRAL
-        self._watch_for(parameters)
-        self.references |= {topics.DESIRED_PITCH: 1.6, topics.DESIRED_PITCH_RATE: 10.0}
-
-    def _made(self, parameters: AutopilotParameters) -> Any:
-        return SpatialAutopilot(self.vehicle, parameters.autopilot, parameters.pitch)
-
-    def _watch_for(self, parameters: AutopilotParameters) -> None:
-        assert self.vehicle.sternplanes is not None
-        self._watch = fin_watch.prepare(parameters.planes, self.vehicle.sternplanes)
-
-    def configure(self, parameters: AutopilotParameters) -> None:
-        self._autopilot.configure(parameters.autopilot, parameters.pitch)
-        self._watch_for(parameters)
-
-    def watch(self, command: Any, dt: float) -> str:
-        self._fin, *wrong = fin_watch.watch_fin(self._watch, self._fin, command.sternplanes, self.planes, dt)
-        return fin_watch.complaint(*wrong)
-
-    def reference(self, values: tuple[float, ...]) -> Any:
-        yaw, yaw_rate, thrust, pitch, pitch_rate = values
-        return SpatialReference(flip_yaw(yaw), -yaw_rate, -pitch, -pitch_rate, thrust)
-
-    def update(self, navigation: Any, reference: Any, dt: float) -> Any:
-        return self._autopilot.update(navigation, reference, dt)
-
-
-def steering_of(vehicle: Vehicle, parameters: AutopilotParameters) -> PlanarSteering:
-    """Return the autopilot of a vehicle.
-
-    Raises:
-        ConfigurationError: the gains do not fit the vehicle.
-    """
-    return (SpatialSteering if vehicle.dives else PlanarSteering)(vehicle, parameters)
