@@ -1,4 +1,4 @@
-"""The rules of the house that a machine can check: imports, lengths of files, forbidden names."""
+"""The rules of the house that a machine can check: imports, rooms, forbidden names."""
 
 from __future__ import annotations
 
@@ -196,15 +196,6 @@ def test_laws_are_repeatable(path: Path) -> None:
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Attribute) and ast.unparse(node.value) in ("np.random", "numpy.random"):
             assert node.attr in ("default_rng", "Generator"), f"{dotted(path)} uses np.random.{node.attr}"
-
-
-@pytest.mark.parametrize("path", [*MODULES, *SCRIPTS, *TESTS], ids=lambda path: str(path.relative_to(ROOT)))
-def test_files_are_short(path: Path) -> None:
-    lines = len(path.read_text(encoding="utf-8").splitlines())
-    is_node = path.parent.name == "nodes" and path in MODULES
-    # The set-up of the environment is one file, because nothing can be imported before it has run.
-    limit = 200 if is_node else 400 if path.name == "_bootstrap.py" else 300
-    assert lines <= limit, f"{lines} lines, expected at most {limit}"
 
 
 @pytest.mark.parametrize("path", [*MODULES, *SCRIPTS, *TESTS], ids=lambda path: str(path.relative_to(ROOT)))

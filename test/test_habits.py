@@ -10,6 +10,7 @@ import yaml
 
 from doc_pages import PAGES, ROOT, copies
 from test_architecture import MOST_MODULES
+from test_names_and_sizes import MOST_OF_FILE, MOST_OF_NODE, MOST_OF_TEST
 
 TEMPLATES = sorted((ROOT / ".github" / "ISSUE_TEMPLATE").glob("*.yml"))
 
@@ -62,9 +63,10 @@ def test_a_page_shows_what_the_code_has(number: int) -> None:
 
 
 def test_contributing_gives_the_limits_that_are_held() -> None:
-    source = (ROOT / "test" / "test_architecture.py").read_text(encoding="utf-8")
-    ((node, other),) = re.findall(r"limit = (\d+) if is_node else .* else (\d+)\n", source)
-    assert f"Files have at most {other} lines and nodes at most {node}." in contributing()
+    limits = (
+        f"Files have at most {MOST_OF_FILE} lines, nodes at most {MOST_OF_NODE}, tests at most {MOST_OF_TEST}"
+    )
+    assert f"{limits}." in contributing()
     assert f"A folder has at most {MOST_MODULES} modules." in contributing()
 
 

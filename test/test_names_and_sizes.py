@@ -1,4 +1,4 @@
-"""Names that mean one thing, and functions that fit on a page."""
+"""Names that mean one thing, functions that fit on a page, files that tell one story."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from test_architecture import MODULES, ROOT, SCRIPTS, dotted
+from test_architecture import MODULES, ROOT, SCRIPTS, TESTS, dotted
 
 #: Most lines of a function, and the functions that may be longer: module.name -> (lines, why).
 MOST_LINES = 40
@@ -29,6 +29,40 @@ LONGER = {
     "flight_figures.figures_of": (43, "a table: one figure a line"),
     "mcap_file._end_chunk": (41, "the order of its writes is what makes a crash harmless"),
 }
+
+#: Most lines of a file, of a node (in a folder `nodes`, or ending in `_node`) and of a test.
+MOST_OF_FILE, MOST_OF_NODE, MOST_OF_TEST = 250, 150, 300
+_SIM, _PATH = "src/auv_sim/auv_sim/nodes", "src/auv_path_following/auv_path_following/nodes"
+#: The files that may be longer: (lines, why).
+LONGER_FILES = {
+    "scripts/_bootstrap.py": (400, "nothing can be imported before it has run"),
+    f"{_SIM}/recorder_node.py": (200, "polling, intake and flush share one clock, one writer and one end"),
+    f"{_SIM}/plant_node.py": (189, "lockstep and free run of one vehicle: they differ in who takes the step"),
+    f"{_SIM}/fault_injection.py": (181, "a table of faults, one case each"),
+    f"{_SIM}/lockstep.py": (171, "the whole of the simulator's side, beside its proof"),
+    f"{_SIM}/display/display_node.py": (206, "one drawing after the other, each of the newest messages"),
+    f"{_SIM}/manoeuvres/manoeuvres_node.py": (160, "the order in which it stops is read in one place"),
+    f"{_PATH}/navigation_input.py": (181, "four topics of one step, paired or newest"),
+}
+
+
+def most_lines(path: Path) -> int:
+    if path in TESTS:
+        return MOST_OF_TEST
+    return MOST_OF_NODE if path.parent.name == "nodes" or path.stem.endswith("_node") else MOST_OF_FILE
+
+
+@pytest.mark.parametrize("path", [*MODULES, *SCRIPTS, *TESTS], ids=lambda path: str(path.relative_to(ROOT)))
+def test_files_are_short(path: Path) -> None:
+    lines = len(path.read_text(encoding="utf-8").splitlines())
+    most, _ = LONGER_FILES.get(path.relative_to(ROOT).as_posix(), (most_lines(path), ""))
+    assert lines <= most, f"{lines} lines, expected at most {most}"
+
+
+def test_a_longer_file_is_named_only_while_it_is_longer() -> None:
+    """An exception that a shorter file no longer needs leaves the table."""
+    for name in LONGER_FILES:
+        assert len((ROOT / name).read_text(encoding="utf-8").splitlines()) > most_lines(ROOT / name), name
 
 
 def test_a_name_means_one_thing() -> None:
