@@ -13,7 +13,8 @@ from sensor_msgs.msg import Range
 from std_msgs.msg import Float64, String
 
 from auv_msgs_py.values.attitude import angles_of_quaternion, quaternion_of
-from auv_sim.nodes.fault_injection import DEPTH_FAULTS, ROLL, Injector
+from auv_sim.nodes.fault_injection import Injector
+from auv_sim.nodes.message_faults import DEPTH_FAULTS, ROLL
 
 
 def odometry(x: float, seconds: int) -> Odometry:

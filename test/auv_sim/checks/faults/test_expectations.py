@@ -10,8 +10,9 @@ import pytest
 from auv_msgs_py.contract import topics
 from auv_msgs_py.settings.schema import leaves
 from auv_sim.checks.faults.expectations import QUICK, REPRESENTATIVE, TABLE, as_markdown, chosen
-from auv_sim.nodes.fault_injection import DEPTH_FAULTS, FAULTS
+from auv_sim.nodes.fault_injection import FAULTS
 from auv_sim.nodes.fault_relay import RELAYED
+from auv_sim.nodes.message_faults import DEPTH_FAULTS
 from auv_sim.sim_parameters import SUITE
 
 PAGE = Path(__file__).resolve().parents[4] / "docs" / "safety.md"
