@@ -41,7 +41,6 @@ LONGER_FILES = {
     f"{_SIM}/lockstep.py": (171, "the whole of the simulator's side, beside its proof"),
     f"{_SIM}/display/display_node.py": (206, "one drawing after the other, each of the newest messages"),
     f"{_SIM}/manoeuvres/manoeuvres_node.py": (160, "the order in which it stops is read in one place"),
-    f"{_PATH}/navigation_input.py": (181, "four topics of one step, paired or newest"),
 }
 
 

@@ -14,7 +14,8 @@ from auv_msgs_py.node.runtime import SuiteNode
 from auv_path_following import vehicle
 from auv_path_following.navigation.current_observer import CurrentObserver
 from auv_path_following.navigation.spatial_observer import SpatialCurrentObserver
-from auv_path_following.nodes.navigation_input import Inputs, NavigationInput
+from auv_path_following.nodes.navigation_input import NavigationInput
+from auv_path_following.nodes.readings import Inputs
 from auv_path_following.parameters import ObserverParameters
 
 

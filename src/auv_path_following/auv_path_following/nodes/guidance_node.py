@@ -19,7 +19,8 @@ from auv_path_following.nodes.mission.mission_board import MissionBoard
 from auv_path_following.nodes.mission.mission_choice import MissionChoice
 from auv_path_following.nodes.mission.mission_keeper import MissionKeeper
 from auv_path_following.nodes.mission.switching_parameters import SwitchingParameters
-from auv_path_following.nodes.navigation_input import Inputs, NavigationInput
+from auv_path_following.nodes.navigation_input import NavigationInput
+from auv_path_following.nodes.readings import Inputs
 from auv_path_following.parameters import GuidanceParameters
 
 

@@ -8,41 +8,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.conversions import stamp_of
 from auv_msgs_py.contract.frames import FrameTable
 from auv_msgs_py.contract.pairing import Pairing
 from auv_msgs_py.contract.spatial_conversions import altitude_from
-from auv_msgs_py.contract.stamps import StampGuard, StampVerdict
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.contract.wire import Odometry, TwistWithCovarianceStamped, Vector3Stamped
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.values.errors import MessageRefused
 from auv_path_following import vehicle
+from auv_path_following.nodes.newest_values import NewestValues
 from auv_path_following.nodes.odometry_intake import OdometryIntake
-from auv_path_following.nodes.readings import readings_of
-
-
-class Inputs(NamedTuple):
-    """Input of one step. `water` is None where no fresh value is known; `dt` in s, `stamp` in ns.
-
-    `water_age`, `current_age`: s; before the first message, time since the first odometry.
-    `moved`: whether this navigation does not continue the last one.
-    `altitude`: range to the bottom along body z, m; NaN where no fresh one is known.
-    """
-
-    navigation: Any
-    water: Any | None
-    water_age: float
-    current: Any
-    current_age: float
-    dt: float
-    stamp: int
-    moved: bool
-    altitude: float = math.nan
-
+from auv_path_following.nodes.readings import Inputs, readings_of
 
 #: Speed through the water above which the vehicle is under way, m/s: at less it may rest over ground.
 _UNDER_WAY = 0.3
@@ -77,13 +57,10 @@ class NavigationInput:
         self._readings = readings_of(hull)
         self._fastest = hull.top_speed + node.parameters.gate.current
         further = [topics.CURRENT_ESTIMATE] * with_current + [topics.ALTITUDE] * with_altitude
-        self._order = {topic: StampGuard() for topic in (topics.WATER_VELOCITY, *further)}
+        beside = (topics.WATER_VELOCITY, *further)
         self._with_current, self._with_altitude = with_current, with_altitude
-        self._pairing = Pairing((topics.ODOM.name, *(topic.name for topic in self._order)), strict=True)
-        self._first: int | None = None
-        self._water: tuple[Any, int] | None = None
-        self._current: tuple[Any, int] | None = None
-        self._altitude: tuple[float, int] | None = None
+        self._pairing = Pairing((topics.ODOM.name, *(topic.name for topic in beside)), strict=True)
+        self._newest = NewestValues(beside)
         node.listen(topics.ODOM, self._on_odometry)
         node.listen(topics.WATER_VELOCITY, self._on_water)
         if with_current:
@@ -101,74 +78,59 @@ class NavigationInput:
 
     def _on_odometry(self, message: Odometry) -> None:
         navigation, dt, stamp, restarted, moved = self.odometry.take(message)
-        if restarted or self._first is None:
-            self._first = stamp
         if restarted:
-            if not self._lockstep:
-                self._water = self._current = self._altitude = None
-                for guard in self._order.values():
-                    guard.reset()
+            self._newest.reset()
             self._restart()
         if self._lockstep:
             if self._pairing.put(topics.ODOM.name, (navigation, dt, stamp), stamp):
                 self._paired()
             return
-        water, current = None, self._readings.no_current
-        # A message that has never come is as old as the first odometry, so at the start none is late.
-        water_age = age = (stamp - self._first) * 1e-9
-        if self._water is not None:
-            water_age = abs(stamp - self._water[1]) * 1e-9
-            if water_age <= self._node.parameters.water_velocity_timeout:
-                water = self._water[0]
-                self.odometry.under_way = water.ur > _UNDER_WAY
-        if self._current is not None:
-            current, age = self._current[0], (stamp - self._current[1]) * 1e-9
-        altitude = math.nan
-        if self._altitude is not None:
-            late = abs(stamp - self._altitude[1]) * 1e-9 > self._node.parameters.water_velocity_timeout
-            altitude = math.nan if late else self._altitude[0]
-        self._step(Inputs(navigation, water, water_age, current, age, dt, stamp, moved, altitude))
+        self._newest.begin(stamp)
+        bound = self._node.parameters.water_velocity_timeout
+        water, age = self._newest.at(topics.WATER_VELOCITY, stamp)
+        water_age = abs(age)
+        if water_age > bound:
+            water = None
+        if water is not None:
+            self.odometry.under_way = water.ur > _UNDER_WAY
+        current, age = self._newest.at(topics.CURRENT_ESTIMATE, stamp)
+        altitude, late = self._newest.at(topics.ALTITUDE, stamp)
+        self._step(
+            Inputs(
+                navigation, water, water_age, self._readings.no_current if current is None else current, age,
+                dt, stamp, moved, math.nan if altitude is None or abs(late) > bound else altitude,
+            )
+        )  # fmt: skip
 
-    def _in_order(self, topic: Topic, stamp: int) -> None:
-        """Refuse, free running, a message that a newer one has overtaken."""
-        if not self._lockstep and self._order[topic].judge(stamp).verdict is StampVerdict.REFUSE:
-            raise MessageRefused(topic.name, "a stamp that is not newer than the last", "rising stamps")
+    def _take(self, topic: Topic, value: Any, stamp: int) -> None:
+        """Pair a value, or keep it as the newest."""
+        if not self._lockstep:
+            self._newest.put(topic, value, stamp)
+        elif self._pairing.put(topic.name, value, stamp):
+            self._paired()
 
-    def _is_plausible(self, velocity: tuple[float, ...]) -> bool:
-        """Return whether no component of a velocity exceeds what vehicle and current can have."""
-        return all(abs(part) <= self._fastest for part in velocity)
+    def _check(self, velocity: tuple[float, ...], topic: Topic) -> None:
+        """Refuse a velocity of which a component exceeds what vehicle and current can have."""
+        if not all(abs(part) <= self._fastest for part in velocity):
+            found = f"({', '.join(f'{part:.3g}' for part in velocity)}) m/s"
+            raise MessageRefused(topic.name, found, f"at most {self._fastest:.3g} m/s")
 
     def _on_water(self, message: TwistWithCovarianceStamped) -> None:
-        topic = topics.WATER_VELOCITY.name
-        water = self._readings.water(message, self._frames, topic)
-        if not self._is_plausible(water):
-            found = f"({', '.join(f'{part:.3g}' for part in water)}) m/s"
-            raise MessageRefused(topic, found, f"at most {self._fastest:.3g} m/s")
-        stamp = stamp_of(message.header.stamp, topic)
-        self._in_order(topics.WATER_VELOCITY, stamp)
-        self._water = water, stamp
-        if self._lockstep and self._pairing.put(topic, water, stamp):
-            self._paired()
+        topic = topics.WATER_VELOCITY
+        water = self._readings.water(message, self._frames, topic.name)
+        self._check(water, topic)
+        self._take(topic, water, stamp_of(message.header.stamp, topic.name))
 
     def _on_current(self, message: Vector3Stamped) -> None:
-        topic = topics.CURRENT_ESTIMATE.name
-        current = self._readings.current(message, topic)
-        if not self._is_plausible(current):
-            found = f"({', '.join(f'{part:.3g}' for part in current)}) m/s"
-            raise MessageRefused(topic, found, f"at most {self._fastest:.3g} m/s")
-        stamp = stamp_of(message.header.stamp, topic)
-        self._in_order(topics.CURRENT_ESTIMATE, stamp)
-        self._current = current, stamp
-        if self._lockstep and self._pairing.put(topic, current, stamp):
-            self._paired()
+        topic = topics.CURRENT_ESTIMATE
+        current = self._readings.current(message, topic.name)
+        self._check(current, topic)
+        self._take(topic, current, stamp_of(message.header.stamp, topic.name))
 
     def _on_altitude(self, message: Any) -> None:
-        topic = topics.ALTITUDE.name
-        altitude, stamp = altitude_from(message, topic), stamp_of(message.header.stamp, topic)
-        self._in_order(topics.ALTITUDE, stamp)
-        self._altitude = altitude, stamp
-        if self._lockstep and self._pairing.put(topic, altitude, stamp):
-            self._paired()
+        topic = topics.ALTITUDE
+        altitude = altitude_from(message, topic.name)
+        self._take(topic, altitude, stamp_of(message.header.stamp, topic.name))
 
     def _paired(self) -> None:
         (navigation, dt, stamp), water, *rest = self._pairing.take()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -13,6 +14,25 @@ from auv_msgs_py.values.types import (
     NO_SPATIAL_CURRENT,
 )
 from auv_path_following.vehicle import Vehicle
+
+
+class Inputs(NamedTuple):
+    """Input of one step. `water` is None where no fresh value is known; `dt` in s, `stamp` in ns.
+
+    `water_age`, `current_age`: s; before the first message, time since the first odometry.
+    `moved`: whether this navigation does not continue the last one.
+    `altitude`: range to the bottom along body z, m; NaN where no fresh one is known.
+    """
+
+    navigation: Any
+    water: Any | None
+    water_age: float
+    current: Any
+    current_age: float
+    dt: float
+    stamp: int
+    moved: bool
+    altitude: float = math.nan
 
 
 class Readings(NamedTuple):
