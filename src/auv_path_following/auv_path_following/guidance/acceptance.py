@@ -125,6 +125,6 @@ def reach(cornering: Cornering, lookahead: float, Ur: float, current: Current) -
 
 @pure
 def crab_angle(chi: float, Ur: float, current: Current) -> float:
-    """Return the heading on a straight course `chi` less the course, rad: theta_n of Eq. (31) is its sine."""
+    """Return the crab angle (heading less course) on a course `chi`, rad; its sine is theta_n of Eq. (31)."""
     across = (-math.sin(chi) * current.Vx + math.cos(chi) * current.Vy) / Ur
     return -math.asin(min(max(across, -_LARGEST_SHARE), _LARGEST_SHARE))

@@ -31,9 +31,7 @@ LEGS = 4
 class ApproachConfig:
     """Approach to the start of the path."""
 
-    enabled: bool = setting(
-        True, "a mission that begins away from its path's start flies there first", live=True
-    )
+    enabled: bool = setting(True, "a vehicle away from the path's start flies there first", live=True)
     radius: float = setting(
         0.0, "radius of the turns; 0: from hull and look-ahead", unit="m", ge=0.0, le=1e5, live=True
     )

@@ -31,7 +31,7 @@ from auv_path_following.guidance.virtual_point import (
     tangential_speed,
 )
 
-#: Longest time between two steps that counts, s: motion in a longer gap is not assumed.
+#: Largest time step, s: in a longer gap no further motion is assumed.
 LONGEST_STEP = 1.0
 
 
@@ -40,7 +40,7 @@ class FollowerConfig(NamedTuple):
 
     Attributes:
         law: configuration of the chosen law.
-        law_begins: its state at the beginning.
+        law_begins: its initial state.
         compensate_current: use the estimated current.
         minimum_speed: below it beta_r and alpha are 0, m/s.
         k, saturation: of the virtual point (1/s, m).

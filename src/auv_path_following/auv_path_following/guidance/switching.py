@@ -48,7 +48,7 @@ class SwitchingConfig:
     )
     lead: float = setting(
         1.0,
-        "time by which turns of this rate begin earlier, for its limits of acceleration and jerk",
+        "lead time of these turns, for their limits of acceleration and jerk",
         unit="s",
         ge=0.0,
         le=60.0,
@@ -125,9 +125,9 @@ def reached(
 ) -> bool:  # fmt: skip
     """Return whether to follow the next subpath, Eq. (44), for subpaths of any length and shape.
 
-    A subpath that returns to its start has its joint there, inside whose circle the vehicle starts: only the
-    last stretch of a subpath counts. At least half of a subpath shorter than the circle (between dense
-    waypoints) is followed, so that P does not run ahead from one circle to the next.
+    Only the last stretch of a subpath counts, because a subpath that returns to its start begins inside the
+    circle at its end. At least half of a subpath shorter than the circle (between dense waypoints) is
+    followed, so that P does not skip from one circle to the next.
 
     Args:
         circles: of the path.

@@ -96,8 +96,8 @@ Place = tuple[int, float, bool, float]
 def moved(path: PathRows, P: VirtualPoint, dt: float) -> Place:
     """Return where P is after `dt` seconds, Eq. (43).
 
-    Departs from Eq. (43), which sets P to the start of the next subpath: the rest of the step's way is
-    carried over as length, over as many subpaths as it takes. The time is linear in the subpaths passed.
+    Departs from Eq. (43), which sets P to the start of the next subpath: the rest of the step is carried over
+    as length, over any number of subpaths. The time is linear in the subpaths passed.
     """
     i, t, t_rate, metres_per_t, finished = P
     t += t_rate * dt
@@ -110,7 +110,7 @@ def moved(path: PathRows, P: VirtualPoint, dt: float) -> Place:
 
 @pure
 def passed_on(path: PathRows, i: int, way: float) -> Place:
-    """Return the place `way` metres behind the end of subpath `i`: on a later one, or the end of the path."""
+    """Return the place `way` metres beyond the end of subpath `i`: on a later one, or the end of the path."""
     if i + 1 >= path.n:
         return i, 1.0, True, way
     return advanced(path, i + 1, way)

@@ -28,11 +28,11 @@ from auv_sim.sim_parameters import RecorderParameters
 _PRIORITY = -10
 #: Period of fetching all messages unless the simulator requests it, s.
 _POLL = 0.02
-#: The same once the simulator requests it: what comes after its last request waits for this long, s.
+#: The same once the simulator requests it: messages after its last request wait for this long, s.
 _POLL_BESIDE = 0.1
 #: Period of looking for new topics and publishers, s; in lockstep no contract topic needs it to be short.
 _LOOK_AROUND, _SELDOM = 0.25, 1.0
-#: Silence after a requested stop from which on no message is under way, s.
+#: Silence that shows, after a requested stop, that no message is in flight, s.
 _QUIET = 0.2
 #: With simulated time: most messages kept until the first /clock.
 _EARLY_LIMIT = 10_000

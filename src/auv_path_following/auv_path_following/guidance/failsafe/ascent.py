@@ -23,11 +23,11 @@ _WORDS = {
     TOO_LONG: "given up: it took too long",
     NAVIGATION_ENDED: "given up: no odometry",
 }
-#: This close to the surface depth the vehicle is there, m.
+#: Distance from the surface depth within which the vehicle is at the surface, m.
 THERE = 0.3
-#: Progress of an ascent: this much less depth, m.
+#: Decrease of the depth that counts as progress of an ascent, m.
 _STEP = 0.5
-#: An ascent that goes this much deeper does not rise, m: after a dive some of it is momentum.
+#: Increase of the depth at which an ascent has failed, m: less may be the momentum of a dive.
 _DEEPER = 5.0
 #: Distance over which the climb ends at the surface, m.
 _LEVELLING = 3.0
@@ -38,7 +38,7 @@ When = Literal["never", "sinks", "always"]
 @numbers
 @settings
 class AscentConfig:
-    """Driven ascent of a vehicle with stern planes, whose mission a limit has ended."""
+    """Driven ascent of a vehicle with stern planes after a limit has ended its mission."""
 
     when: When = setting(
         "sinks",
@@ -73,7 +73,7 @@ class Ascent(NamedTuple):
     Attributes:
         values: settings.
         always: whether every limit is followed by an ascent.
-        if_sunk: whether the limit of sinking is.
+        if_sunk: whether an ascent follows the limit of sinking.
         surface: depth.surface of the vehicle file, m.
         steepness: theta_max(u).
     """
@@ -98,10 +98,10 @@ class AscentState(NamedTuple):
     Attributes:
         phase: one of the phases.
         psi: heading that is kept, rad.
-        z: depth, m: measured, or counted from the beginning where the measured one is not trusted.
+        z: depth, m: measured, or by pitch and speed where the measured one is not trusted.
         trusts: whether the measured depth is trusted.
         time: since the beginning, s.
-        least, since: least depth so far (m), and time since it last was `_STEP` less, s.
+        least, since: least depth so far (m), and time since it last decreased by `_STEP`, s.
         there: time since the surface was reached, s; negative: not yet.
     """
 
@@ -160,8 +160,8 @@ def begun(reason: Reason, z: float, psi: float) -> AscentState:
     """Return the state at the beginning of an ascent.
 
     Args:
-        reason: of the ascent. Where it is the depth, that is counted by pitch and speed, from the measured
-            one without its sign and with twice the error that was found: rather too long than too short.
+        reason: of the ascent. Where it is the depth, the ascent integrates pitch and speed, beginning at the
+            magnitude of the measured depth plus twice the error found: it ends late rather than early.
         z, psi: measured depth (m) and heading (rad).
     """
     trusts = reason.cause != DEPTH_DOUBTED

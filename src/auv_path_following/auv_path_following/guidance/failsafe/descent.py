@@ -1,4 +1,4 @@
-"""Watch a vehicle that dives while no thrust is requested: does it sink? No ROS, no clock."""
+"""Detect a vehicle that sinks while no thrust is requested. No ROS, no clock."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class DescentWatch:
         self._has_driven = False
 
     def update(self, config: DiveLimitsConfig, z: float, thrust: float) -> str:
-        """Return what is wrong; empty: nothing.
+        """Return a line about a vehicle that sinks, else an empty text.
 
         Args:
             config: `hold_sink` bounds the increase of the depth.

@@ -42,10 +42,10 @@ class DiveLimitsState(NamedTuple):
 
     Attributes:
         tilted, slow, broached, stalled: time for which each has lasted, s.
-        has_been_fast: whether the vehicle has been faster than the slowest speed since it last rested.
+        has_been_fast: whether the vehicle has been faster than its minimum speed since it last rested.
         has_dived: whether it has been below its surface depth.
         least: least difference from the requested depth since it was last within the tolerance, m.
-        z: depth at the last step, m; NaN: none that the next one continues.
+        z: depth at the last step, m; NaN if the next depth does not continue it.
         deeper, shallower: how much deeper or shallower the measured depth has become than pitch and speed
             explain, m.
         held_at, deepest: depth at which a hold began, and the greatest one since, m; NaN: it does not hold.
@@ -95,7 +95,7 @@ class DiveInputs(NamedTuple):
 
 @pure
 def first_of(reason: Reason, other: Reason) -> Reason:
-    """Return the first of two reasons that is one."""
+    """Return the first of two reasons that is not `NO_REASON`."""
     return reason if reason.cause != NO_REASON.cause else other
 
 

@@ -1,4 +1,4 @@
-"""How a mission ends that a limit has ended: at once, or after a driven ascent."""
+"""How a limit ends a mission: at once, or after a driven ascent."""
 
 from __future__ import annotations
 
@@ -120,7 +120,7 @@ def end_after_ascent(
 ) -> tuple[GuardState, tuple[MissionStatus, SpatialOutput]]:
     """Judge the dive; begin, continue and end the ascent.
 
-    While the vehicle ascends the mission is `running` for the reason that has ended it.
+    While the vehicle ascends, the mission is `running`, and its reason names the limit.
     """
     mission, measured, output, reason, follows, rests = seen
     limits, rise = state

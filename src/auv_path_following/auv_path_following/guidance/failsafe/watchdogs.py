@@ -19,9 +19,9 @@ from auv_path_following.missions.mission_state import (
 )
 from auv_path_following.navigation.levelled import levelled
 
-#: A depth error has become smaller when it has lost this much, m.
+#: Decrease of a depth error that counts as progress, m.
 _CLOSER = 0.25
-#: A request this much below the surface depth is one to be under water, m.
+#: Distance below the surface depth from which a requested depth is under water, m.
 _UNDER_WATER = 0.3
 
 
@@ -31,11 +31,11 @@ class DiveLimitsConfig:
     """Limits that end the mission of a vehicle with stern planes. 0 is no limit."""
 
     roll_deg: float = setting(
-        60.0, "largest roll, of longer than tilt_after: rudder and planes change roles; 0: any", unit="deg",
+        60.0, "largest roll for longer than tilt_after (rudder and planes change roles); 0: any", unit="deg",
         ge=0.0, le=180.0, live=True,
     )  # fmt: skip
     pitch_deg: float = setting(
-        60.0, "largest pitch, of longer than tilt_after; 0: any", unit="deg", ge=0.0, le=90.0, live=True
+        60.0, "largest pitch for longer than tilt_after; 0: any", unit="deg", ge=0.0, le=90.0, live=True
     )
     tilt_after: float = setting(
         1.0, "roll or pitch beyond its limit for this long ends the mission", unit="s", ge=0.0, live=True
@@ -69,7 +69,7 @@ class DiveLimitsConfig:
         unit="m", ge=0.0, live=True,
     )  # fmt: skip
     depth_rate_error: float = setting(
-        0.3, "by which depth and pitch may differ always: upwelling, and sensors", unit="m/s", gt=0.0,
+        0.3, "rate at which depth and pitch may always differ: upwelling, sensor errors", unit="m/s", gt=0.0,
         live=True,
     )  # fmt: skip
     hold_sink: float = setting(
@@ -90,7 +90,7 @@ def sinking_of(phi: float, theta: float, ur: float, vr: float, wr: float) -> flo
 def judge_tilt(
     c: DiveLimitsConfig, since: float, phi: float, theta: float, dt: float
 ) -> tuple[float, Reason]:
-    """Judge roll and pitch (rad): return for how long one is beyond its limit (s), and a reason to end."""
+    """Judge roll and pitch (rad): return how long one has been beyond its limit (s), and a reason to end."""
     roll, pitch = math.degrees(abs(phi)), math.degrees(abs(theta))
     rolled, pitched = roll > c.roll_deg > 0.0, pitch > c.pitch_deg > 0.0
     if not (rolled or pitched):
@@ -153,8 +153,8 @@ def judge_depth(
 ) -> tuple[tuple[float, float, float], Reason]:
     """Compare the change of the measured depth (m) with the sinking by pitch and speed (m/s).
 
-    A cumulative sum to either side: it forgets at `depth_rate_error`, so an upwelling below that never adds
-    up, and a depth that is frozen or of the wrong sign does as soon as the vehicle climbs or dives.
+    A cumulative sum to either side decays at `depth_rate_error`, so a smaller upwelling never adds up. A
+    depth that is frozen or of the wrong sign does, as soon as the vehicle climbs or dives.
     """
     last, deeper, shallower = state
     if math.isnan(last):

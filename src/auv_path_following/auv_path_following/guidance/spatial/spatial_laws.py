@@ -55,7 +55,7 @@ def current_along(current: Vector, chi: float, gamma: float) -> Vector:
 
 @pure
 def spatial_speed(k: float, xe: float, psi: float, flow: Levelled, tangent: Tangent, Vt: float) -> float:
-    """Return U_P, Eq. (3D-16), m/s: valid at rest too, because no drift angle stands in it.
+    """Return U_P, Eq. (3D-16), m/s: valid at rest too, because it contains no drift angle.
 
     Args:
         k: gain, 1/s.

@@ -17,7 +17,7 @@ class AltitudeConfig:
     """Filter of the bottom, and the response to a lost echo."""
 
     bandwidth: float = setting(
-        1.0, "of the tracker that smooths the bottom's depth", unit="1/s", gt=0.0, le=10.0, live=True
+        1.0, "bandwidth of the bottom's tracker", unit="1/s", gt=0.0, le=10.0, live=True
     )
     damping: float = setting(0.7, "damping ratio of the tracker", gt=0.1, le=5.0, live=True)
     patience: float = setting(
@@ -26,8 +26,8 @@ class AltitudeConfig:
     )  # fmt: skip
     largest_drop: float = setting(
         5.0,
-        "a bottom that is deeper than the tracked one by more than this is no echo, until it has lasted for"
-        " patience: a false echo must not lead down",
+        "a bottom deeper than the tracked one by more than this is ignored until it has lasted"
+        " for patience, so that a false echo does not lead down",
         unit="m", gt=0.0, live=True,
     )  # fmt: skip
 
@@ -83,7 +83,7 @@ class VerticalState(NamedTuple):
         depth: requested, m.
         silent: time since the last echo, s.
         heard_at: depth of the vehicle at the last echo, m.
-        dropped: time for which the bottom has been too deep to be true, s.
+        dropped: time for which the bottom has been deeper than `largest_drop` allows, s.
     """
 
     begun: bool = False
@@ -166,7 +166,7 @@ def echo(
     Args:
         mode, state: of the vertical plane.
         altitude: range to the bottom, m.
-        there: depth at which that puts the bottom, m.
+        there: depth of the bottom by this range, m.
         dt: seconds since the last step.
     """
     if not 0.0 < altitude < math.inf:  # NaN is no echo

@@ -31,17 +31,17 @@ _FILES: dict[str, config_files.Kind] = {
 class FleetVehicle:
     """One vehicle of a fleet; what its mission's command line would name."""
 
-    namespace: str = setting(doc="of its nodes, unlike the others'")
+    namespace: str = setting(doc="namespace of its nodes, different from all others")
     mission: str = setting(doc="mission file, or the name of a shipped one")
     vehicle: str = setting(DEFAULT_VEHICLE, "vehicle file, or the name of a shipped one")
-    controller_model: str | None = setting(None, "the nodes' model of the hull, where it is another one")
+    controller_model: str | None = setting(None, "vehicle file that the nodes use, if it differs")
     params: str | None = setting(None, "parameter file, or rule; by default what the vehicle's file names")
     initial: tuple[float, float, float] | None = setting(
         None, "start: north, east (m), heading (deg); by default the path's start"
     )
     depth: float | None = setting(None, "start level at this depth", unit="m", ge=0.0)
     seed: int | None = setting(
-        None, "of all that is random; by default the fleet's and the place in it", ge=0
+        None, "seed of the sea; by default from the fleet's and the place in the file", ge=0
     )
     switching: SwitchingMode | None = setting(None, f"joints with a circle: {LISTED}")
 
@@ -55,10 +55,10 @@ class Fleet:
     )
     name: str = setting(doc="name of the fleet")
     description: str = setting("", "description")
-    current: Pair | None = setting(None, "constant current of all, towards north and east", unit="m/s")
-    upwelling: float | None = setting(None, "constant current upwards, for those that dive", unit="m/s")
-    sea: str | None = setting(None, "sea file of all, or the name of a shipped one")
-    seed: int = setting(0, "of all that is random in the sea", ge=0)
+    current: Pair | None = setting(None, "constant current, towards north and east", unit="m/s")
+    upwelling: float | None = setting(None, "constant current upwards, for vehicles that dive", unit="m/s")
+    sea: str | None = setting(None, "sea file, or the name of a shipped one")
+    seed: int = setting(0, "seed of the sea", ge=0)
     bags: Literal["each", "one"] = setting("each", "each: a bag for each vehicle; one: one bag for all")
     vehicles: tuple[FleetVehicle, ...] = setting(doc="the vehicles")
 

@@ -28,7 +28,7 @@ _CLOCK_MODULE = "auv_sim.nodes.fleet.fleet_clock_node"
 
 
 def fly(plan: FleetPlan, domain: int, progress: FleetProgress, loader: Starter) -> dict[str, Outcome]:
-    """Fly all missions; return how each vehicle's ended.
+    """Fly all missions; return the outcome of each vehicle.
 
     Args:
         plan: what to fly.

@@ -1,4 +1,4 @@
-"""The console as a child of the launcher: a mission needs it at no time."""
+"""The console as a child of the launcher; the mission does not depend on it."""
 
 from __future__ import annotations
 

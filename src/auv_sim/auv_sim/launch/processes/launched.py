@@ -33,7 +33,7 @@ class Launched:
         return UNKNOWN_CODE if select.select([self._handle], [], [], 0.0)[0] else None
 
     def wait(self, timeout: float | None = None) -> int:
-        """Wait for its end; return `UNKNOWN_CODE`, at once if it never was.
+        """Wait for its end; return `UNKNOWN_CODE`, at once if it never existed.
 
         Raises:
             subprocess.TimeoutExpired: it has not ended within `timeout` s.
@@ -43,7 +43,7 @@ class Launched:
         return UNKNOWN_CODE
 
     def send_signal(self, sig: int) -> None:
-        """Send a signal, unless it has ended or never was."""
+        """Send a signal, unless it has ended or never existed."""
         if self._found():
             with contextlib.suppress(ProcessLookupError):
                 signal.pidfd_send_signal(self._handle, sig)

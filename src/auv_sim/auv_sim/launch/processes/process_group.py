@@ -17,7 +17,7 @@ from auv_sim.launch.processes.kin import end_with_parent
 
 #: In place of an exit code that only the parent of a process can read.
 UNKNOWN_CODE = 256
-#: Children that show the mission to people; it goes on without them.
+#: Children that only display the mission; it continues without them.
 _FOR_PEOPLE = (topics.DISPLAY, topics.CONSOLE)
 
 

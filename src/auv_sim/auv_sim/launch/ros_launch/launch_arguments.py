@@ -16,7 +16,7 @@ from auv_sim.cli.mission import parser_of_one
 
 #: What `mission_supervisor` prints before the name of the nodes' launch file once they may enter the graph.
 READY = "nodes to launch: "
-#: Options that mean something on a real vehicle or on an emulated one.
+#: Options that apply to a real or an emulated vehicle.
 _OF_VEHICLE = (
     "mission", "vehicle", "controller_model", "params", "switching", "vehicle_driver", "vehicle_address",
     "use_sim_time", "display", "out", "namespace", "domain", "force", "start_at",

@@ -67,7 +67,7 @@ class NodesFile:
 def launch_file(environment: Mapping[str, str], nodes: Sequence[tuple[str, str, Sequence[str], str]]) -> str:
     """Return the launch file for nodes, with the arguments and variables that the launcher gives them.
 
-    The nodes do not look at the graph themselves, because the supervisor has, and holds a claim.
+    The nodes do not examine the graph, because the supervisor has done so and holds a claim.
 
     Args:
         environment: variables for all of them.

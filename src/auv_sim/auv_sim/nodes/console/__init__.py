@@ -1,1 +1,1 @@
-"""The console's half on the graph: what it hears, and what it calls."""
+"""The console's ROS side: its subscriptions and service calls."""

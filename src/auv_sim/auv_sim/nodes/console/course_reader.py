@@ -21,7 +21,7 @@ _NOT_CHECKED = PlanLines(True, ("the mission's file is not on this machine: its 
 
 
 class CourseReader:
-    """Collects the course of the present mission; until its file was checked its plan refuses a start.
+    """Collects the course of the present mission; a start is refused until its file has been checked.
 
     Args:
         record: of the vehicle.

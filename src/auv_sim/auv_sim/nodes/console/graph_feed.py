@@ -1,4 +1,4 @@
-"""Everything that the console hears: vehicles by their namespaces, and the topics that all nodes share."""
+"""All subscriptions of the console: vehicles by their namespaces, and the topics that all nodes share."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _ROSOUT = Topic("/rosout", "rcl_interfaces/msg/Log", "every node", latched=True)
 _PARAMETER_EVENTS = Topic("/parameter_events", "rcl_interfaces/msg/ParameterEvent", "every node")
 _INFO = 20
 _LEVELS = ((40, "error"), (30, "warning"))
-#: A vehicle is where its state is published.
+#: A namespace with this topic is a vehicle.
 _SIGN = f"/{topics.MISSION_STATE.name}"
 
 

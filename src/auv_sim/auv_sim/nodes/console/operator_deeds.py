@@ -35,7 +35,7 @@ class OperatorDeeds:
         node: of the console; its log is the record of what was done.
         caller: of the services.
         shelf: of the missions.
-        is_here: returns whether a browser, by its number, is still there.
+        is_here: returns whether a browser, by its number, is still connected.
     """
 
     def __init__(
@@ -80,7 +80,7 @@ class OperatorDeeds:
         record.events.add(text, self._node.get_name(), level, record.progress.mission_time, time.time())
 
     def _may_send(self, record: VehicleRecord, viewer: int) -> Callable[[], bool]:
-        """Return what says whether a request of now still counts: no abort came, and its browser is there."""
+        """Return a check that a request made now still counts: no abort came, its browser is connected."""
         namespace, aborts = record.namespace, self._aborts[record.namespace]
         return lambda: self._aborts[namespace] == aborts and self._is_here(viewer)
 
@@ -191,7 +191,7 @@ class OperatorDeeds:
             self._node.destroy_publisher(publisher)
 
     def prepare(self, namespace: str) -> None:
-        """Make what a vehicle's requests need: an endpoint that is made for one is not discovered yet."""
+        """Create the endpoints for a vehicle's requests early: a new endpoint is not discovered yet."""
         self._caller.prepare(namespace)
         self.desk(namespace).prepare()
 

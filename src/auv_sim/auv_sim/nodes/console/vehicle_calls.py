@@ -22,7 +22,7 @@ _DISCOVERY = 1.0
 
 
 class CallFailed(SuiteError):
-    """A service is not offered, does not answer, or was not called any more."""
+    """A service is not offered or does not answer, or its call was cancelled."""
 
 
 def _always() -> bool:
@@ -86,7 +86,7 @@ class ServiceCaller:
         return future.result()
 
     def _is_offered(self, name: str) -> bool:
-        """Return whether the graph has a service, be its node matched with this one yet or not."""
+        """Return whether the graph has a service, whether or not its node has been matched yet."""
         return any(found == name for found, _ in self._node.get_service_names_and_types())
 
     async def trigger(

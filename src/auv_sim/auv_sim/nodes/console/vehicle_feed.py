@@ -1,4 +1,4 @@
-"""The topics of one vehicle, polled: but for the state their queues hold one message, at any speed."""
+"""The topics of one vehicle, polled; all queues but that of the state hold one message."""
 
 from __future__ import annotations
 
@@ -120,7 +120,7 @@ class VehicleFeed:
             return True
         name = topics.full_name(self.record.namespace, topics.ODOM.name)
         found = self._node.get_publishers_info_by_topic(name)
-        if not found:  # the graph's news are behind the message
+        if not found:  # the graph lags behind the message
             self._sought += 1
             return bool(self._publisher) or self._sought > _MOST_LOOKS
         identity = "|".join(sorted(bytes(info.endpoint_gid).hex() for info in found))

@@ -47,7 +47,7 @@ def points(places: Iterable[Place]) -> list[Point]:
 
 
 def mission_markers(path: Sequence[Place], joints: Sequence[Place], fence: Sequence[Place]) -> list[Marker]:
-    """Return the markers that do not move; what there is none of is deleted.
+    """Return the markers that do not move; those without content are deleted.
 
     Args:
         path: its points.

@@ -1,9 +1,9 @@
 """fleet_clock: the one /clock of several simulated vehicles in a graph.
 
-In lockstep each vehicle has a chain of its own, and nothing that one computes depends on another. So they
-need no common step: a vehicle may be `FLEET_LEAD_NS` ahead of /clock, and /clock stands where the last one
-is. A barrier at each step would cost two messages a vehicle and step, and every vehicle would wait for the
-slowest; a report twice a second costs a tenth of it, and the tracks have the same bits.
+In lockstep each vehicle has its own chain, and no result depends on another vehicle, so no common step is
+needed: /clock follows the slowest vehicle, and the others may be `FLEET_LEAD_NS` ahead. A barrier at each
+step would cost two messages for each vehicle, and all would wait for the slowest. A report twice a second
+costs a tenth of that, and the tracks are bit-identical.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """One bag for all vehicles of a fleet: a recorder for each of them in one process, with one writer.
 
 Each simulator waits for the recorder of its own namespace, as it does alone. The first recorder owns the
-bag: it flushes and closes it, and it alone records /clock and the lines of nodes that are of no vehicle.
+bag: it flushes and closes it, and it alone records /clock and the lines of nodes that belong to no vehicle.
 """
 
 from __future__ import annotations

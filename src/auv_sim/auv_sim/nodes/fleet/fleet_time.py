@@ -15,7 +15,7 @@ class FleetTime:
     """The latest time that every vehicle under way has reached.
 
     A vehicle that holds, or whose mission is over, takes no steps in lockstep, so the others do not wait for
-    it. One that has not begun holds the time: all begin together.
+    it. One that has not begun stops the time, so that all begin together.
 
     Args:
         vehicles: their names.
@@ -37,7 +37,7 @@ class FleetTime:
         self._reached[vehicle] = stamp
 
     def enter(self, vehicle: str, state: str) -> None:
-        """Note the state of a vehicle's mission; one that has begun is not before its mission again."""
+        """Note the state of a vehicle's mission; a mission that has begun stays begun."""
         if state not in _BEFORE or self._states[vehicle] in _BEFORE:
             self._states[vehicle] = state
 

@@ -1,4 +1,4 @@
-"""Hands the contract's topics to Foxglove as they are on the wire: raw CDR with its definition. Read-only.
+"""Pass the contract's topics to Foxglove as they are on the wire: raw CDR with its definition. Read-only.
 
 The SDK's server accepts a connection from any web page that is open on the machine, whatever its origin, and
 has no hook to refuse one. So it offers the capability of time alone: no client can publish, call or set.
@@ -18,7 +18,7 @@ from auv_sim.command_line import EXIT_DONE, say
 from auv_sim.nodes.display import display_topics
 
 _ROSOUT = Topic("/rosout", "rcl_interfaces/msg/Log", "every node")
-#: What is handed on.
+#: Topics that are passed on.
 SHOWN = (
     *topics.CONTRACT, *topics.SPATIAL_CONTRACT, display_topics.MARKERS, display_topics.LIVE_MARKERS,
     _ROSOUT,
