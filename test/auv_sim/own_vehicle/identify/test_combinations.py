@@ -19,8 +19,8 @@ from auv_sim.own_vehicle.identify.combinations import (
     prior_of,
     scaled_hull,
 )
+from auv_sim.own_vehicle.identify.filter.planar_filter import planar_accelerations
 from auv_sim.own_vehicle.identify.hull_abilities import pole_of, speed_of
-from auv_sim.own_vehicle.identify.planar_filter import planar_accelerations
 from auv_sim.own_vehicle.identify.study.random_hulls import random_vehicle
 from auv_sim.vehicle.remus import planar_hull_of, planar_slopes
 

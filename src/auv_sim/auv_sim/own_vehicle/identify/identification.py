@@ -17,6 +17,8 @@ from auv_sim.own_vehicle.identify.dive.dive_data import DiveData
 from auv_sim.own_vehicle.identify.innovations import Channels, Recording, channels_of
 from auv_sim.own_vehicle.identify.intervals import Covariances, spread_of
 from auv_sim.own_vehicle.identify.minimise import Minimised, minimise
+from auv_sim.own_vehicle.identify.model_errors import with_model_errors
+from auv_sim.own_vehicle.identify.servo_search import search_servo
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
 from auv_sim.own_vehicle.identify.unknowns import ALL, LATENCY, DataSheet, Scaling
 
@@ -30,9 +32,8 @@ DEAD_BANDS = (0.0, 0.1, 0.2, 0.3, 0.5)
 #: of u, v, r in a second: it follows the measurements, and its likelihood has few local minima. Those that
 #: are left differ with the time.
 _BEGINS, _GROWTH = (150.0, math.inf), (1e-2, 1e-3, 1e-4)
-#: Factors on the growth of the filter's variances: errors of the model. The next one is taken where it lowers
-#: the cost by more than this.
-_MODEL_ERRORS, _BETTER = (100.0, 1e4), 10.0
+#: The prior is widened where the unknowns lie this far from its mean (rms, standard deviations).
+_FAR = 1.5
 #: A found latency that differs by more from the grid's gets a grid of its own, s.
 _NEAR = 0.005
 
@@ -120,17 +121,21 @@ def best_of(
         dead_band, progress: as for `identify`.
     """
     bands = [math.radians(band) for band in DEAD_BANDS] if dead_band is None else [dead_band]
-    total = len(starts) + len(bands) + 2
+    total = len(starts) + len(bands) + 3
     found = _from_starts(recordings, starts, sheet, bands[min(1, len(bands) - 1)], progress, total)
     misfits = [estimate.misfit for _, estimate in found]
-    scaling, estimate = found[int(np.argmin(misfits))]
+    scaling, estimate = min(found, key=_evidence)
     tried = []
     for k, band in enumerate(bands):
         progress(len(starts) + k, total, "dead band")
         tried.append(_again(recordings, scaling, estimate, band))
     channels, estimate = min(tried, key=lambda one: one[1].cost)
+    progress(total - 3, total, "starts with the servo found")
+    scaling, estimate = _anew(channels, scaling, estimate, [prior for prior, _ in starts])
     progress(total - 2, total, "errors of the model")
-    channels, estimate = _with_model_errors(channels, scaling, estimate)
+    channels, estimate = with_model_errors(channels, scaling, estimate)
+    channels, estimate = search_servo(channels, scaling, estimate, dead_band is not None)
+    channels, estimate = with_model_errors(channels, scaling, estimate)
     scaling, estimate = _widened(channels, scaling, estimate)
     progress(total - 1, total, "intervals")
     spread = spread_of(channels, scaling, estimate)
@@ -161,6 +166,25 @@ def _from_starts(
     return found
 
 
+def _evidence(found: tuple[Scaling, Minimised]) -> float:
+    """Return the negative logarithm of likelihood and prior, for a comparison of different priors."""
+    scaling, estimate = found
+    return estimate.cost + float(np.log(np.diag(scaling.prior.root)).sum())
+
+
+def _anew(
+    channels: Channels, scaling: Scaling, estimate: Minimised, priors: Sequence[Prior]
+) -> tuple[Scaling, Minimised]:
+    """Return the best of an estimate and of minimisations from the mean of each prior, with its servo."""
+    found = [(scaling, estimate)]
+    for prior in {id(prior): prior for prior in priors}.values():
+        own = scaling._replace(prior=prior)
+        z = estimate.z.copy()
+        z[:COUNT] = 0.0
+        found.append((own, minimise(channels, own, z, first=estimate.deviations)))
+    return min(found, key=_evidence)
+
+
 def _following(data: Recording, seconds: float, sheet: DataSheet, dead_band: float) -> Channels:
     """Return the channels of the first `seconds`, with a filter that follows the measurements."""
     channels = channels_of([data.between(data.t[0] - 1.0, data.t[0] + seconds)], sheet, dead_band)
@@ -171,26 +195,12 @@ def _widened(channels: Channels, scaling: Scaling, estimate: Minimised) -> tuple
     """Return an estimate whose prior is as wide as the hull differs from the known one, if it does."""
     for _ in range(2):
         factor = math.sqrt(float(np.mean(estimate.z[:COUNT] ** 2)))
-        if factor < 1.0:
+        if factor < _FAR:
             break
-        wider = scaling._replace(prior=scaling.prior._replace(root=scaling.prior.root * max(factor, 1.1)))
+        wider = scaling._replace(prior=scaling.prior._replace(root=scaling.prior.root * factor))
         z = wider.scaled(scaling.physical(estimate.z))
         scaling, estimate = wider, minimise(channels, wider, z, first=estimate.deviations)
     return scaling, estimate
-
-
-def _with_model_errors(
-    channels: Channels, scaling: Scaling, estimate: Minimised
-) -> tuple[Channels, Minimised]:
-    """Return the estimate of the filter that predicts best, of filters that trust the model less and less."""
-    best, growth = (channels, estimate), np.array(channels.noise[3:6])
-    for factor in _MODEL_ERRORS:
-        own = channels._replace(noise=(*channels.noise[:3], *(factor * growth), *channels.noise[6:]))
-        found = minimise(own, scaling, best[1].z, first=best[1].deviations)
-        if found.cost > best[1].cost - _BETTER:
-            break
-        best = own, found
-    return best
 
 
 def _again(

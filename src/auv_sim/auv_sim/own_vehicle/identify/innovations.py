@@ -14,8 +14,8 @@ from auv_sim.own_vehicle.identify.combinations import COUNT, SCALE_POWERS, Numbe
 from auv_sim.own_vehicle.identify.dive.dive_combinations import DIVE_SCALE_POWERS
 from auv_sim.own_vehicle.identify.dive.dive_data import DiveData, dive_passage_of
 from auv_sim.own_vehicle.identify.dive.dive_filter import dive_innovations
-from auv_sim.own_vehicle.identify.exact_servo import fin_angles
-from auv_sim.own_vehicle.identify.planar_filter import planar_flight, planar_innovations
+from auv_sim.own_vehicle.identify.filter.exact_servo import fin_angles
+from auv_sim.own_vehicle.identify.filter.planar_filter import planar_flight, planar_innovations
 from auv_sim.own_vehicle.identify.time_grid import SAME, Passage, PlanarData, passage_of
 from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, HALF_PLAY, LATENCY, RATE, DataSheet
 
@@ -36,6 +36,7 @@ class Plane(NamedTuple):
         measured: names of the signals in the order of the states, for their noise.
         least: least standard deviations of those.
         growth: of the states' variances in a second: nearly none.
+        alike: groups of states whose growth is increased together where the model is in error.
         scale_powers: of the combinations, in the scale of the log.
         has_thrust: whether the first combination is that of the thrust.
     """
@@ -46,17 +47,18 @@ class Plane(NamedTuple):
     measured: tuple[str, str, str]
     least: tuple[float, float, float]
     growth: tuple[float, float, float]
+    alike: tuple[tuple[int, ...], ...]
     scale_powers: Numbers
     has_thrust: bool
 
 
 HORIZONTAL = Plane(
     compiled(planar_innovations), planar_innovations, passage_of, ("u", "v", "r"), (1e-3, 1e-3, 1e-4),
-    (1e-7, 1e-8, 1e-9), SCALE_POWERS, True,
+    (1e-7, 1e-8, 1e-9), ((0, 1, 2),), SCALE_POWERS, True,
 )  # fmt: skip
 VERTICAL = Plane(
     compiled(dive_innovations), dive_innovations, dive_passage_of, ("theta", "w", "q"), (1e-4, 1e-3, 1e-4),
-    (1e-9, 1e-7, 1e-8), DIVE_SCALE_POWERS, False,
+    (1e-9, 1e-7, 1e-8), ((0,), (1, 2)), DIVE_SCALE_POWERS, False,
 )  # fmt: skip
 
 
@@ -81,8 +83,17 @@ class Channels(NamedTuple):
     rows: Any
     blocks: Any
 
+    def with_noise(self, place: int, value: float) -> Channels:
+        """Return the channels with another number in `noise`."""
+        return self._replace(noise=(*self.noise[:place], float(value), *self.noise[place + 1 :]))
 
+
+#: Places in `Channels.noise`: growth of the first state's variance, variance of the fin's error.
+FIRST_GROWTH, FIN_VARIANCE = 3, 8
 _NO_STATES = np.zeros((0, 4))
+#: Standard deviation (rad) and time constant (s) of the error of a fin's angle, before any data. Without it
+#: the likelihood has more local minima.
+FIN_ERROR, _FIN_TIME = math.radians(0.012), 1.0
 #: Length of a block of correlated innovations, s.
 _BLOCK = 10.0
 
@@ -109,7 +120,8 @@ def channels_of(
         blocks.append(block)
     signals = zip(plane.measured, plane.least, strict=True)
     measured = [max(least, _white(recordings, name)) ** 2 for name, least in signals]
-    noise = (*measured, *plane.growth, sheet.thrust_drift**2, 1.0 / sheet.drift_time)
+    thrust, fin = (sheet.thrust_drift**2, 1.0 / sheet.drift_time), (FIN_ERROR**2, 1.0 / _FIN_TIME)
+    noise = (*map(float, measured), *plane.growth, *thrust, *fin)
     return Channels(plane, passages, noise, dead_band, latency, np.concatenate(rows), np.concatenate(blocks))
 
 
@@ -128,6 +140,14 @@ def innovations(channels: Channels, physical: Numbers) -> Numbers:
     """
     parts = [_of_passage(passage, channels, physical) for passage in channels.passages]
     return np.clip(np.nan_to_num(np.concatenate(parts), nan=1e6), -1e6, 1e6)
+
+
+def innovations_of(tries: Sequence[tuple[Channels, Numbers]]) -> list[Numbers]:
+    """Return the innovations of recordings for different filters and unknowns, one after the other."""
+    if not COMPILED:
+        return [innovations(*one) for one in tries]
+    with ThreadPoolExecutor(2) as pool:
+        return list(pool.map(lambda one: innovations(*one), tries))
 
 
 def filtered(passage: Passage, channels: Channels, physical: Numbers) -> Numbers:

@@ -97,7 +97,7 @@ def minimise(
         z = _round(channels, scaling, z, free, weights, steps)
         errors = innovations(channels, scaling.physical(z))
         deviations = deviations_of(errors, rows)
-        before, cost = cost, _cost(deviations, rows, z)
+        before, cost = cost, cost_of(errors, rows, z)
         progress()
         if abs(before - cost) < 0.05:
             break
@@ -105,9 +105,10 @@ def minimise(
     return Minimised(z, deviations, cost, misfit, errors * _weights(errors, deviations, rows))
 
 
-def _cost(deviations: Numbers, rows: NDArray[np.int64], z: Numbers) -> float:
+def cost_of(errors: Numbers, rows: NDArray[np.int64], z: Numbers) -> float:
+    """Return the negative logarithm of likelihood and prior, each channel over its own deviation."""
     counts = np.bincount(rows, minlength=3)
-    return float(counts @ np.log(deviations) + 0.5 * z @ z)
+    return float(counts @ np.log(deviations_of(errors, rows)) + 0.5 * z @ z)
 
 
 def _round(

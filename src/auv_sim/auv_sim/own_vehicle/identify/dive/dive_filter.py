@@ -10,7 +10,12 @@ from typing import Any
 import numpy as np
 
 from auv_msgs_py.values.pure import pure
-from auv_sim.own_vehicle.identify.planar_filter import spread, transition
+from auv_path_following.vehicle import GRAVITY
+from auv_sim.own_vehicle.identify.filter.filter_covariance import (
+    carried_covariance,
+    corrected,
+    transition,
+)
 
 
 @pure
@@ -57,11 +62,12 @@ def dive_rates(c: Any, given: Any, theta: Any, w: Any, q: Any, delta: Any) -> tu
     Args:
         c: the numbers of a `DiveCombinations`.
         given: surge (m/s), cosine of the roll, yaw rate times sine of the roll (rad/s), acceleration ahead
-            over that of gravity, and heave and pitch accelerations by the roll rate (m/s^2, rad/s^2).
+            without that by heave and pitch, over that of gravity, and heave and pitch accelerations by the
+            roll rate (m/s^2, rad/s^2).
         theta, w, q: rad, m/s, rad/s.
         delta: angle of the planes, rad.
     """
-    sin = np.sin(theta) + given[3]
+    sin = np.sin(theta) + given[3] + w * q / GRAVITY
     dw, dq = dive_accelerations(c, given[0], w, q, given[1] * np.cos(theta), sin, delta)
     return given[1] * q - given[2], dw + given[4], dq + given[5]
 
@@ -90,60 +96,48 @@ def dive_advance(c: Any, given: Any, x: Any, delta: Any, change: Any, h: Any) ->
 
 
 @pure
-def corrected_dive(p: Any, x: Any, row: Any, noise: Any, innovation: Any) -> Any:
-    """Return covariance and state after one measured number, as `planar_filter.corrected`."""
-    m0, m1, m2 = row
-    k0, k1, k2 = m0 / noise, m1 / noise, m2 / noise
-    p00, p01, p02, p11, p12, p22 = p
-    return (
-        (p00 - k0 * m0, p01 - k0 * m1, p02 - k0 * m2, p11 - k1 * m1, p12 - k1 * m2, p22 - k2 * m2),
-        (x[0] + k0 * innovation, x[1] + k1 * innovation, x[2] + k2 * innovation),
-    )
-
-
-@pure
 def dive_innovations(c: Any, noise: Any, grid: Any, means: Any, changes: Any, out: Any, states: Any) -> None:
-    """Fill in the innovations of theta, w and q of a recording.
+    """Fill in the innovations of theta, w and q of a recording; the planes' error is a further state.
 
     Args:
         c: a `DiveCombinations`, then the biases of gyro (rad/s), theta (rad) and w (m/s), then the time from
             a sample's node to the moment at which it was measured, s.
-        noise: variances of theta, w, q as measured, and their growth in a second; further ones are not used.
-        grid: `time_grid.Grid` as its arrays, with what `dive_rates` is given in
-            place of the thrust, the pitch rate in place of r,
-            and the pitch in place of u, at the nodes of the pitch rate.
+        noise: variances of theta, w, q as measured; their growth in a second; two that are not used; and
+            variance (rad^2) and inverse of the time constant (1/s) of the planes' error.
+        grid: `time_grid.Grid` as its arrays, with what `dive_rates` is given in place of the thrust, the
+            pitch rate in place of r, and the pitch in place of u, at the nodes of the pitch rate.
         means, changes: mean angle of the planes in each step and its change in it, rad.
         out: written, (m,) or (m, sets).
         states: written if it has rows: theta, w, q and 0 at each node, (n, 4).
     """
     step, begins, given, rate_row, rate, pitch_row, w_row, pitch, w_log = grid
-    noise_t, noise_w, noise_q, grow_t, grow_w, grow_q, _, _ = noise
-    gyro, bias, w_bias, lead = c[14], c[15], c[16], c[17]
-    zero = 0.0 * c[0]
+    noise_t, noise_w, noise_q, grow_t, grow_w, grow_q, _, _, fin, decay = noise
+    gyro, bias, w_bias, lead, zero = c[14], c[15], c[16], c[17], 0.0 * c[0]
     begin = (zero + noise_t, zero, zero, zero + noise_w, zero, zero + noise_q)
-    p, x = begin, (zero, zero, zero)
+    errors = (zero, zero, zero, zero, zero, zero, zero, zero, zero + fin)
+    p, a, x = begin, errors, (zero, zero, zero, zero, zero)
     for k in range(len(step)):
         if begins[k]:
-            p, x = begin, (zero + pitch[k] - bias, zero + w_log[k] - w_bias, zero + rate[k] - gyro)
-        u, level, delta, h = given[k][0], given[k][1], means[k], step[k]
+            x = (zero + pitch[k] - bias, zero + w_log[k] - w_bias, zero + rate[k] - gyro, zero, zero)
+            p, a = begin, errors
+        u, level, h = given[k][0], given[k][1], step[k]
         if rate_row[k] >= 0:
             innovation = rate[k] - gyro - x[2]
             out[rate_row[k]] = innovation
-            p, x = corrected_dive(p, x, (p[2], p[4], p[5]), p[5] + noise_q, innovation)
+            p, a, x = corrected(p, a, x, (p[2], p[4], p[5], a[2], a[6]), p[5] + noise_q, innovation)
             innovation = pitch[k] - bias - x[0]
             out[pitch_row[k]] = innovation
-            p, x = corrected_dive(p, x, (p[0], p[1], p[2]), p[0] + noise_t, innovation)
-        cos, sin = level * np.cos(x[0]), np.sin(x[0])
+            p, a, x = corrected(p, a, x, (p[0], p[1], p[2], a[0], a[4]), p[0] + noise_t, innovation)
         if w_row[k] >= 0:
-            _, dw, _ = dive_rates(c, given[k], x[0], x[1], x[2], delta)
+            _, dw, _ = dive_rates(c, given[k], x[0], x[1], x[2], means[k] + x[4])
             innovation = w_log[k] - w_bias - lead * dw - x[1]
             out[w_row[k]] = innovation
-            p, x = corrected_dive(p, x, (p[1], p[3], p[4]), p[3] + noise_w, innovation)
-            cos, sin = level * np.cos(x[0]), np.sin(x[0])
+            p, a, x = corrected(p, a, x, (p[1], p[3], p[4], a[1], a[5]), p[3] + noise_w, innovation)
         if len(states) > 0:
-            states[k, 0], states[k, 1], states[k, 2] = x
-        p00, p01, p02, p11, p12, p22 = spread(
-            p, transition(dive_jacobian(c, u, x[1], x[2], cos, sin, level), h)
-        )
-        p = (p00 + h * grow_t, p01, p02, p11 + h * grow_w, p12, p22 + h * grow_q)
-        x = dive_advance(c, given[k], x, delta, changes[k], h)
+            states[k, 0], states[k, 1], states[k, 2] = x[0], x[1], x[2]
+        f = transition(dive_jacobian(c, u, x[1], x[2], level * np.cos(x[0]), np.sin(x[0]), level), h)
+        gains = zero, h * c[4] * u * u, h * c[11] * u * u
+        held, growth = 1.0 - decay * h, (h * grow_t, h * grow_w, h * grow_q, zero, fin)
+        p, a = carried_covariance(p, a, f, gains, zero, held, growth)
+        theta, w, q = dive_advance(c, given[k], (x[0], x[1], x[2]), means[k] + x[4], changes[k], h)
+        x = (theta, w, q, zero, held * x[4])

@@ -9,18 +9,17 @@ from hypothesis import strategies as st
 
 from auv_path_following import vehicle as vehicle_file
 from auv_sim.own_vehicle.identify.combinations import combinations_of
+from auv_sim.own_vehicle.identify.filter.filter_covariance import spread, transition
+from auv_sim.own_vehicle.identify.filter.planar_filter import (
+    planar_accelerations,
+    planar_advance,
+    planar_jacobian,
+)
 from auv_sim.own_vehicle.identify.innovations import (
     _uncompiled,
     channels_of,
     innovations,
     many_innovations,
-)
-from auv_sim.own_vehicle.identify.planar_filter import (
-    planar_accelerations,
-    planar_advance,
-    planar_jacobian,
-    spread,
-    transition,
 )
 from auv_sim.own_vehicle.identify.study.simulated_data import planar_data
 from auv_sim.own_vehicle.identify.unknowns import DataSheet

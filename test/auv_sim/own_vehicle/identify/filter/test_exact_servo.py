@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from auv_path_following.vehicle import Rudder
-from auv_sim.own_vehicle.identify.exact_servo import fin_angles
+from auv_sim.own_vehicle.identify.filter.exact_servo import fin_angles
 from auv_sim.vehicle.fins.actuator import FlawedServoState, RudderFlaws, flawed_servo_of, turn_flawed
 
 PERIOD, FINE = 0.05, 0.0005

@@ -9,6 +9,11 @@ from __future__ import annotations
 from typing import Any
 
 from auv_msgs_py.values.pure import pure
+from auv_sim.own_vehicle.identify.filter.filter_covariance import (
+    carried_covariance,
+    corrected,
+    transition,
+)
 
 
 @pure
@@ -67,110 +72,27 @@ def planar_advance(
 
 
 @pure
-def transition(a: tuple[Any, ...], h: Any) -> tuple[Any, ...]:
-    """Return I + h A + h^2 A^2 / 2 of a 3 x 3 matrix A, both row after row."""
-    a0, a1, a2, a3, a4, a5, a6, a7, a8 = a
-    g = 0.5 * h * h
-    return (
-        1.0 + h * a0 + g * (a0 * a0 + a1 * a3 + a2 * a6),
-        h * a1 + g * (a0 * a1 + a1 * a4 + a2 * a7),
-        h * a2 + g * (a0 * a2 + a1 * a5 + a2 * a8),
-        h * a3 + g * (a3 * a0 + a4 * a3 + a5 * a6),
-        1.0 + h * a4 + g * (a3 * a1 + a4 * a4 + a5 * a7),
-        h * a5 + g * (a3 * a2 + a4 * a5 + a5 * a8),
-        h * a6 + g * (a6 * a0 + a7 * a3 + a8 * a6),
-        h * a7 + g * (a6 * a1 + a7 * a4 + a8 * a7),
-        1.0 + h * a8 + g * (a6 * a2 + a7 * a5 + a8 * a8),
-    )
-
-
-@pure
-def spread(p: tuple[Any, ...], f: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return F P F' of a covariance, given and returned as its upper triangle, row after row."""
-    p00, p01, p02, p11, p12, p22 = p
-    f0, f1, f2, f3, f4, f5, f6, f7, f8 = f
-    b0, b1, b2 = (
-        f0 * p00 + f1 * p01 + f2 * p02,
-        f0 * p01 + f1 * p11 + f2 * p12,
-        f0 * p02 + f1 * p12 + f2 * p22,
-    )
-    b3, b4, b5 = (
-        f3 * p00 + f4 * p01 + f5 * p02,
-        f3 * p01 + f4 * p11 + f5 * p12,
-        f3 * p02 + f4 * p12 + f5 * p22,
-    )
-    b6, b7, b8 = (
-        f6 * p00 + f7 * p01 + f8 * p02,
-        f6 * p01 + f7 * p11 + f8 * p12,
-        f6 * p02 + f7 * p12 + f8 * p22,
-    )
-    return (
-        b0 * f0 + b1 * f1 + b2 * f2,
-        b0 * f3 + b1 * f4 + b2 * f5,
-        b0 * f6 + b1 * f7 + b2 * f8,
-        b3 * f3 + b4 * f4 + b5 * f5,
-        b3 * f6 + b4 * f7 + b5 * f8,
-        b6 * f6 + b7 * f7 + b8 * f8,
-    )
-
-
-@pure
-def corrected(p: Any, q: Any, w: Any, x: Any, row: Any, noise: Any, innovation: Any) -> Any:
-    """Return covariance and state after one measured number.
-
-    Args:
-        p: upper triangle of the covariance of u, v, r.
-        q, w: their covariances with the thrust's error, and its variance.
-        x: u, v, r and the thrust's error.
-        row: covariances of the measured state with all of `x`.
-        noise: variance of the innovation.
-        innovation: measured minus predicted.
-    """
-    m0, m1, m2, m3 = row
-    k0, k1, k2, k3 = m0 / noise, m1 / noise, m2 / noise, m3 / noise
-    p00, p01, p02, p11, p12, p22 = p
-    return (
-        (p00 - k0 * m0, p01 - k0 * m1, p02 - k0 * m2, p11 - k1 * m1, p12 - k1 * m2, p22 - k2 * m2),
-        (q[0] - k0 * m3, q[1] - k1 * m3, q[2] - k2 * m3),
-        w - k3 * m3,
-        (x[0] + k0 * innovation, x[1] + k1 * innovation, x[2] + k2 * innovation, x[3] + k3 * innovation),
-    )
-
-
-@pure
-def carried(
-    c: Any, p: Any, q: Any, w: Any, x: Any, thrust: Any, delta: Any, change: Any, h: Any, noise: Any
-) -> Any:
-    """Return covariance and state `h` seconds later.
+def carried(c: Any, p: Any, a: Any, x: Any, thrust: Any, delta: Any, change: Any, h: Any, noise: Any) -> Any:
+    """Return covariances and state `h` seconds later.
 
     Args:
         c: the numbers of a `Combinations`.
-        p, q, w, x: as for `corrected`.
+        p, a, x: as for `corrected`.
         thrust: of the step, N.
         delta, change: mean angle of the rudder in the step, and its change, rad.
         h: s.
         noise: as for `planar_innovations`.
     """
-    _, _, _, grow_u, grow_v, grow_r, drift, decay = noise
-    f = transition(planar_jacobian(c, x[0], x[1], x[2], delta), h)
-    shaken = h * c[0] * thrust
-    f0 = f[0] * q[0] + f[1] * q[1] + f[2] * q[2]
-    f1 = f[3] * q[0] + f[4] * q[1] + f[5] * q[2]
-    f2 = f[6] * q[0] + f[7] * q[1] + f[8] * q[2]
-    p00, p01, p02, p11, p12, p22 = spread(p, f)
-    p = (
-        p00 + shaken * (2.0 * f0 + shaken * w) + h * grow_u,
-        p01 + shaken * f1, p02 + shaken * f2, p11 + h * grow_v, p12, p22 + h * grow_r,
-    )  # fmt: skip
-    kept = 1.0 - decay * h
-    push = c[0] * thrust * (1.0 + x[3])
-    u, v, r = planar_advance(c, x[0], x[1], x[2], push, delta, change, h)
-    return (
-        p,
-        (kept * (f0 + shaken * w), kept * f1, kept * f2),
-        kept * kept * w + (1.0 - kept * kept) * drift,
-        (u, v, r, kept * x[3]),
-    )
+    _, _, _, grow_u, grow_v, grow_r, drift, decay, fin, fin_decay = noise
+    u, v, r, error, off = x
+    delta = delta + off
+    f = transition(planar_jacobian(c, u, v, r, delta), h)
+    kept, held, square = 1.0 - decay * h, 1.0 - fin_decay * h, h * u * u
+    growth = h * grow_u, h * grow_v, h * grow_r, drift, fin
+    gains = h * c[0] * thrust, c[8] * square, c[13] * square
+    p, a = carried_covariance(p, a, f, gains, kept, held, growth)
+    u, v, r = planar_advance(c, u, v, r, c[0] * thrust * (1.0 + error), delta, change, h)
+    return p, a, (u, v, r, kept * error, held * off)
 
 
 @pure
@@ -179,13 +101,13 @@ def planar_innovations(
 ) -> None:
     """Fill in the innovations of u, v and r of a recording.
 
-    The thrust's error is a Gauss-Markov process, estimated as a fourth state.
+    The errors of thrust and rudder are Gauss-Markov processes, estimated as a fourth and a fifth state.
 
     Args:
         c: a `Combinations`, then the biases of gyro (rad/s), u and v (m/s), then the time from a sample's
             node to the moment at which it was measured, s.
         noise: variances of u, v, r as measured; their growth in a second; variance of the thrust's error, a
-            share squared; and the inverse of its time constant, 1/s.
+            share squared, and the inverse of its time constant, 1/s; the same of the rudder's, rad^2, 1/s.
         grid: `time_grid.Grid` as its arrays: step to the next node (s), whether a node begins a passage,
             thrust of the step, row of r in `out` or -1, r, rows of u and v in `out` or -1, u, v.
         means, changes: mean rudder angle of each step and its change in it, rad.
@@ -193,32 +115,32 @@ def planar_innovations(
         states: written if it has rows: u, v, r and the thrust's error at each node, (n, 4).
     """
     step, begins, thrust, rate_row, rate, u_row, v_row, u_log, v_log = grid
-    noise_u, noise_v, noise_r, _, _, _, drift, _ = noise
+    noise_u, noise_v, noise_r, _, _, _, drift, _, fin, _ = noise
     gyro, u_bias, v_bias, lead = c[14], c[15], c[16], c[17]
     zero = 0.0 * c[0]
-    x = (zero, zero, zero, zero)
-    p = (zero + noise_u, zero, zero, zero + noise_v, zero, zero + noise_r)
-    q, w = (zero, zero, zero), zero + drift
-    begin = p
+    x = (zero, zero, zero, zero, zero)
+    begin = (zero + noise_u, zero, zero, zero + noise_v, zero, zero + noise_r)
+    errors = (zero, zero, zero, zero + drift, zero, zero, zero, zero, zero + fin)
+    p, a = begin, errors
     for k in range(len(step)):
         if begins[k]:
-            x = (zero + u_log[k] - u_bias, zero + v_log[k] - v_bias, zero + rate[k] - gyro, zero)
-            p, q, w = begin, (zero, zero, zero), zero + drift
-        push, delta = c[0] * thrust[k] * (1.0 + x[3]), means[k]
+            x = (zero + u_log[k] - u_bias, zero + v_log[k] - v_bias, zero + rate[k] - gyro, zero, zero)
+            p, a = begin, errors
         if rate_row[k] >= 0:
             innovation = rate[k] - gyro - x[2]
             out[rate_row[k]] = innovation
-            p, q, w, x = corrected(p, q, w, x, (p[2], p[4], p[5], q[2]), p[5] + noise_r, innovation)
+            p, a, x = corrected(p, a, x, (p[2], p[4], p[5], a[2], a[6]), p[5] + noise_r, innovation)
         if u_row[k] >= 0:
-            du, dv, _ = planar_accelerations(c, x[0], x[1], x[2], push, delta)
+            push = c[0] * thrust[k] * (1.0 + x[3])
+            du, dv, _ = planar_accelerations(c, x[0], x[1], x[2], push, means[k] + x[4])
             at_u, at_v = u_log[k] - u_bias - lead * du, v_log[k] - v_bias - lead * dv
             out[u_row[k]] = at_u - x[0]
             out[v_row[k]] = at_v - x[1]
-            p, q, w, x = corrected(p, q, w, x, (p[0], p[1], p[2], q[0]), p[0] + noise_u, at_u - x[0])
-            p, q, w, x = corrected(p, q, w, x, (p[1], p[3], p[4], q[1]), p[3] + noise_v, at_v - x[1])
+            p, a, x = corrected(p, a, x, (p[0], p[1], p[2], a[0], a[4]), p[0] + noise_u, at_u - x[0])
+            p, a, x = corrected(p, a, x, (p[1], p[3], p[4], a[1], a[5]), p[3] + noise_v, at_v - x[1])
         if len(states) > 0:
-            states[k, 0], states[k, 1], states[k, 2], states[k, 3] = x
-        p, q, w, x = carried(c, p, q, w, x, thrust[k], delta, changes[k], step[k], noise)
+            states[k, 0], states[k, 1], states[k, 2], states[k, 3] = x[0], x[1], x[2], x[3]
+        p, a, x = carried(c, p, a, x, thrust[k], means[k], changes[k], step[k], noise)
 
 
 @pure
