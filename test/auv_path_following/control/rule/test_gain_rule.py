@@ -14,6 +14,7 @@ from auv_path_following.control.hull_model import tightest_turn
 from auv_path_following.control.rule.fin_response import FinResponse, response_of
 from auv_path_following.control.rule.gain_rule import RuledGains, gains_for, plane_gains
 from auv_path_following.vehicle import Rudder
+from auv_sim.own_vehicle.new.assumed_hull import scaled
 from hulls import DIVER, REMUS, STABLE, drawn
 
 PEER = vehicle.load("mss_remus100")
@@ -106,3 +107,19 @@ def test_it_says_where_it_does_not_hold() -> None:
     weak = lines(gains_for(with_rudder(max_rate_deg_s=3.0)))
     assert "effect times rate over divergence^2 is 0.084 rad/s, below 0.1" in weak
     assert gains_for(drawn(5), 0.5, 0.1).notices == ()  # hardly unstable
+
+
+def test_a_large_slow_hull_still_flies_the_turns_of_its_courses() -> None:
+    """Its rudder builds a turn up slowly; the reference must not be slower than turns of 2.5 radii need."""
+    size = 4.5 / REMUS.length
+    hull = scaled(REMUS.coefficients, size**3, size)
+    rudder = dataclasses.replace(REMUS.rudder, max_rate_deg_s=10.0)
+    large = dataclasses.replace(
+        REMUS, length=4.5, hull=hull, rudder=rudder, thrust_max=-hull.Xuu * 1.2**2, params=None
+    )
+    heading = gains_for(large, 0.05).heading
+    widest = 2.5 * max(tightest_turn(large).radius, 2.0 * large.length)
+    assert heading.autopilot.reference.max_rate > 1.05 * large.top_speed / widest
+    assert heading.lookahead < widest
+    usual = gains_for(REMUS, 0.05).heading.autopilot.reference
+    assert heading.autopilot.reference.bandwidth < 0.5 * usual.bandwidth

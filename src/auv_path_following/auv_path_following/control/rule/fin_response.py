@@ -19,6 +19,8 @@ from auv_path_following.vehicle import Vehicle
 #: p L/u and drift time (s) of a torpedo of which neither is measured, and the share of u/R that a turn with a
 #: measured radius R reaches: speed is lost in it.
 TYPICAL_DIVERGENCE, TYPICAL_DRIFT_TIME, TURN_SHARE = 1.2, 0.3, 0.75
+#: Radius of the tightest turns of a course: in radii with the full fin, and at least in hull lengths.
+COURSE_TURNS, COURSE_LENGTHS = 2.0, 4.6
 
 
 class FinResponse(NamedTuple):
@@ -31,6 +33,8 @@ class FinResponse(NamedTuple):
         turn: largest steady rate, rad/s.
         drift_time: T_v, with which sideslip settles in a turn with half the fin, s.
         zero, pole: of the part that sideslip adds, (s - zero)/(s - pole), 1/s; equal where it is not known.
+        course_turn: rate at the beginning of the tightest turn of a course, before it costs speed, rad/s;
+            0 where there are none.
     """
 
     speed: float
@@ -40,6 +44,7 @@ class FinResponse(NamedTuple):
     drift_time: float
     zero: float
     pole: float
+    course_turn: float = 0.0
 
     def gain(self, w: float) -> complex:
         """Return r/delta at the angular frequency w (1/s), 1/s; positive for a fin that works at once."""
@@ -66,7 +71,7 @@ def response_of(vehicle: Vehicle) -> FinResponse:
     if vehicle.hull is not None and (turning is None or turning.effect is None):
         return _of_hull(vehicle, speed)
     effect = divergence = drift_time = None
-    turn = tightest_turn(vehicle).radius
+    radius = tightest_turn(vehicle).radius
     if turning is not None:
         effect, divergence, drift_time = turning.effect, turning.divergence, turning.drift_time
     pole = -size
@@ -74,10 +79,11 @@ def response_of(vehicle: Vehicle) -> FinResponse:
         speed,
         TYPICAL_EFFECT * size * size if effect is None else effect,
         TYPICAL_DIVERGENCE * size if divergence is None else divergence,
-        TURN_SHARE * speed / turn,
+        TURN_SHARE * speed / radius,
         TYPICAL_DRIFT_TIME if drift_time is None else drift_time,
         pole,
         pole,
+        _course_turn(vehicle, speed, radius),
     )
 
 
@@ -93,13 +99,20 @@ def _of_hull(vehicle: Vehicle, speed: float) -> FinResponse:
         ur, drift, _ = model.steady_motion(thrust, 0.5 * vehicle.rudder.max_angle)
     except ConfigurationError:
         ur, drift = speed, 0.0
+    radius = tightest_turn(vehicle).radius
+    turn = TURN_SHARE * speed / radius if vehicle.turning else model.steady_turn(thrust).rate
     settling = -slopes(model.sway_yaw, ur, drift, 0.0)[0][0]
     return FinResponse(
         speed,
         abs(by_yaw),
         divergence,
-        TURN_SHARE * speed / vehicle.turning.radius if vehicle.turning else model.steady_turn(thrust).rate,
+        turn,
         1.0 / settling if settling > 0.0 else math.inf,
         vv - rv * by_sway / by_yaw,
         pole,
+        _course_turn(vehicle, speed, radius),
     )
+
+
+def _course_turn(vehicle: Vehicle, speed: float, radius: float) -> float:
+    return speed / max(COURSE_TURNS * radius, COURSE_LENGTHS * vehicle.length)

@@ -85,7 +85,8 @@ def gains_for(vehicle: Vehicle, delay: float = 0.0, step: float = 0.05) -> Ruled
     heading = plane_gains(response_of(vehicle), vehicle.rudder, delay, step)
     pitch = None
     if vehicle.sternplanes is not None:
-        side = response_of(pitch_plane_of(vehicle))
+        # Seen from the side a course has no turns.
+        side = response_of(pitch_plane_of(vehicle))._replace(course_turn=0.0)
         pitch = plane_gains(side, vehicle.sternplanes, delay, step, PITCH_SHARE)
     named = (("rudder", heading), ("stern planes", pitch))
     notices = [
@@ -114,8 +115,10 @@ def plane_gains(
     acceleration = min(FIN_SHARE * b * fin.max_angle, BUILD_UP * jerk)
     authority = b * fin.max_rate / (p * p)
     slowest = REFERENCE_LAG * jerk / acceleration * min(1.0, authority / FULL_AUTHORITY)
+    # Turns of a course must not be faster than the reference: on a slow hull that takes a smaller bandwidth.
+    slowest = min(slowest, acceleration / max(response.course_turn, 1e-9))
     bandwidth = quickness * min(REFERENCE_SHARE * crossover, slowest)
-    rate = min(RATE_SHARE * response.turn, acceleration / bandwidth)
+    rate = min(max(RATE_SHARE * response.turn, response.course_turn), acceleration / bandwidth)
     k1, k3 = K1_SHARE * rate, K3_SHARE * acceleration
     nism = NismConfig(
         k1=k1, k2=A_SHARE * crossover / k1, k3=k3, k4=C_SHARE * crossover / k3, k5=k5, kp=kp, ks=0.0

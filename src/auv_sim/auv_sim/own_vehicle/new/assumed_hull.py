@@ -1,8 +1,9 @@
 """Coefficients of a hull of which little is given: the REMUS 100 by similarity, bent to the given facts.
 
 Forces scale with the water's mass and the length: with equal shape and equal lengths a second, all motions
-are the same in lengths. Then drag takes the given speed, the rudder the given effect, Nur the divergence, and
-the damping of turning Nrr the given radii.
+are the same in lengths. Sway is damped less, as in the middle of torpedoes. Then drag takes the given speed,
+the rudder the effect, given or that of hulls that turn alike, Nur the divergence, and the damping of turning
+Nrr the given radii.
 """
 
 from __future__ import annotations
@@ -21,8 +22,14 @@ from auv_path_following.thrust_units import Rows, interpolated, speed_between
 from auv_path_following.vehicle import Vehicle
 from auv_sim.own_vehicle.new.owner_facts import OwnerFacts, displaced_mass
 
-#: b L^2/u^2 and p L/u of a torpedo of which neither is measured.
-EFFECT, DIVERGENCE = 1.8, 1.2
+#: p L/u of a torpedo of which it is not measured.
+DIVERGENCE = 1.2
+#: b L^2/u^2 of a torpedo of which it is not measured: a factor times a power of L/(R delta), of a turn of
+#: radius R with the rudder at delta (rad), and its range. A hull that turns wide has a weak rudder.
+EFFECT, TURN_POWER, EFFECTS = 1.7, 0.7, (0.6, 2.0)
+#: Sway damping over that of the REMUS 100 by similarity: sideslip of hulls that are stable in yaw settles
+#: four times as slowly, so this is the middle.
+SWAY_DAMPING = 0.4
 #: Largest p times a given delay that is assumed, from this delay (s) on: what is unsteerable has no owner.
 _STEERED, _FROM_DELAY = 0.2, 0.1
 #: Drag over that of the REMUS 100 by similarity: beyond this range a thrust is taken for a slip.
@@ -66,6 +73,7 @@ def assumed_hull(facts: OwnerFacts) -> Assumed:
         mass = displaced_mass(facts.length, stout)
     mu, size = mass / remus.coefficients.m, facts.length / remus.length
     hull = scaled(remus.coefficients, mu, size)
+    hull = dataclasses.replace(hull, Yvv=SWAY_DAMPING * hull.Yvv, Yuv=SWAY_DAMPING * hull.Yuv)
     drag, table = _drag(facts, -hull.Xuu)
     hull = dataclasses.replace(hull, Xuu=-drag)
     hull = _with_effect(hull, facts)
@@ -124,9 +132,18 @@ def divergence_of(hull: Hull, facts: OwnerFacts) -> float:
 def _with_effect(hull: Hull, facts: OwnerFacts) -> Hull:
     effect = facts.effect
     if effect is None:
-        effect = EFFECT * (facts.speed / facts.length) ** 2
+        effect = _usual_effect(facts) * (facts.speed / facts.length) ** 2
     factor = effect / effect_of(hull, facts)
     return dataclasses.replace(hull, Yuud=factor * hull.Yuud, Nuud=factor * hull.Nuud)
+
+
+def _usual_effect(facts: OwnerFacts) -> float:
+    """Return b L^2/u^2 of torpedoes that turn like this."""
+    if not facts.radii:
+        return EFFECT
+    angle, radius = facts.radii[-1]
+    usual: float = EFFECT * (facts.length / (radius * math.radians(angle))) ** TURN_POWER
+    return min(max(usual, EFFECTS[0]), EFFECTS[1])
 
 
 def _with_divergence(hull: Hull, facts: OwnerFacts) -> Hull:

@@ -41,7 +41,7 @@ def new_vehicle(facts: OwnerFacts, file: Path, overwrite: bool, console: Console
     check_facts(facts)
     survey = file.with_name(f"{file.stem}_survey.yaml")
     check_outputs((file, survey), (), overwrite)
-    vehicle, text = _described(facts, file)
+    vehicle, text = described(facts, file)
     with console.status("flying a survey on the assumed hull"):
         flown = trial_survey(vehicle, str(survey))
     with replacing(file) as draft, replacing(survey) as survey_draft:
@@ -72,7 +72,7 @@ def _show(console: Console, survey: TrialSurvey) -> None:
         )
 
 
-def _described(facts: OwnerFacts, file: Path) -> tuple[Vehicle, str]:
+def described(facts: OwnerFacts, file: Path) -> tuple[Vehicle, str]:
     """Return the vehicle, and its file's text with the advice for this vehicle at its head.
 
     Nothing is written: the text is checked as the content of `file`.

@@ -14,8 +14,9 @@ from auv_sim.own_vehicle.new.owner_facts import OwnerFacts
 
 #: What is written where it is not given.
 USUAL_RATE, USUAL_DELAY = 15.0, 0.05
-#: Factor within which the rudder's effect b of torpedoes of one length and speed lies, and any coefficient.
-EFFECT_FACTOR, FACTOR = 1.8, 2.0
+#: Factors within which torpedoes of one length, speed and radius lie: the rudder's effect b, the damping of
+#: sway, and any other coefficient.
+EFFECT_FACTOR, SWAY_FACTOR, FACTOR = 2.0, 3.0, 2.0
 #: Coefficients that turn with the rudder's effect, the divergence and the radii.
 _BY_RUDDER = ("Yuud", "Nuud", "Zuud", "Muud")
 _MASSES = ("m", "W", "B")
@@ -125,6 +126,8 @@ def _source(name: str, f: OwnerFacts, hull: Any) -> str:
         )
     if name == "Nrr" and f.radii:
         return f"from the radius of {f.radii[-1][1]:g} m at {f.radii[-1][0]:g} deg"
+    if name in ("Yvv", "Yuv"):
+        return f"assumed (x{SWAY_FACTOR:g}): between hulls whose sideslip settles fast and slowly"
     if name == "zg" and f.dive_rate is not None:
         return f"from {f.dive_rate:g} m/s of dive"
     if name in ("m", "W", "B", "Izz", "Iyy"):
