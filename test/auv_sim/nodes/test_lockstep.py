@@ -73,8 +73,8 @@ def test_a_refused_message_is_named_with_its_value_and_not_its_sender(
     simulator: Any = Simulator()
     lockstep = Lockstep(simulator, orders_of(REMUS))
     lockstep.on_mission_state()
-    lockstep._on_diagnostics(serialize_message(refusal(node, text)))
-    lockstep._on_diagnostics(serialize_message(reports(**{node: waits})))
+    lockstep._reports.hear(serialize_message(refusal(node, text)))
+    lockstep._reports.hear(serialize_message(reports(**{node: waits})))
     lockstep._check()
     assert simulator.fault == f"step 7 (t = 1.35 s) got no answer within 0 s: {named}"
 
@@ -106,7 +106,7 @@ def test_the_node_that_owes_something_is_named(waiting: dict[str, str], named: s
     simulator: Any = Simulator()
     lockstep = Lockstep(simulator, orders_of(REMUS))
     lockstep.on_mission_state()
-    lockstep._on_diagnostics(serialize_message(reports(**waiting)))
+    lockstep._reports.hear(serialize_message(reports(**waiting)))
     lockstep._check()
     assert simulator.fault == f"step 7 (t = 1.35 s) got no answer within 0 s: {named}"
 
@@ -183,9 +183,9 @@ def test_only_reports_of_the_own_nodes_are_decoded() -> None:
     for namespace, waits in (("/auv1", "desired_yaw"), ("/auv2", "odom")):
         array = reports(heading_autopilot=waits)
         array.status[0].name = f"{namespace}/heading_autopilot"
-        lockstep._on_diagnostics(serialize_message(array))
-    lockstep._on_diagnostics(b"/auv2/no report")
+        lockstep._reports.hear(serialize_message(array))
+    lockstep._reports.hear(b"/auv2/no report")
     with pytest.raises(MessageRefused):
-        lockstep._on_diagnostics(b"/auv1/no report")
+        lockstep._reports.hear(b"/auv1/no report")
     lockstep._check()
     assert simulator.fault.endswith("ailos_guidance did not send desired_yaw")

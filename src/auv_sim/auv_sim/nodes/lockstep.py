@@ -10,15 +10,13 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 from rclpy.clock import Clock, ClockType
-from std_msgs.msg import UInt64
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.pairing import Pairing
 from auv_msgs_py.contract.topics import Topic
-from auv_msgs_py.node.transport import generated_decoder
-from auv_msgs_py.values.types import STOP
 from auv_sim.nodes.fleet.member import FleetMember
 from auv_sim.nodes.held_commands import Orders
+from auv_sim.nodes.recording_lead import RecordingLead
 from auv_sim.nodes.wait_reports import WaitReports
 
 
@@ -55,10 +53,6 @@ class Lockstep:
         self._node = node
         self._orders = orders
         self._pairing = Pairing(tuple(orders.limits), strict=True)
-        lead = topics.RECORDING_LEAD if orders.stop == STOP else topics.SPATIAL_RECORDING_LEAD
-        recorded = node.parameters.recorded_vehicles
-        self._lead = topics.shared_lead(lead, recorded)
-        self._ask_every = topics.shared(topics.RECORDING_REQUEST, recorded)
         self._open_since: float | None = None
         self._left_running = False
         self._awaits_state = False
@@ -66,15 +60,9 @@ class Lockstep:
         self._under_thrust = False
         self._begun = False
         self._command: Any = None
-        self._recorded, self._recorded_at = 0, time.monotonic()
-        self._published = 0
-        own = node.get_namespace() if node.parameters.shared_clock else ""
-        self._reports = WaitReports(own)
-        self._own, self._decode = own.encode(), generated_decoder(topics.DIAGNOSTICS)
-        node.listen(topics.DIAGNOSTICS, self._on_diagnostics, raw=True)
-        self._request = node.advertise(topics.RECORD_REQUEST) if node.parameters.recorded else None
-        if node.parameters.recorded:
-            node.listen(topics.RECORDED_STEPS, self._on_recorded)
+        self._reports = WaitReports(node.get_namespace() if node.parameters.shared_clock else "")
+        node.listen(topics.DIAGNOSTICS, self._reports.hear, raw=True)
+        self._recording = RecordingLead(node, orders, self._proceed) if node.parameters.recorded else None
         self._fleet = FleetMember(node, self._proceed) if node.parameters.shared_clock else None
         node.create_timer(0.2, self._check, clock=Clock(clock_type=ClockType.STEADY_TIME))
 
@@ -107,16 +95,12 @@ class Lockstep:
             self._awaits_state = False
         self._proceed()
 
-    def _on_recorded(self, message: UInt64) -> None:
-        self._recorded, self._recorded_at = int(message.data), time.monotonic()
-        self._proceed()
-
     def _proceed(self) -> None:
         if self._open_since is not None or self._awaits_state:
             return
         if not (self._under_thrust or self._node.mission_running):
             return
-        if self._node.parameters.recorded and self._published - self._recorded >= self._lead:
+        if self._recording is not None and self._recording.used_up:
             return
         node = self._node
         if self._begun and self._fleet is not None and not self._fleet.may_take(node.step_ns, node.stamp):
@@ -126,17 +110,12 @@ class Lockstep:
             self._node.advance(self._command)
         self._begun = True
         self._left_running = False
-        self._published += 1
-        if self._published - self._recorded == self._lead:
-            self._recorded_at = time.monotonic()
+        if self._recording is not None:
+            self._recording.count()
         self._open_since = time.monotonic()
         self._node.publish_step()
-        if self._request is not None and self._published % self._ask_every == 0:
-            self._request.publish(UInt64(data=self._published))
-
-    def _on_diagnostics(self, data: bytes) -> None:
-        if self._own in data:  # of a fleet, the other vehicles' reports are not even decoded
-            self._reports.take_in(self._decode(data), time.monotonic())
+        if self._recording is not None:
+            self._recording.ask()
 
     def _check(self) -> None:
         """End the run, naming the culprit, when a step stays without an answer."""
@@ -156,12 +135,10 @@ class Lockstep:
             self._node.fail(f"{self._where()} got no answer within {bound:g} s: {culprit}")
 
     def _check_recorder(self) -> None:
-        under_way = self._under_thrust or self._node.mission_running
-        waits = self._published - self._recorded >= self._lead and under_way
-        if not (self._node.parameters.recorded and waits):
+        if self._recording is None or not (self._under_thrust or self._node.mission_running):
             return
         bound = self._node.parameters.answer_timeout
-        if time.monotonic() - self._recorded_at > bound:
+        if self._recording.used_up and self._recording.silence > bound:
             self._node.fail(
                 f"{self._where()} was not recorded within {bound:g} s:"
                 f" {topics.RECORDER} did not send {topics.RECORDED_STEPS.name}"

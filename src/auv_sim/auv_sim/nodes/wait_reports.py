@@ -1,12 +1,14 @@
-"""Which node keeps a lockstep step from being answered, found in the nodes' diagnostics. ROS-free."""
+"""Which node keeps a lockstep step from being answered, found in the nodes' diagnostics."""
 
 from __future__ import annotations
 
+import time
 from typing import Any
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.node.health import Health
 from auv_msgs_py.node.lockstep_gate import LockstepGate
+from auv_msgs_py.node.transport import generated_decoder
 
 _BY_NAME = {topic.name: topic for topic in (*topics.CONTRACT, topics.RECORDED_STEPS)}
 
@@ -22,6 +24,12 @@ class WaitReports:
         self._prefix = f"{namespace}/" if namespace else ""
         self._waits: dict[str, tuple[float, str]] = {}
         self._refused: dict[str, str] = {}
+        self._own, self._decode = namespace.encode(), generated_decoder(topics.DIAGNOSTICS)
+
+    def hear(self, data: bytes) -> None:
+        """Take in a serialised DiagnosticArray; one that names no own node is not even decoded."""
+        if self._own in data:
+            self.take_in(self._decode(data), time.monotonic())
 
     def take_in(self, diagnostics: Any, now: float) -> None:
         """Note the reports of a DiagnosticArray that arrived at `now`, s of steady time."""
