@@ -37,7 +37,6 @@ _SIM, _PATH = "src/auv_sim/auv_sim/nodes", "src/auv_path_following/auv_path_foll
 LONGER_FILES = {
     "scripts/_bootstrap.py": (400, "nothing can be imported before it has run"),
     f"{_SIM}/recorder_node.py": (200, "polling, intake and flush share one clock, one writer and one end"),
-    f"{_SIM}/plant_node.py": (189, "lockstep and free run of one vehicle: they differ in who takes the step"),
     f"{_SIM}/manoeuvres/manoeuvres_node.py": (160, "the order in which it stops is read in one place"),
 }
 

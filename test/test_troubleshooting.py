@@ -29,7 +29,7 @@ from auv_sim.flight.metrics import summarise
 from auv_sim.launch import mission_plan
 from auv_sim.launch.options import Options
 from auv_sim.nodes.held_commands import orders_of
-from auv_sim.nodes.lockstep import Lockstep
+from auv_sim.nodes.stepping.lockstep import Lockstep
 from conftest import SHORT_MISSION
 from doc_pages import ROOT, listings
 from hulls import REMUS

@@ -74,7 +74,8 @@ def _plant_and_relay(
     plant = RemusPlantNode(parameter_overrides=overrides, cli_args=["--ros-args", *words], **shared)
     forwards = [Parameter("use_sim_time", value=True), Parameter("topics", value=kind.relay)]
     relay = FaultRelay(parameter_overrides=forwards, **shared)
-    plant.pacer = AnsweredPacer(plant.parameters.step, speed, lambda: relay.passed["rudder_cmd"])
+    assert plant.free_run is not None
+    plant.free_run.pacer = AnsweredPacer(plant.parameters.step, speed, lambda: relay.passed["rudder_cmd"])
     return plant, relay
 
 

@@ -11,8 +11,8 @@ from rclpy.serialization import serialize_message
 
 from auv_msgs_py.values.errors import MessageRefused
 from auv_sim.nodes.held_commands import orders_of
-from auv_sim.nodes.lockstep import Lockstep
-from auv_sim.nodes.wait_reports import WaitReports
+from auv_sim.nodes.stepping.lockstep import Lockstep
+from auv_sim.nodes.stepping.wait_reports import WaitReports
 from hulls import REMUS
 
 

@@ -16,8 +16,8 @@ from auv_msgs_py.contract.pairing import Pairing
 from auv_msgs_py.contract.topics import Topic
 from auv_sim.nodes.fleet.member import FleetMember
 from auv_sim.nodes.held_commands import Orders
-from auv_sim.nodes.recording_lead import RecordingLead
-from auv_sim.nodes.wait_reports import WaitReports
+from auv_sim.nodes.stepping.recording_lead import RecordingLead
+from auv_sim.nodes.stepping.wait_reports import WaitReports
 
 
 class Simulator(Protocol):

@@ -11,7 +11,7 @@ from std_msgs.msg import UInt64
 
 from auv_msgs_py.contract import topics
 from auv_sim.nodes.held_commands import orders_of
-from auv_sim.nodes.recording_lead import RecordingLead
+from auv_sim.nodes.stepping.recording_lead import RecordingLead
 from hulls import REMUS
 
 
@@ -48,7 +48,7 @@ def test_a_lead_that_is_used_up_waits_for_the_recorder_and_is_asked_for_in_time(
 
 def test_the_silence_begins_when_the_lead_is_used_up(monkeypatch: pytest.MonkeyPatch) -> None:
     now = [0.0]
-    monkeypatch.setattr("auv_sim.nodes.recording_lead.time.monotonic", lambda: now[0])
+    monkeypatch.setattr("auv_sim.nodes.stepping.recording_lead.time.monotonic", lambda: now[0])
     lead = RecordingLead(node := Node(), orders_of(REMUS), lambda: None)
     now[0] = 100.0
     for _ in range(topics.RECORDING_LEAD):

@@ -1,0 +1,1 @@
+"""How the simulator takes its steps: in lockstep with the suite and its recorder, or free running."""
