@@ -1,10 +1,11 @@
-"""The parser of a command with verbs, each of which is a module."""
+"""A command with verbs, each of which is a module: its parser, and how a verb is run."""
 
 from __future__ import annotations
 
 import argparse
 import importlib
-from collections.abc import Container, Mapping
+import sys
+from collections.abc import Callable, Container, Mapping, Sequence
 
 from auv_sim.command_line import Parser
 
@@ -34,3 +35,17 @@ def parser_of_verbs(
         module.add_arguments(verb)
         verb.set_defaults(run=module.run)
     return top
+
+
+def run_verb(
+    parser_with: Callable[[Container[str]], argparse.ArgumentParser], argv: Sequence[str] | None
+) -> int:
+    """Parse a command line, run its verb, and return the exit code.
+
+    Args:
+        parser_with: returns the parser in which only some verbs have their options.
+        argv: the words; None for those of the process.
+    """
+    words = sys.argv[1:] if argv is None else argv
+    arguments = parser_with(words[:1]).parse_args(words)
+    return int(arguments.run(arguments))

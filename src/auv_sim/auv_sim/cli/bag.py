@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Container, Sequence
 
 from auv_sim.command_line import command
-from auv_sim.command_verbs import parser_of_verbs
+from auv_sim.command_verbs import parser_of_verbs, run_verb
 
 #: In the order of a session with a recording.
 VERBS = {
@@ -32,9 +31,7 @@ def parser(verbs_with_options: Container[str] = VERBS) -> argparse.ArgumentParse
 @command("bag.py")
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one verb; return 0 done, 1 a difference was found, 2 bad input, 130 interrupted."""
-    words = sys.argv[1:] if argv is None else argv
-    arguments = parser(words[:1]).parse_args(words)
-    return int(arguments.run(arguments))
+    return run_verb(parser, argv)
 
 
 if __name__ == "__main__":

@@ -14,17 +14,14 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from auv_msgs_py.contract import topics
-from auv_msgs_py.settings import params_file
 from auv_msgs_py.values.types import NO_CURRENT, Current
-from auv_path_following import config_files, vehicle
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.kinds.line import Line
 from auv_sim.flight.batch import engine
 from auv_sim.flight.scenario import Scenario
-from auv_sim.sim_parameters import SUITE
+from auv_sim.studies.paper.paper_flights import parameters_named, vehicle_named
 
 #: (hull that is flown, hull of the controller's model).
 PAIRS = (
@@ -63,7 +60,7 @@ class CornerFlight:
 
     def scenario(self, params: str = "robust") -> Scenario:
         """Return the scenario; the vehicle starts on the leg in, at cruising speed."""
-        parameters, hull = _parameters(params), _vehicle(self.hull)
+        parameters, hull = parameters_named(params), vehicle_named(self.hull)
         current = NO_CURRENT
         if self.direction is not None:
             flow = math.radians(self.direction)
@@ -76,7 +73,7 @@ class CornerFlight:
             guidance=parameters[topics.GUIDANCE].guidance,
             observer=parameters[topics.OBSERVER].observer,
             autopilot=parameters[topics.AUTOPILOT].autopilot,
-            controller_vehicle=_vehicle(self.model),
+            controller_vehicle=vehicle_named(self.model),
             time_limit=_TIME_LIMIT,
         )
 
@@ -174,13 +171,3 @@ def write(results: Sequence[CornerResult], file: Path) -> None:
 @functools.cache
 def _path(angle: int, leg_in: float) -> CompositePath:
     return CompositePath([Line(0.0, 0.0, leg_in, 0.0), Line(leg_in, 0.0, _LEG_OUT, math.radians(angle))])
-
-
-@functools.cache
-def _parameters(name: str) -> dict[str, Any]:
-    return params_file.load(config_files.find("params", name), SUITE)
-
-
-@functools.cache
-def _vehicle(name: str) -> vehicle.Vehicle:
-    return vehicle.load(name)

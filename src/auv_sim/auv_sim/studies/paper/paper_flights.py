@@ -64,7 +64,7 @@ class PaperFlight:
             ConfigurationError: a file or a value that cannot be used.
         """
         mission = _mission()
-        parameters = _parameters(self.params)
+        parameters = parameters_named(self.params)
         guidance = parameters[topics.GUIDANCE].guidance
         autopilot = parameters[topics.AUTOPILOT].autopilot
         switching = dataclasses.replace(guidance.switching, mode=self.switching)
@@ -81,7 +81,7 @@ class PaperFlight:
         plant = PLANTS[self.plant]
         return Scenario(
             path=mission.path,
-            vehicle=_vehicle(plant.hull),
+            vehicle=vehicle_named(plant.hull),
             thrust=mission.thrust,
             initial=PlantState(x, y, psi, CRUISE, 0.0, 0.0),
             current=Current(*self.current),
@@ -89,7 +89,7 @@ class PaperFlight:
             guidance=guidance,
             observer=parameters[topics.OBSERVER].observer,
             autopilot=autopilot,
-            controller_vehicle=_vehicle(plant.controller_model),
+            controller_vehicle=vehicle_named(plant.controller_model),
             time_limit=self.time_limit,
         )
 
@@ -100,12 +100,14 @@ def _mission() -> Any:
 
 
 @functools.cache
-def _parameters(name: str) -> dict[str, Any]:
+def parameters_named(name: str) -> dict[str, Any]:
+    """Return the settings of a shipped parameter file: node name -> settings; read once."""
     return params_file.load(config_files.find("params", name), SUITE)
 
 
 @functools.cache
-def _vehicle(name: str) -> Vehicle:
+def vehicle_named(name: str) -> Vehicle:
+    """Return a shipped vehicle; read once."""
     return vehicle.load(name)
 
 
