@@ -29,6 +29,9 @@ from auv_sim.cli import plan as plan_cli
 from auv_sim.driver_parameters import MavlinkDriverParameters
 from auv_sim.flight import closed_loop
 from auv_sim.flight.batch.judge import judged
+from auv_sim.launch import mission_plan
+from auv_sim.launch.fleet import fleet_plan
+from auv_sim.launch.options import checked_options, common_options
 from auv_sim.own_vehicle.manoeuvres.manoeuvre_parameters import ManoeuvresParameters
 from auv_sim.sim_parameters import SUITE, FaultRelayParameters
 from auv_sim.studies.campaign.campaign_plan import StudyPlan
@@ -195,15 +198,39 @@ def shortened(line: Line, directory: Path) -> list[str]:
     return [*words, "--composed", "--quiet", "--out", str(directory)]
 
 
-def flown_here() -> list[Line]:
-    """Each command for the simulator once; others are flown by the tests of their own."""
-    elsewhere = {"--fleet", "--no-sim", "--vehicle-driver", "--help", "MISSION", "--wait", "--console"}
-    pages = ("README.md", "docs/flying.md")
-    flown = {line.text: line for line in chosen("mission") if line.page in pages}
-    return [line for text, line in flown.items() if not elsewhere & set(shlex.split(text))]
+def planned_here() -> list[Line]:
+    """`vehicle.py new` writes selkie_survey.yaml; its stand-in has turns too tight for that vehicle."""
+    elsewhere = {"--help", "selkie_survey.yaml"}
+    return [line for line in chosen("mission") if not elsewhere & set(shlex.split(line.text))]
 
 
-@pytest.mark.parametrize("line", flown_here(), ids=str)
+@pytest.mark.parametrize("line", planned_here(), ids=str)
+def test_a_mission_can_be_planned(line: Line, tmp_path: Path) -> None:
+    """Its files are read and checked, and its path is one that the vehicle can fly."""
+    given = vars(mission_cli.parser().parse_args(words_of(line)))
+    if (name := given.pop("fleet")) is not None:
+        assert len(fleet_plan.make(name, common_options(given), tmp_path).members) > 1
+        return
+    plan = mission_plan.make(checked_options(given), tmp_path)
+    assert plan.options.no_sim == ("--no-sim" in line.text)
+    assert {"mission", "vehicle", "params"} <= set(plan.sources)
+
+
+#: Commands that are flown: the first ones of a newcomer, one that runs free, and one that begins on the path.
+FLOWN = (
+    "README.md: python3 scripts/mission.py --current 0.1 0.2",
+    "README.md: python3 scripts/mission.py --mission helix --vehicle remus100_6dof",
+    "README.md: python3 scripts/mission.py --sea rough --params rough",
+    "docs/flying.md: python3 scripts/mission.py --speed 4",
+    "docs/flying.md: python3 scripts/mission.py --start-at 'subpath 3'",
+)
+
+
+def test_what_is_flown_stands_on_its_page() -> None:
+    assert set(FLOWN) <= {str(line) for line in LINES}
+
+
+@pytest.mark.parametrize("line", [line for line in LINES if str(line) in FLOWN], ids=str)
 def test_a_mission_flies(line: Line, tmp_path: Path, domain: int) -> None:
     program = [
         sys.executable,
