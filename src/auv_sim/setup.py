@@ -27,6 +27,7 @@ setup(
             "bags/showing/page/*.html",
             "bags/showing/page/*.js",
             "launch/processes/*.xml",
+            "own_vehicle/prove/*.html",
             "views/console/page/*",
         ]
     },

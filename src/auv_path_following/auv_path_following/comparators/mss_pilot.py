@@ -77,7 +77,15 @@ class MssPilotState(NamedTuple):
 
 
 class MssPilotOutput(NamedTuple):
-    """The command, errors across the leg (m; ze positive below it), references (rad), whether it ended."""
+    """The answer.
+
+    Attributes:
+        command: of both fins and the thruster.
+        ye, ze: errors across the leg, m; ze positive below it.
+        psi_ref, theta_ref: references, rad.
+        finished: whether the course has ended.
+        xe, share: distance along the leg, m, and over its length.
+    """
 
     command: SpatialCommand
     ye: float
@@ -85,6 +93,8 @@ class MssPilotOutput(NamedTuple):
     psi_ref: float
     theta_ref: float
     finished: bool
+    xe: float
+    share: float
 
 
 def mss_begun(navigation: SpatialNavigation) -> MssPilotState:
@@ -111,13 +121,37 @@ def mss_pilot(
         thrust: N, passed on.
         dt: seconds since the last measurement (0 on the first one).
     """
-    leg, crab, attack, heading, pitch, heading_integral, pitch_integral = state
-    last = len(waypoints) - 2
-    x, y, z = navigation.x, navigation.y, navigation.z
-    after = waypoints[leg + 1]
-    if leg < last and math.hypot(math.hypot(after[0] - x, after[1] - y), after[2] - z) < config.switching:
+    leg, last = state.leg, len(waypoints) - 2
+    if leg < last and is_reached(config, waypoints[leg + 1], navigation):
         leg += 1
-    xe, ye, ze, length, azimuth, elevation = leg_errors(waypoints[leg], waypoints[leg + 1], x, y, z)
+    return mss_leg(
+        config, waypoints[leg], waypoints[leg + 1], leg, leg == last, state, navigation, thrust, dt
+    )
+
+
+@pure
+def is_reached(config: MssPilot, waypoint: Any, navigation: SpatialNavigation) -> bool:
+    """Return whether a waypoint (north, east, down, m) is so near that the next leg begins."""
+    north, east = waypoint[0] - navigation.x, waypoint[1] - navigation.y
+    return math.hypot(math.hypot(north, east), waypoint[2] - navigation.z) < config.switching
+
+
+@pure
+def mss_leg(
+    config: MssPilot, a: Any, b: Any, leg: int, is_last: bool, state: MssPilotState,
+    navigation: SpatialNavigation, thrust: float, dt: float,
+) -> tuple[MssPilotState, MssPilotOutput]:  # fmt: skip
+    """Answer one measurement on a leg.
+
+    Args:
+        a, b: its ends: north, east, down, m.
+        leg: its number, from 0.
+        is_last: whether the course ends with it.
+        config, state, navigation, thrust, dt: as in `mss_pilot`.
+    """
+    _, crab, attack, heading, pitch, heading_integral, pitch_integral = state
+    x, y, z = navigation.x, navigation.y, navigation.z
+    xe, ye, ze, length, azimuth, elevation = leg_errors(a, b, x, y, z)
     psi_ref = azimuth - crab - math.atan(ye / config.lookahead)
     theta_ref = elevation + attack + math.atan(ze / config.lookahead)
     crab = bounded(crab + dt * learnt(config, ye), config.largest_crab)
@@ -132,7 +166,8 @@ def mss_pilot(
         leg, crab, attack, heading, pitch, heading_integral + dt * psi_e, pitch_integral + dt * theta_e
     )
     command = SpatialCommand(rudder, planes, thrust)
-    return state, MssPilotOutput(command, ye, ze, psi_ref, theta_ref, leg == last and xe >= length)
+    finished = is_last and xe >= length
+    return state, MssPilotOutput(command, ye, ze, psi_ref, theta_ref, finished, xe, xe / length)
 
 
 @pure

@@ -14,8 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from auv_msgs_py.contract import topics
-from auv_path_following.guidance.approach import empty_approach
-from auv_path_following.pilots import pilot_begins
 from auv_sim.flight.loops import loop_of
 from auv_sim.flight.run_record import Run
 from auv_sim.flight.scenario import Scenario
@@ -38,7 +36,7 @@ def fly(scenario: Scenario, progress: Callable[[float], None] | None = None) -> 
     dt = c.dt
     loop = loop_of(c)
     config, path, vehicle, answer = loop.pilot, loop.path, loop.vehicle, loop.answer
-    state = pilot_begins(config, empty_approach())
+    state = loop.state
     at_sea, seen = c.sea is not None, vehicle.seen
     rows: list[tuple[float, ...]] = []
     for k in range(int(c.time_limit / c.step) + 1):

@@ -15,12 +15,14 @@ from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_path_following.curves.spatial.spatial_rows import spatial_rows
 from auv_path_following.guidance import guide
-from auv_path_following.guidance.approach import agility_of
+from auv_path_following.guidance.approach import agility_of, empty_approach
 from auv_path_following.guidance.measured import Measured, SpatialMeasured
 from auv_path_following.guidance.spatial.flown_path import flown_path
 from auv_path_following.navigation import current_observer
 from auv_path_following.pilot import Pilot, pilot
 from auv_path_following.spatial_pilot import SpatialPilot, spatial_pilot
+from auv_sim.flight import peer_pilot
+from auv_sim.flight.peer_pilot import PeerPilot, check_legs, peer_begun, peer_reply
 from auv_sim.flight.scenario import Scenario, spatial_start_of, start_of
 from auv_sim.flight.signals import SPATIAL_TRUTH, TRUTH
 from auv_sim.vehicle.diving.ideal_diver import SpatialSeen
@@ -34,6 +36,7 @@ class Loop(NamedTuple):
 
     Attributes:
         pilot: configuration.
+        state: first one of the pilot.
         path: as rows.
         vehicle: simulated.
         answer: (pilot, path, state, seen, at_sea, now, dt) -> (state, command, s, finished, row).
@@ -41,6 +44,7 @@ class Loop(NamedTuple):
     """
 
     pilot: Any
+    state: Any
     path: Any
     vehicle: Any
     answer: Callable[..., Any]
@@ -59,14 +63,18 @@ _SPATIAL_COLUMNS = (
 )  # fmt: skip
 
 
-def pilot_of(scenario: Scenario) -> Pilot | SpatialPilot:
+def pilot_of(scenario: Scenario) -> Pilot | SpatialPilot | PeerPilot:
     """Return the pilot of a scenario: no limits, no holds, over the wire's last bits only at sea.
 
     Raises:
-        ConfigurationError: a law or gain needs a key that the vehicle's file lacks.
+        ConfigurationError: a law or gain needs a key that the vehicle's file lacks, or the peer's law has
+            other subpaths than straight legs.
     """
     c = scenario
     hull = c.controller_vehicle or c.vehicle
+    if c.peer is not None:
+        check_legs(c.path, c.vehicle.dives)
+        return peer_pilot.prepare(c.peer, hull, c.thrust, c.sea is not None)
     if c.vehicle.dives:
         guiding = guide.prepare_spatial(c.guidance, hull, c.thrust, c.mode)
     else:
@@ -110,12 +118,19 @@ def loop_of(scenario: Scenario) -> Loop:
         start: Any = c.initial or start_of(c.path)
         vehicle: Any = SimulatedVehicle(c.plant_vehicle, start, c.sea, c.seed, c.current, c.dt)  # type: ignore[arg-type]
         names: tuple[str, ...] = (*_COLUMNS, *TRUTH) if c.sea else _COLUMNS
-        return Loop(pilot_of(c), path.rows, vehicle, answer, names)
+        pilot_config = pilot_of(c)
+        if isinstance(pilot_config, PeerPilot):
+            begun = peer_begun(pilot_config, None)
+            return Loop(pilot_config, begun, path.rows, vehicle, peer_answer, names)
+        begun = pilots.pilot_begins(pilot_config, empty_approach())
+        return Loop(pilot_config, begun, path.rows, vehicle, answer, names)
     start = c.initial or spatial_start_of(path, c.vehicle)
     current = SpatialCurrent(*c.current, *(0.0,) * (3 - len(c.current)))
     vehicle = SimulatedDiver(c.plant_vehicle, start, c.sea, c.seed, current, c.dt)
     names = (*_SPATIAL_COLUMNS, *SPATIAL_TRUTH) if c.sea else _SPATIAL_COLUMNS
-    return Loop(pilot_of(c), spatial_rows(path), vehicle, spatial_answer, names)
+    diving = pilot_of(c)
+    begun = pilots.pilot_begins(diving, empty_approach())
+    return Loop(diving, begun, spatial_rows(path), vehicle, spatial_answer, names)
 
 
 def answer(
@@ -130,6 +145,15 @@ def answer(
     # g begins with psi_d, r_d, xe, ye, psi_e, s: see `GuidanceOutput`.
     row = (*navigation, *water, *command, *g[:6], *estimate, *current, rudder)
     return state, command, g.s, g.finished, (row + motion[:3] if at_sea else row)
+
+
+def peer_answer(
+    config: PeerPilot, path: Any, state: Any, seen: Any, at_sea: bool, now: float, dt: float
+) -> tuple[Any, Any, float, bool, tuple[float, ...]]:
+    """Answer one measurement by the law of MSS; see `Loop`."""
+    state, navigation, estimate, g, command = peer_reply(config, path, state, seen, now, dt)
+    row = (*navigation, *seen.water, *command, *g[:6], *estimate, *seen.current, seen.rudder)
+    return state, command, g.s, g.finished, (row + seen.motion[:3] if at_sea else row)
 
 
 def spatial_answer(

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from auv_msgs_py.values.types import NO_CURRENT, Current, SpatialCurrent
+from auv_path_following.comparators.mss_pilot import MssPilot
 from auv_path_following.control.autopilot import AutopilotConfig
 from auv_path_following.control.pitch_plane import pitch_gains
 from auv_path_following.curves.composite import CompositePath
@@ -42,6 +43,8 @@ class Scenario:
         controller_vehicle: the hull that guidance and autopilots assume; the plant's own if None.
         time_limit: latest end of the flight, s.
         spatial: what to follow, in three dimensions.
+        peer: gains of the law of MSS, which then replaces observer, guidance and autopilot: along straight
+            legs, in the plane.
     """
 
     path: CompositePath
@@ -61,6 +64,7 @@ class Scenario:
     controller_vehicle: Vehicle | None = None
     time_limit: float = 3600.0
     spatial: SpatialPath | None = None
+    peer: MssPilot | None = None
 
     @property
     def step_ns(self) -> int:

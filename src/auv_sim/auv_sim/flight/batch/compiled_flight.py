@@ -9,12 +9,12 @@ import numpy as np
 import numpy.typing as npt
 
 from auv_path_following.guidance.approach import empty_approach
-from auv_path_following.pilots import pilot_begins
 from auv_sim.flight.batch import same_bits, tally  # noqa: F401 - before anything is compiled
 from auv_sim.flight.batch.compiled import compiled, take_over_pure
 from auv_sim.flight.batch.config_rows import unpack
 from auv_sim.flight.batch.kinds.chosen import (
     at_rest,
+    begins,
     count_extras,
     count_motion,
     is_finite,
@@ -42,7 +42,7 @@ class FlightConfig(NamedTuple):
     """Configuration of a flight, without its path, its start and its current.
 
     Attributes:
-        pilot: `Pilot`, or `SpatialPilot` for a vehicle that dives.
+        pilot: `Pilot`, `SpatialPilot` for a vehicle that dives, or `PeerPilot`.
         plant: the simulated vehicle.
         dt: between two odometries, s.
         steps: at most this many odometries.
@@ -130,7 +130,7 @@ def fly_one(
     flown = scratch.flown
     flown[:] = False
     tally.begin(whole, subpaths)
-    flying = pilot_begins(c.pilot, scratch.approach)
+    flying = begins(c.pilot, scratch.approach)
     commanded, stop = 0.0, largest_angle(c.pilot)
     i, clear, s, finite, nearest, covered = -1, 0.0, 0.0, True, UNTRACKED, 0.0
     odometries = c.steps

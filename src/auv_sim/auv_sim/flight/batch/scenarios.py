@@ -124,6 +124,7 @@ class Preparation:
             c.pitch,
             c.mode,
             c.sea,
+            c.peer,
         )
         key = (*map(id, settings), c.thrust, c.step, c.command_delay, c.time_limit)
         row = self._known.get(key)

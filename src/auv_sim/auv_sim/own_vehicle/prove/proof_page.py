@@ -1,98 +1,97 @@
-"""One page: the sentence, the verdict, and the distributions behind them."""
+"""The page of a proof: verdict, sentence, tables, pictures, and what was flown, in one file to print."""
 
 from __future__ import annotations
 
-import textwrap
-from collections.abc import Mapping
+import base64
+import html
+from collections.abc import Mapping, Sequence
+from importlib import resources
 from pathlib import Path
+from typing import NamedTuple
 
-import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
+from auv_msgs_py.settings.result_files import write_text
 
-from auv_sim.own_vehicle.prove.proof import Proof
-from auv_sim.own_vehicle.tune.objective import LIMIT_CYCLE
-from auv_sim.views.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, PATH, RED, save, style
-
-_COLOURS = (BLUE, ORANGE, GREEN, RED, MUTED, INK)
-_WIDTH = 125
+_PAGE = "proof_page.html"
 
 
-def draw(target: Path, sentence: str, verdict: str, within: float, proofs: Mapping[str, Proof]) -> None:
-    """Draw the page.
+class PageTable(NamedTuple):
+    """A table: title, headings, rows, and a line below it (may be empty)."""
 
-    Args:
-        target: the picture.
-        sentence: what is proven.
-        verdict: one line.
-        within: largest distance away from corners that is good enough, m.
-        proofs: the flights with the gains themselves first, then with other laws.
+    title: str
+    head: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    hint: str
+
+
+class Page(NamedTuple):
+    """The content of the page.
+
+    Attributes:
+        title: above all.
+        is_proven: the verdict's colour.
+        verdict, sentence: in words.
+        notice: against the verdict's worth; empty for none.
+        tables: in their order.
+        picture, flight: PNG files of the distributions and of the worst flight.
+        worst: about that flight.
+        refly: command that repeats it.
+        facts: what was flown, by name.
+    """
+
+    title: str
+    is_proven: bool
+    verdict: str
+    sentence: str
+    notice: str
+    tables: Sequence[PageTable]
+    picture: Path
+    flight: Path
+    worst: str
+    refly: str
+    facts: Mapping[str, str]
+
+
+def write(target: Path, page: Page) -> None:
+    """Write the page; pictures and colours are in it.
 
     Raises:
         NotWritten: it cannot be written.
     """
-    figure = Figure(figsize=(12.0, 9.0), dpi=90, facecolor="white")
-    FigureCanvasAgg(figure)
-    head = "\n".join(textwrap.wrap(sentence, _WIDTH))
-    holds = next(iter(proofs.values())).holds(within)
-    figure.text(0.05, 0.965, verdict, color=GREEN if holds else RED, fontsize=13, va="top", weight="bold")
-    figure.text(0.05, 0.925, head, color=INK, fontsize=10, va="top", linespacing=1.5)
-    grid = figure.add_gridspec(2, 2, left=0.08, right=0.97, top=0.79, bottom=0.07, hspace=0.34, wspace=0.22)
-    off, whole, calm, activity = (figure.add_subplot(grid[k // 2, k % 2]) for k in range(4))
-    _spread(off, "off", proofs)
-    off.axvline(within, color=INK, linewidth=1.0, linestyle=":", label=f"asked for: {within:g} m")
-    off.set_xlabel("largest true distance of a flight away from corners (m)", color=INK)
-    off.legend(frameon=False, fontsize=8, loc="lower right")
-    _spread(whole, "whole", proofs)
-    whole.set_xlabel("largest true distance of a flight anywhere (m)", color=INK)
-    _unrest(calm, proofs)
-    _activity(activity, proofs)
-    save(figure, target)
+    sheet = resources.files("auv_sim.views.console").joinpath("page", "colours.css")
+    text = resources.files("auv_sim.own_vehicle.prove").joinpath(_PAGE).read_text(encoding="utf-8")
+    notice = f'<p class="verdict no">{html.escape(page.notice)}</p>\n' if page.notice else ""
+    fields = {
+        "COLOURS": sheet.read_text(encoding="utf-8"),
+        "TITLE": html.escape(page.title),
+        "CLASS": "yes" if page.is_proven else "no",
+        "VERDICT": html.escape(page.verdict),
+        "SENTENCE": html.escape(page.sentence),
+        "NOTICE": notice,
+        "TABLES": "".join(map(_table, page.tables)),
+        "PICTURE": _embedded(page.picture),
+        "WORST": html.escape(page.worst),
+        "FLIGHT": _embedded(page.flight),
+        "REFLY": html.escape(page.refly),
+        "FACTS": "".join(
+            f"<tr><td>{html.escape(name)}</td><td>{html.escape(value)}</td></tr>\n"
+            for name, value in page.facts.items()
+        ),
+    }
+    # Split once: a value that contains a placeholder stays as it is.
+    first, *rest = text.split("{{")
+    parts = (part.partition("}}") for part in rest)
+    write_text(target, first + "".join(fields[name] + after for name, _, after in parts))
 
 
-def _spread(axes: Axes, name: str, proofs: Mapping[str, Proof]) -> None:
-    """Draw the share of flights within a distance, and where the bound lies."""
-    style(axes, "share of the flights (%)")
-    for (label, proof), colour in zip(proofs.items(), _COLOURS, strict=False):
-        values = np.sort(getattr(proof, name))
-        share = 100.0 * np.arange(1, len(values) + 1) / len(values)
-        is_known = np.isfinite(values)
-        axes.step(values[is_known], share[is_known], where="post", color=colour, linewidth=1.5)
-        bound = getattr(proof, f"{name}_bound")
-        text = f"{label}: 99 % within {bound:.2f} m" if np.isfinite(bound) else f"{label}: no bound"
-        axes.plot([bound], [99.0], "o", color=colour, markersize=5, label=text)
-    axes.set_ylim(0.0, 101.0)
-    axes.set_xlim(left=0.0)
-    axes.legend(frameon=False, fontsize=8, loc="lower right")
+def _table(table: PageTable) -> str:
+    head = "".join(f"<th>{html.escape(text)}</th>" for text in table.head)
+    rows = "".join(
+        f"<tr>{''.join(f'<td>{html.escape(cell)}</td>' for cell in row)}</tr>\n" for row in table.rows
+    )
+    hint = f'<p class="hint">{html.escape(table.hint)}</p>' if table.hint else ""
+    title = html.escape(table.title)
+    return f"<section><h2>{title}</h2><table><tr>{head}</tr>\n{rows}</table>{hint}</section>\n"
 
 
-def _unrest(axes: Axes, proofs: Mapping[str, Proof]) -> None:
-    style(axes, "starts (%)")
-    edges = np.geomspace(1e-3, 30.0, 46)
-    for (label, proof), colour in zip(proofs.items(), _COLOURS, strict=False):
-        rates = np.clip(np.nan_to_num(proof.unrest, nan=edges[-1]), edges[0], edges[-1])
-        counts, _ = np.histogram(rates, edges)
-        text = f"{label}: {proof.cycles} of {len(rates)}, at most {100.0 * proof.cycle_bound:.1f} %"
-        axes.stairs(100.0 * counts / len(rates), edges, color=colour, linewidth=1.4, label=text)
-    axes.axvline(LIMIT_CYCLE, color=INK, linewidth=1.0, linestyle=":")
-    axes.set_xscale("log")
-    axes.set_xlabel("rms yaw rate late on a straight line (°/s); right of the line: limit cycles", color=INK)
-    axes.legend(frameon=False, fontsize=8)
-
-
-def _activity(axes: Axes, proofs: Mapping[str, Proof]) -> None:
-    style(axes, "")
-    places = np.arange(len(proofs))[::-1]
-    colours = [_COLOURS[k % len(_COLOURS)] for k in range(len(proofs))]
-    travel = [proof.travel for proof in proofs.values()]
-    axes.barh(places, travel, height=0.6, color=colours)
-    for place, (label, proof) in zip(places, proofs.items(), strict=True):
-        known = proof.rms[np.isfinite(proof.rms)]
-        rms = float(np.median(known)) if known.size else np.nan
-        text = f"{label}: median rms {rms:.2f} m, {proof.lost} of {len(proof.rms)} not completed"
-        axes.text(0.0, place + 0.36, text, color=INK, fontsize=8, va="bottom")
-    axes.set_yticks([])
-    axes.set_ylim(min(-0.6, len(proofs) - 6.6), len(proofs))
-    axes.spines["left"].set_color(PATH)
-    axes.set_xlabel("rudder travel in the sea (°/m)", color=INK)
+def _embedded(picture: Path) -> str:
+    return f"data:image/png;base64,{base64.b64encode(picture.read_bytes()).decode('ascii')}"

@@ -7,10 +7,12 @@ import math
 import re
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following.control.pitch_plane import pitch_plane_of
 from auv_path_following.control.rule.fin_response import response_of
 from auv_path_following.vehicle import Hull, Rudder, Vehicle
 
@@ -19,8 +21,13 @@ UNCERTAIN = (
     "Xuu", "Xud", "Xvr", "Xrr", "Yvv", "Yvd", "Yrr", "Yrd", "Yur", "Yuv", "Yuud",
     "Nvv", "Nvd", "Nrr", "Nrd", "Nur", "Nuv", "Nuud",
 )  # fmt: skip
-#: Settings of the rudder that vary with them.
+#: Coefficients of heave and pitch, of a hull that dives; weight and buoyancy are weighed.
+UNCERTAIN_DIVING = (
+    "Zww", "Zqq", "Zuw", "Zuq", "Zwd", "Zqd", "Zuud", "Mww", "Mqq", "Muw", "Muq", "Mwd", "Mqd", "Muud",
+)  # fmt: skip
+#: Settings of a fin that vary with them; those of the stern planes by names of their own.
 RUDDER = ("max_rate_deg_s", "dead_time")
+PLANES = {name: f"sternplanes.{name}" for name in RUDDER}
 #: Comments of a number that is unknown in its size, and the factor within which it then may be wrong.
 _UNKNOWN, _UNKNOWN_FACTOR = ("not known from these data", "stable and unstable hulls exist"), 2.0
 #: Draws in a row without a hull that can exist and turns steadily, after which a spread is refused.
@@ -66,17 +73,22 @@ def spread_of_file(file: Path) -> dict[str, Factors]:
     comment states only that it is unknown has a factor of 2.
 
     Returns:
-        Planar coefficients by name, and the rudder's `max_rate_deg_s` and `dead_time`.
+        Coefficients by name, the rudder's `max_rate_deg_s` and `dead_time`, and those of the planes as
+        `sternplanes.max_rate_deg_s` and `sternplanes.dead_time`.
     """
-    found, section = {}, ""
+    found: dict[str, Factors] = {}
+    section = ""
+    known = {"hull": (*UNCERTAIN, *UNCERTAIN_DIVING), "rudder": RUDDER, "sternplanes": RUDDER}
     for line in file.read_text(encoding="utf-8").splitlines():
         key = re.match(r"(\w+):", line)
         section = key[1] if key else section
+        if section == "hull" and (all_of := re.match(r"\s+vertical: *#.*\ball assumed \(x([0-9.]+)\)", line)):
+            found |= dict.fromkeys(UNCERTAIN_DIVING, factors_of(float(all_of[1]) - 1.0))
         number = re.match(r"\s+(\w+): *([-+0-9.eE]+) +#(.*)", line)
-        if number and number[1] in {"hull": UNCERTAIN, "rudder": RUDDER}.get(section, ()):
+        if number and number[1] in known.get(section, ()):
             factors = _stated(float(number[2]), number[3])
             if factors is not None:
-                found[number[1]] = factors
+                found[PLANES[number[1]] if section == "sternplanes" else number[1]] = factors
     return found
 
 
@@ -110,8 +122,8 @@ def drawn_hulls(
     Args:
         vehicle: as its file has it.
         number: how many.
-        spread: half width of the uncertainty of every coefficient, of the rudder's rate and of its dead time,
-            a share: from 1/(1 + spread) to 1 + spread times, drawn evenly in its logarithm.
+        spread: half width of the uncertainty of every coefficient, of a fin's rate and of its dead time, a
+            share: from 1/(1 + spread) to 1 + spread times, drawn evenly in its logarithm.
         random: where the numbers come from.
         own: factors of single numbers, as of `spread_of_file`, in place of `spread`.
 
@@ -143,20 +155,24 @@ def _drawn(
         low, high = map(math.log, own.get(name, factors_of(spread)))
         return math.exp(random.uniform(low, high))
 
-    factors = {name: factor(name) for name in UNCERTAIN}
-    rate, late = map(factor, RUDDER)
+    changes: dict[str, Any] = {name: getattr(hull, name) * factor(name) for name in UNCERTAIN}
+    fins: dict[str, Any] = {"rudder": _other(vehicle.rudder, *map(factor, RUDDER))}
+    vertical: dict[str, float] = {}
+    if hull.vertical is not None and vehicle.sternplanes is not None:
+        vertical = {name: getattr(hull.vertical, name) * factor(name) for name in UNCERTAIN_DIVING}
+        fins["sternplanes"] = _other(vehicle.sternplanes, *map(factor, PLANES.values()))
     try:
-        other: Hull = dataclasses.replace(
-            hull, **{name: getattr(hull, name) * factor for name, factor in factors.items()}
-        )
-        drawn = dataclasses.replace(vehicle, hull=other, rudder=_other(vehicle.rudder, rate, late))
+        if vertical and hull.vertical is not None:
+            changes["vertical"] = dataclasses.replace(hull.vertical, **vertical)
+        other: Hull = dataclasses.replace(hull, **changes)
+        drawn = dataclasses.replace(vehicle, hull=other, **fins)
         response_of(drawn)
+        if vertical:
+            response_of(pitch_plane_of(drawn))
     except (ConfigurationError, ValueError):
         return None
     return drawn
 
 
-def _other(rudder: Rudder, rate: float, late: float) -> Rudder:
-    return dataclasses.replace(
-        rudder, max_rate_deg_s=rudder.max_rate_deg_s * rate, dead_time=rudder.dead_time * late
-    )
+def _other(fin: Rudder, rate: float, late: float) -> Rudder:
+    return dataclasses.replace(fin, max_rate_deg_s=fin.max_rate_deg_s * rate, dead_time=fin.dead_time * late)

@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from auv_msgs_py.settings.schema import leaves
+from auv_path_following.comparators.mss_pilot import MssPilot
 from auv_path_following.control.autopilot import AutopilotConfig
 from auv_path_following.control.hull_model import tightest_turn
 from auv_path_following.control.nism import NismConfig
@@ -41,11 +42,13 @@ class GainSet(NamedTuple):
         guidance: laws, look-aheads, corners.
         autopilot: of the heading.
         pitch: of a vehicle that dives.
+        peer: of the law of MSS, which then flies; `autopilot` is its equal near the path.
     """
 
     guidance: PathFollowerConfig
     autopilot: AutopilotConfig
     pitch: AutopilotConfig
+    peer: MssPilot | None = None
 
 
 #: Laws that are tuned alike: name -> guidance law, heading controller.
@@ -130,6 +133,11 @@ class GainSpace:
         return np.log(ratios)
 
     @staticmethod
+    def bounds() -> tuple[Vector, Vector]:
+        """Return the smallest and the largest point."""
+        return bounds()
+
+    @staticmethod
     def _clipped(point: Vector) -> Vector:
         return np.clip(point, *bounds())
 
@@ -154,15 +162,13 @@ class GainSpace:
         k1 = ruled.nism.k1 / ruled.reference.max_rate * rate
         k3 = ruled.nism.k3 / ruled.reference.max_acceleration * acceleration
         steepness = 1.0 / abs(response.gain(w_c))
-        nism = _allowed(
+        nism = allowed(
             NismConfig, k1=k1, k2=a * w_c / k1, k3=k3, k4=c * w_c / k3, k5=steepness / kp, kp=kp, ks=0.0
         )
         # Near the path NISM is this PID law.
-        pid = _allowed(
-            PidConfig, kp=(a + c) * w_c * steepness, ki=a * c * w_c * w_c * steepness, kd=steepness
-        )
+        pid = allowed(PidConfig, kp=(a + c) * w_c * steepness, ki=a * c * w_c * w_c * steepness, kd=steepness)
         jerk = ruled.reference.max_jerk
-        reference = _allowed(
+        reference = allowed(
             ReferenceConfig, enabled=True, bandwidth=w_r, max_rate=rate, max_acceleration=acceleration,
             max_jerk=jerk,
         )  # fmt: skip
@@ -180,7 +186,7 @@ class GainSpace:
         )
 
 
-def _allowed(cls: type[Any], **values: Any) -> Any:
+def allowed(cls: type[Any], **values: Any) -> Any:
     """Return settings whose numbers are cut to the largest that their class allows."""
     largest = {leaf.name: leaf.maximum for leaf in leaves(cls)}
     return cls(

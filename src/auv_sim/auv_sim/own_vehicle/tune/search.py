@@ -11,7 +11,7 @@ import numpy as np
 from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.batch.scenarios import Courses
 from auv_sim.own_vehicle.tune import sampled_loop
-from auv_sim.own_vehicle.tune.gain_space import GainSet, GainSpace, Vector, bounds
+from auv_sim.own_vehicle.tune.gain_space import GainSet, GainSpace, Vector
 from auv_sim.own_vehicle.tune.objective import LEAST_DELAY, LEAST_GAIN, CostTerms, terms_of, worst
 from auv_sim.own_vehicle.tune.sampled_loop import LinearPlane, Margins
 from auv_sim.own_vehicle.tune.trial_flights import SEARCHED, Amount, Conditions, draw_flights, fly_all
@@ -144,7 +144,7 @@ def search(problem: Problem, budget: Budget, done: Callable[[float], Any] | None
     import cma
 
     space = problem.space
-    low, high = bounds()
+    low, high = space.bounds()
     options = {
         "bounds": [(low - space.first).tolist(), (high - space.first).tolist()],
         "popsize": budget.population, "seed": problem.seed + 1, "verbose": -9, "verb_disp": 0, "verb_log": 0,

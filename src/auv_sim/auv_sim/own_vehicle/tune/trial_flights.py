@@ -42,6 +42,11 @@ PROVEN_LEGS, PROVEN_TURN = 5, 2.5
 PATIENCE = 1.6
 
 
+#: Kinds of courses; those of straight legs are for the laws that know no others.
+COURSES: tuple[Kind, ...] = ("sharp", "rounded", "survey")
+STRAIGHT: tuple[Kind, ...] = ("sharp",)
+
+
 class Conditions(NamedTuple):
     """What the gains are for.
 
@@ -50,12 +55,14 @@ class Conditions(NamedTuple):
         step: between two odometries on courses, s.
         steps: between two odometries on lines, s; each is flown.
         sea: imperfections of one flight; None for none.
+        kinds: of the courses, in turn; the first is flown in place of kinds that are not among them.
     """
 
     delay: float
     step: float
     steps: tuple[float, ...]
     sea: Sea | None
+    kinds: tuple[Kind, ...] = COURSES
 
 
 class Flight(NamedTuple):
@@ -131,11 +138,12 @@ def draw_starts(
 def _along_courses(
     vehicle: Vehicle, conditions: Conditions, amount: Amount, random: np.random.Generator
 ) -> list[Flight]:
-    n = amount.courses
+    n, sharp = amount.courses, conditions.kinds[0]
+    rounded, survey = (kind if kind in conditions.kinds else sharp for kind in COURSES[1:])
     kinds: list[tuple[Kind, float, Sea | None, int]] = [
-        ("sharp", 0.0, None, n), ("sharp", STRONGEST, None, n),
-        ("rounded", 0.0, None, n), ("rounded", STRONGEST, None, n), ("survey", STRONGEST, None, n),
-        ("rounded", 0.0, conditions.sea, amount.at_sea if conditions.sea is not None else 0),
+        (sharp, 0.0, None, n), (sharp, STRONGEST, None, n),
+        (rounded, 0.0, None, n), (rounded, STRONGEST, None, n), (survey, STRONGEST, None, n),
+        (rounded, 0.0, conditions.sea, amount.at_sea if conditions.sea is not None else 0),
     ]  # fmt: skip
     return [
         _along(vehicle, conditions, kind, amount.legs, strongest, sea, random)
@@ -149,9 +157,10 @@ def draw_sea_flights(
 ) -> list[Flight]:
     """Draw one flight for each hull, in the sea and a further current.
 
-    In turn the courses have sharp corners, rounded corners, and the parallel legs of a survey.
+    In turn the courses are of the kinds of the conditions: with sharp corners, with rounded corners, and the
+    parallel legs of a survey.
     """
-    kinds: tuple[Kind, ...] = ("sharp", "rounded", "survey")
+    kinds = conditions.kinds
     further = PROVEN_LEGS, STRONGEST, conditions.sea, random, PROVEN_TURN
     return [_along(hull, conditions, kinds[k % len(kinds)], *further) for k, hull in enumerate(hulls)]
 
@@ -207,7 +216,7 @@ def with_laws(flight: Flight, flown: GainSet, model: Vehicle) -> Scenario:
         guidance = dataclasses.replace(guidance, approach=ApproachConfig(enabled=False))
     return dataclasses.replace(
         flight.scenario, guidance=guidance, autopilot=flown.autopilot, pitch=flown.pitch,
-        controller_vehicle=model,
+        controller_vehicle=model, peer=flown.peer,
     )  # fmt: skip
 
 

@@ -72,7 +72,7 @@ def run(options: argparse.Namespace) -> int:
     wrote(console, picture, "a held-out course, before and after")
     rest = ["--delay", f"{options.delay:g}"] if options.delay else []
     rest += ["--spread", str(options.spread)] if options.spread else []
-    rest += ["--overwrite"] if Path("proof/proof.png").exists() else []
+    rest += ["--overwrite"] if Path("proof/proof.html").exists() else []
     line = to_type(
         "vehicle.py", "prove", options.vehicle, "--params", str(options.out), "--sea", options.sea, *rest
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+from collections.abc import Sequence
 
 from auv_path_following import config_files
 from auv_sim.command_line import at_least_one, not_negative, positive, whole
@@ -20,8 +21,13 @@ def spread(text: str) -> float | str:
 spread.__name__ = "number"
 
 
-def add_conditions(p: argparse.ArgumentParser) -> None:
-    """Add the options."""
+def add_conditions(p: argparse.ArgumentParser, several: Sequence[str] = ()) -> None:
+    """Add the options.
+
+    Args:
+        p: parser.
+        several: seas if none is named, where more than one may be; without, one sea is.
+    """
     seas = ", ".join(config_files.shipped("seas"))
     p.add_argument(
         "--delay", type=not_negative, default=0.0, metavar="S",
@@ -34,12 +40,15 @@ def add_conditions(p: argparse.ArgumentParser) -> None:
         "--slowest", type=positive, default=10.0, metavar="HZ",
         help="slowest rate of the flights on lines (default: 10)",
     )  # fmt: skip
-    p.add_argument(
-        "--sea", default="moderate", metavar="FILE", help=f"file or one of: {seas} (default: moderate)"
-    )
+    if several:
+        text = f"file or one of: {seas}; once for each sea (default: {' and '.join(several)})"
+        p.add_argument("--sea", action="append", metavar="FILE", help=text)
+    else:
+        text = f"file or one of: {seas} (default: moderate)"
+        p.add_argument("--sea", default="moderate", metavar="FILE", help=text)
     p.add_argument(
         "--spread", type=spread, default=0.0, metavar="PERCENT",
-        help="uncertainty of planar coefficients, rudder rate and dead time, half width (0); or `file`: of "
+        help="uncertainty of coefficients, fin rates and dead times, half width (0); or `file`: of "
         "each as the comments of the vehicle file state it",
     )  # fmt: skip
     p.add_argument("--seed", type=whole, default=0, metavar="N", help="of all draws (default: 0)")

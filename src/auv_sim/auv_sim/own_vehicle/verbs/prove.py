@@ -1,9 +1,9 @@
 """Prove gains on a vehicle: a campaign, one page, one verdict.
 
-Flies drawn courses in a sea, in further currents, on hulls within the uncertainty of their coefficients, and
-hard starts on straight lines. 99 % of the flights keep within the distance that it prints, at 95 %
-confidence. Exit code 0: within the distance asked for, and limit cycles from at most 1 % of the starts, at
-the same confidence; 1: not.
+Flies drawn courses in each sea, in further currents, on hulls within the uncertainty of their coefficients,
+and hard starts on straight lines; a vehicle with stern planes changes its depth. 99 % of the flights keep
+within the distance that it prints, at 95 % confidence. Exit code 0: within the distances asked for in every
+sea, and limit cycles from at most 1 % of the starts, at the same confidence; 1: not.
 """
 
 from __future__ import annotations
@@ -11,8 +11,11 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from auv_sim.command_line import at_least_one, positive
+from auv_sim.command_line import at_least_one, positive, whole
 from auv_sim.own_vehicle.verbs.gain_options import add_conditions
+
+#: Seas if none is named.
+SEAS = ("calm", "moderate")
 
 
 def add_arguments(p: argparse.ArgumentParser) -> None:
@@ -27,12 +30,17 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
         help="true distance away from corners that 99 %% must keep (default: 2.5 m)",
     )  # fmt: skip
     p.add_argument(
+        "--within-depth", type=positive, default=1.0, metavar="M",
+        help="true error of depth that 99 %% must keep, of a vehicle that dives (default: 1 m)",
+    )  # fmt: skip
+    p.add_argument(
         "--flights", type=at_least_one, default=1000, metavar="N",
-        help="in the sea, and as many starts on lines (default: 1000; fewer than 299 bound nothing)",
+        help="in each sea, and as many starts on lines (default: 1000; fewer than 299 bound nothing)",
     )  # fmt: skip
     p.add_argument(
         "--laws", action="store_true",
-        help="beside them PID, LOS, ILOS, vector field and AILOS with NISM, each tuned with one budget",
+        help="beside them PID, LOS, ILOS, vector field, AILOS with NISM, and on straight legs the law of "
+        "MSS, each tuned with one budget",
     )  # fmt: skip
     p.add_argument(
         "--generations", type=at_least_one, default=30, metavar="N", help="budget of each law (default: 30)"
@@ -44,11 +52,15 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     p.add_argument(
         "--out", type=Path, default=Path("proof"), metavar="DIR", help="where to write (default: proof)"
     )
-    add_conditions(p)
+    p.add_argument(
+        "--refly", type=whole, metavar="N", help="fly and draw flight N again, as the page names it, alone"
+    )
+    add_conditions(p, SEAS)
 
 
 def run(options: argparse.Namespace) -> int:
     """Prove; return the exit code."""
     from auv_sim.own_vehicle.prove.prove_session import run as prove
 
+    options.sea = options.sea or list(SEAS)
     return prove(options)

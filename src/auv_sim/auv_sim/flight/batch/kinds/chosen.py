@@ -6,11 +6,18 @@ from auv_msgs_py.values.pure import dispatched
 from auv_msgs_py.values.types import Current, Navigation, SpatialCurrent, SpatialNavigation
 from auv_path_following.curves.rows import PathRows
 from auv_path_following.curves.spatial.spatial_rows import SpatialRows
-from auv_path_following.pilot import Pilot
-from auv_path_following.spatial_pilot import SpatialPilot
+from auv_path_following.pilot import Pilot, begun
+from auv_path_following.spatial_pilot import SpatialPilot, spatial_begun
 from auv_sim.flight.batch.kinds import planar_kind as planar
 from auv_sim.flight.batch.kinds import spatial_kind as spatial
 from auv_sim.flight.batch.track_row import fill_row, fill_spatial_row
+from auv_sim.flight.peer_pilot import (
+    PeerPilot,
+    peer_begun,
+    peer_largest_angle,
+    peer_reply,
+    peer_stop,
+)
 from auv_sim.vehicle.at_sea import Seen
 from auv_sim.vehicle.diving.ideal_diver import SpatialSeen
 from auv_sim.vehicle.hulls.rigid_body import BodyState
@@ -19,12 +26,20 @@ from auv_sim.vehicle.remus import Plant, PlantState
 
 #: First state of a vehicle and the constant current, from rows of numbers.
 start_from = dispatched({Plant: planar.planar_start, SpatialPlant: spatial.spatial_start})
+#: State of a mission that has just been started: (pilot, approach) -> state.
+begins = dispatched({Pilot: begun, SpatialPilot: spatial_begun, PeerPilot: peer_begun})
 #: The command of a vehicle at rest.
-at_rest = dispatched({Pilot: planar.planar_stop, SpatialPilot: spatial.spatial_stop})
+at_rest = dispatched({Pilot: planar.planar_stop, SpatialPilot: spatial.spatial_stop, PeerPilot: peer_stop})
 #: (pilot, path, state, seen, now, dt) -> (state, navigation, estimate, guidance's output, command).
-reply = dispatched({Pilot: planar.planar_answer, SpatialPilot: spatial.spatial_reply})
+reply = dispatched({Pilot: planar.planar_answer, SpatialPilot: spatial.spatial_reply, PeerPilot: peer_reply})
 #: Largest angle of the rudder, rad.
-largest_angle = dispatched({Pilot: planar.planar_largest_angle, SpatialPilot: spatial.spatial_largest_angle})
+largest_angle = dispatched(
+    {
+        Pilot: planar.planar_largest_angle,
+        SpatialPilot: spatial.spatial_largest_angle,
+        PeerPilot: peer_largest_angle,
+    }
+)
 #: (path, outlines, nearest, i, motion, covered) -> (nearest, distance, how far below the path), m.
 off_followed = dispatched({PathRows: planar.planar_off, SpatialRows: spatial.spatial_off})
 #: (path, outlines, i, motion) -> (distance, how far below) of the subpaths before and after subpath i, m.

@@ -1,0 +1,98 @@
+"""Other laws beside given gains: each tuned by the same search with one budget, flown on the same flights."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import NamedTuple
+
+from auv_path_following.guidance.path_follower import PathFollowerConfig
+from auv_sim.own_vehicle.prove.peer_space import PeerSpace
+from auv_sim.own_vehicle.prove.proof import Proof, Proposition, draw_claim, fly_proof
+from auv_sim.own_vehicle.tune.ensemble import planar
+from auv_sim.own_vehicle.tune.gain_space import LAWS, OWN_LAW, GainSet, GainSpace
+from auv_sim.own_vehicle.tune.search import Budget, Problem, search
+from auv_sim.own_vehicle.tune.trial_flights import STRAIGHT, Flight
+
+#: Name of MSS's law in tables.
+PEER = "MSS: ALOS, sliding mode"
+#: Flights along straight legs, at most: bounds of 99 % at 95 % need 299.
+_LEGS = 500
+#: (task, how much it is) -> what counts one step of it.
+Progress = Callable[[str, int], Callable[[float], None]]
+
+
+class LawTables(NamedTuple):
+    """Proofs by the name of the law, in the worst sea of the proof, in the plane.
+
+    Attributes:
+        alike: on the courses of the proof, the given gains first.
+        straight: on courses of straight legs, with MSS's law; empty where it cannot fly the vehicle.
+    """
+
+    alike: Mapping[str, Proof]
+    straight: Mapping[str, Proof]
+
+
+def compare(
+    claim: Proposition, own: tuple[str, GainSet], proof: Proof, guidance: PathFollowerConfig, budget: Budget,
+    begin: Progress,
+) -> LawTables:  # fmt: skip
+    """Tune and fly the laws.
+
+    Args:
+        claim: what is proven.
+        own: name and gains that are proven.
+        proof: of them.
+        guidance: for everything that is not tuned.
+        budget: of each law.
+        begin: announces a task.
+    """
+    worst = next(sea for sea in claim.seas if sea.name == proof.worst_sea)
+    flat = claim._replace(
+        vehicle=planar(claim.vehicle), seas=(worst,), conditions=claim.conditions._replace(sea=worst)
+    )
+    laws = {
+        law if law != OWN_LAW else f"{law}, tuned alike": _tuned(flat, law, guidance, budget, begin)
+        for law in LAWS
+    }
+    flights = draw_claim(flat)
+    label, gains = own
+    if claim.vehicle.dives:
+        alike = {label: _flown(flat, flights, label, gains, budget, begin)}
+    else:
+        alike = {label: Proof({worst.name: proof.seas[worst.name]}, proof.unrest)}
+    alike |= {name: _flown(flat, flights, name, law, budget, begin) for name, law in laws.items()}
+    if flat.vehicle.dives:
+        return LawTables(alike, {})
+    legs = flat._replace(
+        conditions=flat.conditions._replace(kinds=STRAIGHT), flights=min(flat.flights, _LEGS)
+    )
+    peer = _tuned(legs, PEER, guidance, budget, begin)
+    along = [flight for flight in draw_claim(legs) if not flight.is_line]
+    straight = {
+        name: _flown(legs, along, f"{name}, legs", law, budget, begin)._replace(unrest=alike[name].unrest)
+        for name, law in {label: gains, **laws}.items()
+    }
+    lines = [flight for flight in flights if flight.is_line]
+    straight[PEER] = _flown(legs, [*along, *lines], PEER, peer, budget, begin)
+    return LawTables(alike, straight)
+
+
+def _tuned(
+    claim: Proposition, law: str, guidance: PathFollowerConfig, budget: Budget, begin: Progress
+) -> GainSet:
+    delay, step = claim.conditions.delay, claim.conditions.step
+    space = (
+        PeerSpace(claim.vehicle, guidance, delay, step)
+        if law == PEER
+        else GainSpace(claim.vehicle, guidance, delay, step, law)
+    )
+    problem = Problem(space, [claim.vehicle], claim.conditions, claim.seed)
+    found = search(problem, budget, begin(f"tune: {law}", budget.generations))
+    return space.gains(found.point)
+
+
+def _flown(
+    claim: Proposition, flights: list[Flight], name: str, gains: GainSet, budget: Budget, begin: Progress
+) -> Proof:
+    return fly_proof(claim, flights, gains, budget.threads, begin(f"flights: {name}", len(flights)))

@@ -1,0 +1,156 @@
+"""What a proof leaves behind: page, pictures, summary, and what is printed."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import NamedTuple
+
+from rich.console import Console
+
+from auv_msgs_py.settings.result_files import write_text
+from auv_path_following.vehicle import Vehicle
+from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, to_type
+from auv_sim.flight.metrics import without_nan
+from auv_sim.own_vehicle.prove import proof_page, proof_picture, proof_words, provenance
+from auv_sim.own_vehicle.prove.confidence import flights_needed
+from auv_sim.own_vehicle.prove.law_comparison import PEER, LawTables
+from auv_sim.own_vehicle.prove.one_flight import draw_flight, flight_words, worst_of
+from auv_sim.own_vehicle.prove.proof import Proof, Proposition
+from auv_sim.own_vehicle.prove.proof_page import Page, PageTable
+from auv_sim.own_vehicle.tune.gain_space import GainSet
+from auv_sim.own_vehicle.tune.trial_flights import Flight
+from auv_sim.terminal import go_on, wrote
+
+_ALONG = "True distance in the sea: 99 % of the flights at 95 % confidence"
+_LAWS = "All laws in the sea {sea}, each tuned by one search with {generations} generations"
+_STRAIGHT = "The same laws on courses of straight legs, with that of MSS"
+_NO_OTHERS = (
+    "The law of MSS knows straight legs alone and was tuned on them; the others were tuned on the courses "
+    "above. It needs no velocity through the water."
+)
+
+
+class Outputs(NamedTuple):
+    """Files that the command writes."""
+
+    page: Path
+    picture: Path
+    flight: Path
+    summary: Path
+
+
+class Result(NamedTuple):
+    """All that was found.
+
+    Attributes:
+        claim: what was to be proven.
+        label: name of the gains.
+        gains: flown.
+        proof: of them.
+        laws: other laws; None if they were not asked for.
+        flights: all of the claim.
+    """
+
+    claim: Proposition
+    label: str
+    gains: GainSet
+    proof: Proof
+    laws: LawTables | None
+    flights: list[Flight]
+
+
+def conclude(
+    console: Console, options: argparse.Namespace, own: Vehicle, outputs: Outputs, result: Result
+) -> int:
+    """Write the files and print what holds; return the exit code.
+
+    Raises:
+        NotWritten: a file cannot be written.
+    """
+    claim, proof = result.claim, result.proof
+    holds = proof.holds(claim.within, claim.within_depth)
+    sentence = proof_words.sentence_of(claim, result.label, proof)
+    verdict = proof_words.verdict_of(claim, proof)
+    notice = ""
+    if claim.flights < flights_needed():
+        notice = f"{claim.flights} flights bound nothing: 99 % at 95 % need {flights_needed()}"
+    tables = _tables(options, result)
+    for title, proofs, _ in tables:
+        console.print(proof_words.table_of(title, proofs, claim.vehicle.dives and proofs is tables[0][1]))
+    console.print(sentence, soft_wrap=False)
+    console.print(verdict, style="bold green" if holds else "bold red")
+    if notice:
+        console.print(f"notice {notice}")
+    shown = {result.label: proof} | (
+        {} if result.laws is None else {k: p for k, p in result.laws.alike.items() if k != result.label}
+    )
+    depth = claim.within_depth if claim.vehicle.dives else None
+    proof_picture.draw(outputs.picture, sentence, verdict, holds, claim.within, shown, depth)
+    worst = worst_of(claim, proof)
+    draw_flight(outputs.flight, claim, result.label, result.gains, result.flights, worst)
+    facts = provenance.facts_of(options, provenance.gains_name(options, own))
+    refly = provenance.command_of(options, refly=worst)
+    words = flight_words(claim, result.flights, worst)
+    pages = [
+        PageTable(title, *proof_words.rows_of(proofs, claim.vehicle.dives and proofs is tables[0][1]), hint)
+        for title, proofs, hint in tables
+    ]
+    title = f"{own.name}: proof of the gains {result.label}"
+    page = Page(
+        title, holds, verdict, sentence, notice, pages, outputs.picture, outputs.flight, words, refly, facts
+    )
+    proof_page.write(outputs.page, page)
+    write_text(outputs.summary, _json(options, sentence, holds, worst, result))
+    wrote(console, outputs.page, "the page, for a browser and to print")
+    wrote(console, outputs.picture, "its distributions")
+    wrote(console, outputs.flight, f"the worst flight; again: {refly}")
+    wrote(console, outputs.summary, "its figures, for programs")
+    _next(console, options, holds)
+    return EXIT_DONE if holds else EXIT_FAILED
+
+
+def _tables(options: argparse.Namespace, result: Result) -> list[tuple[str, Mapping[str, Proof], str]]:
+    """Return title, proofs and a line for each table."""
+    tables: list[tuple[str, Mapping[str, Proof], str]] = [(_ALONG, {result.label: result.proof}, "")]
+    if result.laws is None:
+        return tables
+    plane = ", in the horizontal plane" if result.claim.vehicle.dives else ""
+    title = _LAWS.format(sea=result.proof.worst_sea, generations=options.generations) + plane
+    tables.append((title, result.laws.alike, ""))
+    if result.laws.straight:
+        tables.append((_STRAIGHT + plane, result.laws.straight, _NO_OTHERS))
+    else:
+        hint = f"{PEER} is not among them: it flies vehicles with a planar part of coefficients alone."
+        tables[-1] = (title, result.laws.alike, hint)
+    return tables
+
+
+def _next(console: Console, options: argparse.Namespace, holds: bool) -> None:
+    if holds:
+        rest = ["--params", options.params] if options.params else []
+        go_on(console, "Fly them", to_type("mission.py", "--vehicle", options.vehicle, *map(str, rest)))
+    else:
+        rest = ["--overwrite"] if Path("tuned.yaml").exists() else []
+        line = to_type("vehicle.py", "tune", options.vehicle, "--delay", f"{options.delay:g}", *rest)
+        go_on(console, "Tune", line)
+
+
+def _json(options: argparse.Namespace, sentence: str, holds: bool, worst: int, result: Result) -> str:
+    proofs = {result.label: result.proof} | (dict(result.laws.alike) if result.laws else {})
+    proofs[result.label] = result.proof
+    asked = {name: value for name, value in vars(options).items() if name not in ("run", "quiet", "threads")}
+    content = {
+        "proven": holds,
+        "sentence": sentence,
+        "worst_flight": worst,
+        "options": asked,
+        "gains": {name: proof_words.figures_of(proof) for name, proof in proofs.items()},
+        "straight_legs": {
+            name: proof_words.figures_of(proof)
+            for name, proof in (result.laws.straight if result.laws else {}).items()
+        },
+    }
+    return json.dumps(without_nan(content), indent=2, default=str) + "\n"
