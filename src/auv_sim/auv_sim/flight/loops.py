@@ -11,6 +11,8 @@ from auv_msgs_py.values.attitude import attitude_over_the_wire
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import SpatialCurrent, SpatialNavigation
 from auv_path_following import pilots
+from auv_path_following.comparators import peer_pilot
+from auv_path_following.comparators.peer_pilot import PeerPilot, check_legs, peer_begun, peer_reply
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
 from auv_path_following.curves.spatial.spatial_rows import spatial_rows
@@ -21,8 +23,6 @@ from auv_path_following.guidance.spatial.flown_path import flown_path
 from auv_path_following.navigation import current_observer
 from auv_path_following.pilot import Pilot, pilot
 from auv_path_following.spatial_pilot import SpatialPilot, spatial_pilot
-from auv_sim.flight import peer_pilot
-from auv_sim.flight.peer_pilot import PeerPilot, check_legs, peer_begun, peer_reply
 from auv_sim.flight.scenario import Scenario, spatial_start_of, start_of
 from auv_sim.flight.signals import SPATIAL_TRUTH, TRUTH
 from auv_sim.vehicle.diving.ideal_diver import SpatialSeen

@@ -32,7 +32,7 @@ _COMPILED_FROM = (
     (auv_msgs_py, "contract/*.py"),
     (auv_path_following, "*.py"),
     *((auv_path_following, f"{room}/**/*.py") for room in ("curves", "missions", "navigation")),
-    *((auv_path_following, f"{room}/**/*.py") for room in ("guidance", "control")),
+    *((auv_path_following, f"{room}/**/*.py") for room in ("guidance", "control", "comparators")),
     (auv_sim, "flight/**/*.py"),
     (auv_sim, "vehicle/**/*.py"),
     (auv_sim, "own_vehicle/identify/**/*.py"),

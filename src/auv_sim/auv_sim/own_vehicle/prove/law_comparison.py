@@ -64,18 +64,33 @@ def compare(
     alike |= {name: _flown(flat, flights, name, law, budget, begin) for name, law in laws.items()}
     if flat.vehicle.dives:
         return LawTables(alike, {})
+    return LawTables(alike, _on_legs(flat, {label: gains, **laws}, alike, flights, guidance, budget, begin))
+
+
+def _on_legs(
+    flat: Proposition, laws: Mapping[str, GainSet], alike: Mapping[str, Proof], flights: list[Flight],
+    guidance: PathFollowerConfig, budget: Budget, begin: Progress,
+) -> dict[str, Proof]:  # fmt: skip
+    """Fly the laws, and MSS's law tuned on such courses, along straight legs.
+
+    Args:
+        flat: what is proven, in the plane and in one sea.
+        laws: gains by name.
+        alike: what was found of them; their starts on lines are not flown again.
+        flights: of `flat`, of which MSS's law flies the lines.
+        guidance, budget, begin: as of `compare`.
+    """
     legs = flat._replace(
         conditions=flat.conditions._replace(kinds=STRAIGHT), flights=min(flat.flights, _LEGS)
     )
-    peer = _tuned(legs, PEER, guidance, budget, begin)
     along = [flight for flight in draw_claim(legs) if not flight.is_line]
     straight = {
         name: _flown(legs, along, f"{name}, legs", law, budget, begin)._replace(unrest=alike[name].unrest)
-        for name, law in {label: gains, **laws}.items()
+        for name, law in laws.items()
     }
+    peer = _tuned(legs, PEER, guidance, budget, begin)
     lines = [flight for flight in flights if flight.is_line]
-    straight[PEER] = _flown(legs, [*along, *lines], PEER, peer, budget, begin)
-    return LawTables(alike, straight)
+    return straight | {PEER: _flown(legs, [*along, *lines], PEER, peer, budget, begin)}
 
 
 def _tuned(

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
 from rich.console import Console
 
 from auv_msgs_py.settings.result_files import write_text
+from auv_msgs_py.values.strict_json import without_nan
 from auv_path_following.vehicle import Vehicle
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, to_type
-from auv_sim.flight.metrics import without_nan
 from auv_sim.own_vehicle.prove import proof_page, proof_picture, proof_words, provenance
 from auv_sim.own_vehicle.prove.confidence import flights_needed
 from auv_sim.own_vehicle.prove.law_comparison import PEER, LawTables
 from auv_sim.own_vehicle.prove.one_flight import draw_flight, flight_words, worst_of
 from auv_sim.own_vehicle.prove.proof import Proof, Proposition
 from auv_sim.own_vehicle.prove.proof_page import Page, PageTable
+from auv_sim.own_vehicle.prove.proof_words import rows_of, table_of
 from auv_sim.own_vehicle.tune.gain_space import GainSet
 from auv_sim.own_vehicle.tune.trial_flights import Flight
 from auv_sim.terminal import go_on, wrote
@@ -28,7 +28,7 @@ _ALONG = "True distance in the sea: 99 % of the flights at 95 % confidence"
 _LAWS = "All laws in the sea {sea}, each tuned by one search with {generations} generations"
 _STRAIGHT = "The same laws on courses of straight legs, with that of MSS"
 _NO_OTHERS = (
-    "The law of MSS knows straight legs alone and was tuned on them; the others were tuned on the courses "
+    "The law of MSS is for straight legs alone and was tuned on them; the others were tuned on the courses "
     "above. It needs no velocity through the water."
 )
 
@@ -77,31 +77,21 @@ def conclude(
     notice = ""
     if claim.flights < flights_needed():
         notice = f"{claim.flights} flights bound nothing: 99 % at 95 % need {flights_needed()}"
-    tables = _tables(options, result)
-    for title, proofs, _ in tables:
-        console.print(proof_words.table_of(title, proofs, claim.vehicle.dives and proofs is tables[0][1]))
+    for table in _tables(options, result):
+        console.print(table_of(table.title, table.head, table.rows))
     console.print(sentence, soft_wrap=False)
     console.print(verdict, style="bold green" if holds else "bold red")
     if notice:
         console.print(f"notice {notice}")
-    shown = {result.label: proof} | (
-        {} if result.laws is None else {k: p for k, p in result.laws.alike.items() if k != result.label}
-    )
-    depth = claim.within_depth if claim.vehicle.dives else None
-    proof_picture.draw(outputs.picture, sentence, verdict, holds, claim.within, shown, depth)
     worst = worst_of(claim, proof)
-    draw_flight(outputs.flight, claim, result.label, result.gains, result.flights, worst)
-    facts = provenance.facts_of(options, provenance.gains_name(options, own))
     refly = provenance.command_of(options, refly=worst)
-    words = flight_words(claim, result.flights, worst)
-    pages = [
-        PageTable(title, *proof_words.rows_of(proofs, claim.vehicle.dives and proofs is tables[0][1]), hint)
-        for title, proofs, hint in tables
-    ]
-    title = f"{own.name}: proof of the gains {result.label}"
+    _draw(outputs, result, sentence, verdict, worst)
     page = Page(
-        title, holds, verdict, sentence, notice, pages, outputs.picture, outputs.flight, words, refly, facts
-    )
+        f"{own.name}: proof of the gains {result.label}", holds, verdict, sentence, notice,
+        _tables(options, result), outputs.picture, outputs.flight,
+        flight_words(claim, result.flights, worst), refly,
+        provenance.facts_of(options, provenance.gains_name(options, own)),
+    )  # fmt: skip
     proof_page.write(outputs.page, page)
     write_text(outputs.summary, _json(options, sentence, holds, worst, result))
     wrote(console, outputs.page, "the page, for a browser and to print")
@@ -112,19 +102,29 @@ def conclude(
     return EXIT_DONE if holds else EXIT_FAILED
 
 
-def _tables(options: argparse.Namespace, result: Result) -> list[tuple[str, Mapping[str, Proof], str]]:
-    """Return title, proofs and a line for each table."""
-    tables: list[tuple[str, Mapping[str, Proof], str]] = [(_ALONG, {result.label: result.proof}, "")]
+def _draw(outputs: Outputs, result: Result, sentence: str, verdict: str, worst: int) -> None:
+    """Draw the distributions and the worst flight."""
+    claim, proof = result.claim, result.proof
+    others = {} if result.laws is None else dict(result.laws.alike)
+    shown = {result.label: proof} | {name: one for name, one in others.items() if name != result.label}
+    depth = claim.within_depth if claim.vehicle.dives else None
+    holds = proof.holds(claim.within, claim.within_depth)
+    proof_picture.draw(outputs.picture, sentence, verdict, holds, claim.within, shown, depth)
+    draw_flight(outputs.flight, claim, result.label, result.gains, result.flights, worst)
+
+
+def _tables(options: argparse.Namespace, result: Result) -> list[PageTable]:
+    """Return the tables: of the proof, and of the laws."""
+    dives = result.claim.vehicle.dives
+    tables = [PageTable(_ALONG, *rows_of({result.label: result.proof}, dives), "")]
     if result.laws is None:
         return tables
-    plane = ", in the horizontal plane" if result.claim.vehicle.dives else ""
+    plane = ", in the horizontal plane" if dives else ""
     title = _LAWS.format(sea=result.proof.worst_sea, generations=options.generations) + plane
-    tables.append((title, result.laws.alike, ""))
+    hint = "" if result.laws.straight else f"{PEER} is not among them: it needs a hull with coefficients."
+    tables.append(PageTable(title, *rows_of(result.laws.alike), hint))
     if result.laws.straight:
-        tables.append((_STRAIGHT + plane, result.laws.straight, _NO_OTHERS))
-    else:
-        hint = f"{PEER} is not among them: it flies vehicles with a planar part of coefficients alone."
-        tables[-1] = (title, result.laws.alike, hint)
+        tables.append(PageTable(_STRAIGHT + plane, *rows_of(result.laws.straight), _NO_OTHERS))
     return tables
 
 
@@ -141,7 +141,11 @@ def _next(console: Console, options: argparse.Namespace, holds: bool) -> None:
 def _json(options: argparse.Namespace, sentence: str, holds: bool, worst: int, result: Result) -> str:
     proofs = {result.label: result.proof} | (dict(result.laws.alike) if result.laws else {})
     proofs[result.label] = result.proof
-    asked = {name: value for name, value in vars(options).items() if name not in ("run", "quiet", "threads")}
+    asked = {
+        name: value
+        for name, value in vars(options).items()
+        if name not in ("run", "quiet", "threads", "made")
+    }
     content = {
         "proven": holds,
         "sentence": sentence,

@@ -106,9 +106,8 @@ def rows_of(proofs: Mapping[str, Proof], dives: bool = False) -> tuple[list[str]
     return head, rows
 
 
-def table_of(title: str, proofs: Mapping[str, Proof], dives: bool = False) -> Table:
-    """Return the table for the terminal."""
-    head, rows = rows_of(proofs, dives)
+def table_of(title: str, head: Sequence[str], rows: Sequence[Sequence[str]]) -> Table:
+    """Return a table for the terminal."""
     texts = 2 if "sea" in head else 1
     table = headed_table(title, head[:texts], head[texts:])
     for row in rows:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import platform
 from collections.abc import Mapping
-from datetime import UTC, datetime
 from importlib import metadata
 from pathlib import Path
 
@@ -43,7 +42,7 @@ def facts_of(options: argparse.Namespace, gains: str) -> dict[str, str]:
         "command": command_of(options),
         "seed": f"{options.seed}",
         "versions": ", ".join([*versions, f"Python {platform.python_version()}"]),
-        "made": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
+        "made": options.made,
     }
 
 

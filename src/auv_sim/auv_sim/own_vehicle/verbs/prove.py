@@ -9,6 +9,7 @@ sea, and limit cycles from at most 1 % of the starts, at the same confidence; 1:
 from __future__ import annotations
 
 import argparse
+import time
 from pathlib import Path
 
 from auv_sim.command_line import at_least_one, positive, whole
@@ -63,4 +64,5 @@ def run(options: argparse.Namespace) -> int:
     from auv_sim.own_vehicle.prove.prove_session import run as prove
 
     options.sea = options.sea or list(SEAS)
+    options.made = time.strftime("%Y-%m-%d %H:%M UTC", time.gmtime())
     return prove(options)

@@ -4,6 +4,13 @@ from __future__ import annotations
 
 from auv_msgs_py.values.pure import dispatched
 from auv_msgs_py.values.types import Current, Navigation, SpatialCurrent, SpatialNavigation
+from auv_path_following.comparators.peer_pilot import (
+    PeerPilot,
+    peer_begun,
+    peer_largest_angle,
+    peer_reply,
+    peer_stop,
+)
 from auv_path_following.curves.rows import PathRows
 from auv_path_following.curves.spatial.spatial_rows import SpatialRows
 from auv_path_following.pilot import Pilot, begun
@@ -11,13 +18,6 @@ from auv_path_following.spatial_pilot import SpatialPilot, spatial_begun
 from auv_sim.flight.batch.kinds import planar_kind as planar
 from auv_sim.flight.batch.kinds import spatial_kind as spatial
 from auv_sim.flight.batch.track_row import fill_row, fill_spatial_row
-from auv_sim.flight.peer_pilot import (
-    PeerPilot,
-    peer_begun,
-    peer_largest_angle,
-    peer_reply,
-    peer_stop,
-)
 from auv_sim.vehicle.at_sea import Seen
 from auv_sim.vehicle.diving.ideal_diver import SpatialSeen
 from auv_sim.vehicle.hulls.rigid_body import BodyState

@@ -10,6 +10,7 @@ import pytest
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import Current, Navigation, WaterVelocity
 from auv_path_following.comparators.mss_pilot import MssPilot
+from auv_path_following.comparators.peer_pilot import peer_begun, peer_reply, prepare
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.kinds.arc import Arc
 from auv_path_following.curves.kinds.line import Line
@@ -17,7 +18,6 @@ from auv_sim.flight import closed_loop
 from auv_sim.flight.batch.compiled import COMPILED, take_over_pure
 from auv_sim.flight.batch.distance import rows_of
 from auv_sim.flight.batch.kinds import chosen
-from auv_sim.flight.peer_pilot import peer_begun, peer_reply, prepare
 from auv_sim.flight.scenario import Scenario
 from auv_sim.vehicle.at_sea import Seen
 from auv_sim.vehicle.remus import PlantState
