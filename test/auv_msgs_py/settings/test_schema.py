@@ -128,7 +128,7 @@ def test_hundreds_of_wrong_keys_are_counted():
 def test_data_that_no_file_can_hold_is_refused_in_a_line():
     loop: list[object] = []
     loop.append(loop)
-    with pytest.raises(ConfigurationError, match="an odd kind"):
+    with pytest.raises(ConfigurationError, match="an unsupported type"):
         validated(Outer, {"names": loop}, "f.yaml")
 
 

@@ -93,8 +93,8 @@ def test_in_a_current_the_turn_through_the_water_counts(chi, strength, towards, 
     ("current", "level", "text"),
     [
         ((0.0, 1.95), "refused", "of it across the path"),
-        ((-2.1, 0.0), "refused", "leaves -0.10 m/s of way"),
-        ((-1.8, 0.0), "warning", "leaves 0.20 m/s of way"),
+        ((-2.1, 0.0), "refused", "leaves -0.10 m/s along the path"),
+        ((-1.8, 0.0), "warning", "leaves 0.20 m/s along the path"),
         ((1.0, 0.5), None, ""),
     ],
 )

@@ -125,7 +125,7 @@ def test_a_campaign_is_not_mixed_with_another(finished: Store, study: Path, tmp_
         Store(finished.directory, StudyPlan(study))
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "letter.txt").write_text("dear", encoding="utf-8")
-    with pytest.raises(ConfigurationError, match="a directory with other things in it"):
+    with pytest.raises(ConfigurationError, match="a directory with other files"):
         Store(tmp_path / "mine", StudyPlan(study))
     with pytest.raises(ConfigurationError, match="found no campaign"):
         Store(tmp_path)

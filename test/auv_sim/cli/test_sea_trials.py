@@ -155,7 +155,7 @@ def test_the_study_renews_the_page_and_the_picture_that_it_shows(
 
 
 def test_a_seed_without_a_sea_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(ConfigurationError, match="--seed: found without a sea"):
+    with pytest.raises(ConfigurationError, match="--seed: found no sea"):
         mission_plan.make(Options(seed=3), tmp_path)
 
 

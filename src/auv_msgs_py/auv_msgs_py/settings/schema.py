@@ -92,7 +92,7 @@ def validated(cls: type[T], data: object, where: str) -> T:
         text = json.dumps(data)
     except (TypeError, ValueError, RecursionError) as error:
         raise ConfigurationError(
-            where, f"a value of an odd kind ({error})", "text, numbers, lists, mappings"
+            where, f"a value of an unsupported type ({error})", "text, numbers, lists, mappings"
         ) from None
     try:
         return pydantic.TypeAdapter(cls).validate_json(text)

@@ -99,5 +99,5 @@ def _given_circles(mission: Mission, switching: SwitchingConfig, lookahead: floa
             "warning",
             f"joints {one.index} and {other.index}",
             found,
-            "joints further apart, or smaller circles, or the subpath between is cut short",
+            "joints further apart, or smaller circles: these cut short the subpath between",
         )

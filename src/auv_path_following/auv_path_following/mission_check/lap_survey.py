@@ -71,12 +71,12 @@ class LapSurvey:
             return
         k = int(np.argmin(self._ground))
         place = self._place(int(self._i[k]), float(self._t[k]))
-        found = f"{against}, which leaves {self._ground[k]:.2f} m/s of way"
+        found = f"{against}, which leaves {self._ground[k]:.2f} m/s along the path"
         found += f" on course {math.degrees(self._chi[k]) % 360.0:.0f} deg"
         if self._ground[k] <= 0.0:
-            yield Finding("refused", place, found, "some way ahead everywhere")
+            yield Finding("refused", place, found, "a speed along the path above 0 everywhere")
         elif self._ground[k] < _LITTLE_WAY * self._speed:
-            yield Finding("warning", place, found, "more, or it will take long")
+            yield Finding("warning", place, found, "more, or the mission takes long")
 
     def turns(self, turn: SteadyTurn, name: str) -> Iterator[Finding]:
         """Judge the curvature against the vehicle's tightest turn.

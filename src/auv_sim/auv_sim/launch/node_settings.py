@@ -151,7 +151,7 @@ def _set_sea(settings: NodeSettings, options: Options, sources: Sources) -> Pair
     name = options.sea if options.sea is not None else settings[topics.PLANT].sea
     if not name or not options.simulator:
         if options.seed is not None:
-            raise ConfigurationError("--seed", "without a sea", "--sea with it: nothing else is random")
+            raise ConfigurationError("--seed", "no sea", "a sea as well: nothing else is random")
         return 0.0, 0.0
     sources["sea"] = config_files.find("seas", name).absolute()
     seed = options.seed if options.seed is not None else settings[topics.PLANT].seed

@@ -102,7 +102,7 @@ def common_options(given: dict[str, Any]) -> Options:
         if name not in _OF_FLEET and value != getattr(Options, name):
             option = f"--{name.replace('_', '-')}"
             raise ConfigurationError(
-                option, "together with --fleet", "it in the fleet's file, where it has it"
+                option, "together with --fleet", "it in the fleet's file, if there is such a key"
             )
     _require_console(given["console"])
     return Options(**given)
@@ -161,5 +161,5 @@ def _check_simulated(options: Options) -> None:
         for flag, value in conflicts.items():
             if value is not None:
                 raise ConfigurationError(
-                    flag, f"together with {reason}", "it only without, it is for the simulator"
+                    flag, f"together with {reason}", f"it without {reason}: it is for the simulator"
                 )

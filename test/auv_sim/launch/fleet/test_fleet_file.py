@@ -113,7 +113,7 @@ def test_files_beside_the_fleets_file_are_found(tmp_path: Path) -> None:
         ("depth: 3", "depth: 3000", "vehicles[1]: depth", "3000 m"),
         ("initial: [1, 2, 90]", "depth: 3", "vehicles[0]: depth", ""),
         ("vehicle: remus100_6dof, depth: 3", "seed: 1", "vehicles[1]: ", ""),
-        ("initial: [1, 2, 90]", "seed: 3", "vehicles[0]: seed", "without a sea"),
+        ("initial: [1, 2, 90]", "seed: 3", "vehicles[0]: seed", "no sea"),
         ("name: pair", "name: pair\nsea: nowhere", "sea", "'nowhere', no such sea file"),
         ("name: pair", "name: pair\nseed: -1", "seed", "-1"),
     ],

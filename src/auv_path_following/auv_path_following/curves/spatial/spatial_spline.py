@@ -42,7 +42,7 @@ class SpatialSpline:
         for number, (before, after) in enumerate(itertools.pairwise(self.points), start=1):
             if math.dist(before[:2], after[:2]) <= 1e-6:
                 found = f"the place of points[{number - 1}]"
-                raise ConfigurationError(f"points[{number}]", found, "a point some way off in the plan")
+                raise ConfigurationError(f"points[{number}]", found, "a point at another place in the plan")
         chords = [math.dist(*pair) for pair in itertools.pairwise(self.points)]
         self.plan: Final = Spline([point[:2] for point in self.points], chi_start, chi_end, chords)
         knots = np.concatenate(([0.0], np.cumsum(chords)))

@@ -140,7 +140,9 @@ def _leg(way: list[Point], i: int) -> tuple[float, float]:
     north, east = way[j][0] - way[i][0], way[j][1] - way[i][1]
     length = math.hypot(north, east)
     if length <= 1e-6:
-        raise ConfigurationError(f"points[{j}]", f"the same place as points[{i}]", "a waypoint some way off")
+        raise ConfigurationError(
+            f"points[{j}]", f"the same place as points[{i}]", "a waypoint at another place"
+        )
     return length, math.atan2(east, north)
 
 
@@ -151,7 +153,7 @@ def _corner(way: list[Point], legs: list[tuple[float, float]], i: int) -> Waypoi
     if abs(turn) < _STRAIGHT:
         return None
     if abs(turn) > _BACK:
-        raise ConfigurationError(f"points[{i}]", "a way straight back", "less than a half turn, or dubins")
+        raise ConfigurationError(f"points[{i}]", "a turn straight back", "less than a half turn, or dubins")
     return WaypointCorner(*way[i], chi_in, chi_out, turn)
 
 

@@ -57,7 +57,7 @@ def kept(
             indices.append(k)
         elif depths is not None and abs(depths[k] - depths[k - 1]) > _SAME:
             found = f"a vertical leg, from {depths[k - 1]:g} to {depths[k]:g} m"
-            raise ConfigurationError(place(k), found, "a point some way off, or a helix")
+            raise ConfigurationError(place(k), found, "a point at another place, or a helix")
     return indices
 
 

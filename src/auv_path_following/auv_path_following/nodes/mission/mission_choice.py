@@ -50,7 +50,7 @@ class MissionChoice:
             return
         name = "start_at" if chosen == self._chosen else "mission_text" if chosen[1] else "mission"
         if refuses:
-            raise ConfigurationError(name, refuses, "none under way, or one that the service hold holds")
+            raise ConfigurationError(name, refuses, "no mission under way, or one held by the service hold")
         course = self.course if chosen == self._chosen else self._course_of(*chosen)
         course.prepare(proposed)
         self._check(course.mission, proposed, current)

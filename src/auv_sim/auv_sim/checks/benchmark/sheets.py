@@ -19,7 +19,7 @@ _LOCKSTEP_ROWS = (
     ("suite", "the mission", "floor"),
     ("floor, recorded", "floor with a recorder that only counts", "floor, recorded"),
     ("suite, recorded", "the mission with its recorder", "floor, recorded"),
-    ("suite, recorded, on any processor", "the same where the system puts it", "floor, recorded"),
+    ("suite, recorded, on any processor", "the same, any processor (`--any-processor`)", "floor, recorded"),
 )
 
 

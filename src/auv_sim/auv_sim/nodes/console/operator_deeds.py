@@ -167,8 +167,8 @@ class OperatorDeeds:
         position.x, position.y, position.z = x, y, z
         q.z, q.w = quaternion_of_yaw(yaw)
         if not await self._published(record.namespace, message):
-            self._log(record, viewer, what, "guidance does not listen")
-            return Answer(False, "guidance does not listen to goal_pose")
+            self._log(record, viewer, what, "guidance does not receive it")
+            return Answer(False, "guidance does not receive goal_pose")
         self._log(record, viewer, what)
         return Answer(True, "the goal is sent; guidance checks it, and its events have the result")
 

@@ -125,7 +125,7 @@ class VehicleMessages:
         else:
             restarted = self.time.heard(boot, self.time_ns())
         if restarted:
-            self._node.get_logger().warning("the vehicle was started anew")
+            self._node.get_logger().warning("the vehicle was restarted")
             self._assembly.reset()
             self._covariances = NO_COVARIANCE, NO_COVARIANCE
 
@@ -137,7 +137,7 @@ class VehicleMessages:
         self._node.health.warn("armed", "the vehicle is not armed" if armed == "not armed" else "")
 
     def _on_text(self, message: Any) -> None:
-        self._node.get_logger().warning(f"the vehicle says: {message.text}")
+        self._node.get_logger().warning(f"text from the vehicle: {message.text}")
 
     def _on_timesync(self, message: Any) -> None:
         is_answer = message.tc1 and message.ts1 in self.requests
@@ -175,7 +175,7 @@ class VehicleMessages:
         finite(message.vx + message.vy, "ODOMETRY")
         boot_ms = message.time_usec // 1000
         if self._log_time.heard(boot_ms * 1_000_000, self.time_ns()):
-            self._node.get_logger().warning("the vehicle's water log was started anew")
+            self._node.get_logger().warning("the vehicle's water log was restarted")
             self._water_boot_ms = 0
         if boot_ms > self._water_boot_ms and self._log_time.settled:
             self._water_boot_ms = boot_ms

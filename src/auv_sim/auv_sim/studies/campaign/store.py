@@ -85,7 +85,7 @@ class Store:
         begun = self.directory / _CONFIG / _IDENTITY
         there = {path.name for path in self.directory.iterdir()} - {_LOCK, _SCRATCH}
         if there and not begun.exists():  # if it exists now, another start was faster
-            raise ConfigurationError(str(self.directory), "a directory with other things in it", "a new one")
+            raise ConfigurationError(str(self.directory), "a directory with other files", "a new one")
         with self.alone():
             if begun.exists():
                 return
@@ -218,5 +218,5 @@ def _read_table(path: Path) -> pa.Table:
     except (pa.ArrowException, OSError) as error:
         reason = str(error).splitlines()[0]
         raise ConfigurationError(
-            str(path), f"a damaged table ({reason})", "it whole, or removed: its runs are then flown again"
+            str(path), f"a damaged table ({reason})", "a whole table; remove it to fly its runs again"
         ) from None

@@ -46,7 +46,7 @@ def load_key(path: str, where: str) -> bytes | None:
     if len(key) != _KEY_BYTES:
         raise ConfigurationError(
             f"{where}: {path}",
-            "something else",
+            "other content",
             f"{2 * _KEY_BYTES} hexadecimal digits (openssl rand -hex 32)",
         )
     return key

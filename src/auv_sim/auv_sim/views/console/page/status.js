@@ -8,7 +8,7 @@ import { paints, repaint } from "./painting.js";
 const STATES = ["idle", "running", "holding", "complete", "aborted"];
 const LOST = {
   lost: "No link to the console's server. What is shown is old. Abort does not reach the vehicle from here.",
-  refused: "The console was started anew. Open the address that it printed.",
+  refused: "The console was restarted. Open the address that it printed.",
   outdated: "The console is of another version than this page. Reload the page; until then nothing is sent.",
 };
 
