@@ -23,7 +23,7 @@ VERBS = {
 def parser(verbs_with_options: Container[str] = VERBS) -> argparse.ArgumentParser:
     """Return the command line's parser; see `parser_of_verbs`."""
     return parser_of_verbs(
-        "bag.py", "Look into recordings of missions and work with them.",
+        "bag.py", "Inspect, compare, replay and repair recordings of missions.",
         "auv_sim.bags.verbs", VERBS, verbs_with_options,
     )  # fmt: skip
 
