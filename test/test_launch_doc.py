@@ -10,8 +10,8 @@ from auv_path_following import config_files
 from auv_sim.cli import mission as mission_cli
 from auv_sim.launch.options import checked_options
 from auv_sim.launch.ros_launch import launch_arguments
+from doc_commands import FILES, LINES, Line
 from doc_pages import ROOT
-from test_docs import FILES, LINES, Line
 
 
 @pytest.mark.parametrize("line", [line for line in LINES if line.text.startswith("ros2 launch")], ids=str)
