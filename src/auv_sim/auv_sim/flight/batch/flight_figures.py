@@ -67,7 +67,7 @@ class Flights:
         distance_covered: m.
         rudder_travel: deg; rudder_travel_per_metre: deg/m.
         rms_rudder_rate, largest_rudder_rate: of the command, deg/s.
-        late_rms_yaw_rate: as measured, from `tally.CALM_TIME` on, deg/s.
+        late_rms_yaw_rate: as measured, from `tally.calm_time` on, deg/s.
         saturated: share of the commands at the stop.
         current_estimate_error: the largest after the observer has settled, m/s.
         last_x, last_y: last position, NED, m.

@@ -52,7 +52,7 @@ def judged(run: Run, scenario: Scenario) -> dict[str, Any]:
         "distance_covered": summary.distance_covered,
         "rudder_travel": summary.rudder_travel,
         "rudder_travel_per_metre": summary.rudder_travel_per_metre,
-        "late_rms_yaw_rate": math.degrees(_rms(run.r[elapsed >= tally.CALM_TIME - 1e-6])),
+        "late_rms_yaw_rate": math.degrees(_rms(run.r[elapsed >= tally.calm_time(scenario.vehicle) - 1e-6])),
         **_of_commands(commands, stops, scenario.step),
         "current_estimate_error": summary.current_estimate_error,
         "last_x": float(x[-1]),

@@ -15,6 +15,7 @@ from auv_sim.flight.batch.compiled_flight import Course, FlightConfig
 from auv_sim.flight.batch.config_rows import flat, layout_of
 from auv_sim.flight.batch.distance import outlines_of, rows_of
 from auv_sim.flight.batch.kinds.nearest import spatial_arrays_of, spatial_outlines_of
+from auv_sim.flight.batch.tally import calm_time
 from auv_sim.flight.loops import check_kind, followed_path, pilot_of
 from auv_sim.flight.path_cells import cells_of
 from auv_sim.flight.scenario import Scenario, spatial_start_of, start_of
@@ -37,6 +38,7 @@ def flight_of(scenario: Scenario) -> FlightConfig:
         plant=(spatial_plant_of if dives else plant_of)(scenario.plant_vehicle),
         dt=scenario.dt,
         steps=int(scenario.time_limit / scenario.step) + 1,
+        calm=calm_time(scenario.vehicle),
     )
 
 

@@ -7,14 +7,16 @@ import math
 import numpy as np
 import numpy.typing as npt
 
+from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.batch.compiled import compiled
 from auv_sim.flight.metrics import OBSERVER_SETTLING_TIME
 
 #: Distance at which the path counts as joined, the first time with s > 0, m: an approach to the path's start,
 #: with s = 0, may cross the path. The `late_*` figures count from there.
 ARRIVED = 1.0
-#: Time after the start from which the yaw rate counts, s. What is left on a straight line is a limit cycle.
-CALM_TIME = 60.0
+#: Time after the start from which the yaw rate counts, s; in proportion longer for a vehicle that takes more
+#: than `_BRISK` s for its length. What is left on a straight line is a limit cycle.
+CALM_TIME, _BRISK = 60.0, 1.25
 _ROUNDING = 1e-6
 
 # Rows of a subpath's tally.
@@ -30,6 +32,12 @@ ODOMETRIES, S, FINITE, SHARE, LAST_X, LAST_Y = range(6)
 ENDS = 6
 
 Array = npt.NDArray[np.float64]
+
+
+def calm_time(vehicle: Vehicle) -> float:
+    """Return the time after the start from which a vehicle's yaw rate counts, s."""
+    thrust = vehicle.thrust_max if vehicle.cruise is None else vehicle.cruise.thrust
+    return CALM_TIME * max(1.0, vehicle.length / (_BRISK * vehicle.speed_at(thrust)))
 
 
 @compiled
@@ -72,13 +80,15 @@ def count(
 
 
 @compiled
-def count_steadiness(whole: Array, elapsed: float, distance: float, r: float, is_at_corner: bool) -> None:
-    """Count an odometry's distance away from corners (m), and from `CALM_TIME` on its yaw rate (rad/s)."""
+def count_steadiness(
+    whole: Array, elapsed: float, calm: float, distance: float, r: float, is_at_corner: bool
+) -> None:
+    """Count an odometry's distance away from corners (m), and from `calm` (s) on its yaw rate (rad/s)."""
     if not is_at_corner:
         whole[FREE_ROWS] += 1.0
         whole[FREE_SQUARES] += distance * distance
         whole[FREE_LARGEST] = max(whole[FREE_LARGEST], distance)
-    if elapsed >= CALM_TIME - _ROUNDING:
+    if elapsed >= calm - _ROUNDING:
         whole[CALM_ROWS] += 1.0
         whole[YAW_SQUARES] += r * r
 

@@ -21,6 +21,7 @@ from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.batch import engine
 from auv_sim.flight.batch.flight_figures import Flights
 from auv_sim.flight.batch.scenarios import Courses
+from auv_sim.flight.batch.tally import calm_time
 from auv_sim.flight.scenario import Scenario
 from auv_sim.own_vehicle.tune.drawn_courses import TIGHTEST, Kind, drawn_course
 from auv_sim.own_vehicle.tune.gain_space import GainSet
@@ -28,8 +29,6 @@ from auv_sim.vehicle.hulls.rigid_body import BodyState, body_at
 from auv_sim.vehicle.remus import PlantState
 from auv_sim.vehicle.sea import Sea
 
-#: A flight on a line lasts as long, s; its yaw rate counts in the second half.
-LINE_TIME = 120.0
 #: Share by which the delay of a flight on a line may be longer than stated.
 LATER = 0.15
 #: Starts on a line: largest distance beside it over the radius of the turn, largest rate over the turn's.
@@ -118,7 +117,7 @@ def _on_line(vehicle: Vehicle, late: float, step: float, random: np.random.Gener
     beside = random.uniform(-1.0, 1.0) * BESIDE * turn.radius
     heading, rate = random.uniform(-math.pi, math.pi), random.uniform(-1.0, 1.0) * TURNING * turn.rate
     scenario = Scenario(
-        path=LINE, vehicle=vehicle, thrust=thrust, step=step, time_limit=LINE_TIME,
+        path=LINE, vehicle=vehicle, thrust=thrust, step=step, time_limit=line_time(vehicle),
         initial=start_at(vehicle, beside, heading, speed, rate),
         command_delay=late + random.uniform(0.0, LATER) * whole,
     )  # fmt: skip
@@ -181,6 +180,11 @@ def _along(
         time_limit=PATIENCE * path.length / speed + 60.0,
     )  # fmt: skip
     return Flight(scenario, False)
+
+
+def line_time(vehicle: Vehicle) -> float:
+    """Return how long a flight on a line lasts, s; its yaw rate counts in the second half."""
+    return 2.0 * calm_time(vehicle)
 
 
 def thrust_of(vehicle: Vehicle) -> float:

@@ -16,7 +16,7 @@ from auv_sim.flight.batch import engine
 from auv_sim.flight.batch.scenarios import Courses
 from auv_sim.flight.scenario import Scenario
 from auv_sim.own_vehicle.tune.gain_space import GainSet
-from auv_sim.own_vehicle.tune.trial_flights import LINE, LINE_TIME, Flight, start_at, thrust_of, with_laws
+from auv_sim.own_vehicle.tune.trial_flights import LINE, Flight, line_time, start_at, thrust_of, with_laws
 from auv_sim.studies.gains.study_hulls import late
 
 #: Missions by which gains are compared, and the current of the second water (east), m/s.
@@ -40,7 +40,7 @@ class Figures(NamedTuple):
 
 
 def unrest(hull: Vehicle, delay: float, step: float, gains: GainSet) -> float:
-    """Return the rms yaw rate in the second minute on a line, deg/s: the worst of four starts.
+    """Return the rms yaw rate in the second half of a flight on a line, deg/s: the worst of four starts.
 
     Args:
         hull: the plant, whose dead time is replaced.
@@ -53,7 +53,7 @@ def unrest(hull: Vehicle, delay: float, step: float, gains: GainSet) -> float:
     flights = [
         Flight(
             Scenario(
-                path=LINE, vehicle=plant, thrust=thrust, step=step, time_limit=LINE_TIME,
+                path=LINE, vehicle=plant, thrust=thrust, step=step, time_limit=line_time(hull),
                 initial=start_at(hull, y, math.radians(heading), speed, rate),
             ),
             True,
