@@ -89,7 +89,7 @@ def test_a_missing_topic_costs_one_line(
     bag = write_manoeuvres(tmp_path / "bag", _first(flown, 200), names)
     assert vehicle_command.main(["identify", str(bag), "--out", str(tmp_path / "x.yaml")]) == 2
     (line,) = capsys.readouterr().err.splitlines()
-    assert found in line and "--topic" in line
+    assert found in line and "--topic" in line and "/auv/thrust_cmd" in line
 
 
 def test_a_straight_run_is_refused_and_names_what_is_missing(

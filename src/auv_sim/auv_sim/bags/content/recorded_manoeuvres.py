@@ -29,7 +29,6 @@ READ = (
 _COMMANDS = (topics.RUDDER_CMD, topics.THRUST_CMD, topics.STERNPLANE_CMD)
 #: Types of commands beside the contract's: one number named `data`.
 _NUMBERS = ("std_msgs/msg/Float64", "std_msgs/msg/Float32")
-
 #: Stamps that go back by more, in the order of the log, come from a clock that was set, s.
 _SET_BACK = 1.0
 
@@ -80,7 +79,7 @@ def manoeuvres_in(
     found = {topic: bag.find(topic.name, namespace) for topic in READ}
     for topic in READ[:4]:
         if found[topic] is None or not found[topic].count:  # type: ignore[union-attr]
-            raise _missing(path, topic)
+            raise _missing(bag, topic)
     motion = {t.name: t for t in (found[topics.ODOM], found[topics.WATER_VELOCITY]) if t is not None}
     planes = found[topics.STERNPLANE_CMD]
     if planes is not None:  # makes a run in three dimensions
@@ -91,16 +90,17 @@ def manoeuvres_in(
     water_t, water = _water(bag, found[topics.WATER_VELOCITY])
     rudder, thrust, sternplanes = (_commands(bag, found[topic], odom) for topic in _COMMANDS)
     if rudder is None or thrust is None:
-        raise _missing(path, topics.RUDDER_CMD if rudder is None else topics.THRUST_CMD)
+        raise _missing(bag, topics.RUDDER_CMD if rudder is None else topics.THRUST_CMD)
     spatial = sternplanes if isinstance(run, SpatialRun) else None
     return Manoeuvring(run, _over(run, odom), water_t, water, rudder, thrust, spatial)
 
 
-def _missing(path: Path, topic: Topic) -> ConfigurationError:
+def _missing(bag: Bag, topic: Topic) -> ConfigurationError:
+    listed = ", ".join(sorted(bag.topics)) or "no topic"
     expected = (
-        f"messages on {topic.name} ({topic.type}) while the odometry runs, or --topic {topic.name}=NAME"
+        f"messages ({topic.type}) while the odometry runs, or --topic {topic.name}=NAME with one of {listed}"
     )
-    return ConfigurationError(str(path), f"no {topic.name}", expected)
+    return ConfigurationError(str(bag.path), f"no {topic.name}", expected)
 
 
 def _renamed(bag: Bag, names: Mapping[str, str]) -> Bag:
