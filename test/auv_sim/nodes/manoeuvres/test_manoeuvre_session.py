@@ -30,6 +30,7 @@ def test_a_rehearsal_is_recorded_for_identification(tmp_path: Path) -> None:
     (tmp_path / "short.yaml").write_text(PROGRAM)
     words = ["manoeuvres", "--vehicle", "remus100_mismatch", "--controller-model", "remus100"]
     words += ["--program", str(tmp_path / "short.yaml"), "--sea", "moderate", "--out", str(tmp_path / "run")]
+    words += ["--speed", "1000"]  # more than the machine can do: each odometry still has its own answer
     done = subprocess.run(
         [sys.executable, "-c", CODE, *words], capture_output=True, text=True, check=False, timeout=120
     )
@@ -41,6 +42,10 @@ def test_a_rehearsal_is_recorded_for_identification(tmp_path: Path) -> None:
     rudder = recorded.rudder.value
     assert np.degrees(rudder).max() == pytest.approx(15.0, abs=0.1)
     assert np.degrees(rudder).min() == pytest.approx(-15.0, abs=0.1)
+    # Each odometry of the program has its own answer, before the next one: stamp by stamp.
+    answered = recorded.rudder.t[recorded.rudder.t < recorded.rudder.t[0] + 12.0]
+    assert np.unique(answered).size == answered.size > 200
+    assert set(answered) <= set(recorded.run.t)
 
 
 @pytest.mark.parametrize(
@@ -49,6 +54,10 @@ def test_a_rehearsal_is_recorded_for_identification(tmp_path: Path) -> None:
         (["--no-sim"], "--no-sim"),
         (["--yes-the-vehicle-may-move"], "--yes-the-vehicle-may-move"),
         (["--no-sim", "--controller-model", "remus100"], "--controller-model"),
+        (["--no-sim", "--sea", "moderate"], "--sea"),
+        (["--no-sim", "--current", "0.2", "0.1"], "--current"),
+        (["--no-sim", "--seed", "3"], "--seed"),
+        (["--no-sim", "--speed", "2"], "--speed"),
         (["--program", "two_minutes_dive"], "two_minutes_dive: legs"),
         (["--vehicle", "remus100_6dof", "--depth", "101"], "depth: found 101 m"),
         (["--sea", "nowhere"], "nowhere: found no such sea file"),

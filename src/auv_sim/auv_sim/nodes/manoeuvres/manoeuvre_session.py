@@ -40,8 +40,6 @@ def fly(options: argparse.Namespace) -> int:
         ConfigurationError: a file or an option cannot be used, or there is no consent.
         KeyboardInterrupt: a signal came; zero commands were sent.
     """
-    if options.no_sim and options.controller_model is not None:
-        raise ConfigurationError("--controller-model", "--no-sim", "the simulator, or --vehicle alone")
     options.model = options.controller_model or options.vehicle
     hull = vehicle_file.load(options.model)
     program = program_file.load(options.program)
@@ -106,7 +104,7 @@ def _nodes(
     options: argparse.Namespace, hull: Vehicle, directory: Path, made: list[ManoeuvresNode]
 ) -> list[Callable[[], Any]]:
     """Return what makes each node; the one that flies is put into `made`."""
-    from auv_sim.nodes.plant_node import RemusPlantNode
+    from auv_sim.nodes.manoeuvres.rehearsed_vehicle import RehearsedVehicle
     from auv_sim.nodes.recorder_node import RecorderNode
 
     file, hull_file = (
@@ -138,7 +136,8 @@ def _nodes(
             "sea": options.sea or "", "seed": options.seed, "current.Vx": north, "current.Vy": east,
             "flood_rate": 200.0 * max(options.speed, 1.0),
         }  # fmt: skip
-        factories.append(partial(_node, RemusPlantNode, options.namespace, plant))
+        make = partial(RehearsedVehicle, lambda: made[0].finished or bool(made[0].fault))
+        factories.append(partial(_node, make, options.namespace, plant))
     return factories
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from typing import Any
 
 from rclpy import clock as ros_clock
@@ -22,6 +23,7 @@ class FreeRun:
     Attributes:
         pacer: of the wall clock; None where the fleet's /clock sets the pace.
         at_rest: whether the run has not begun: time passes, and the vehicle stays where it is.
+        may_step: returns whether a step by the wall clock is taken when it is due.
     """
 
     def __init__(self, node: Any) -> None:
@@ -29,6 +31,7 @@ class FreeRun:
         self._node = node
         self._begun = False
         self.at_rest = bool(p.hold_until_running)
+        self.may_step: Callable[[], bool] = lambda: True
         self.pacer = None if p.shared_clock else Pacer(p.step / p.speed)
         if self.pacer is None:
             node.listen(topics.CLOCK, self._on_clock)
@@ -46,7 +49,7 @@ class FreeRun:
         assert self.pacer is not None
         if self._silent:
             self.pacer.restart(time.monotonic())
-        elif self.pacer.due(time.monotonic()):
+        elif self.may_step() and self.pacer.due(time.monotonic()):
             self._take_step()
 
     def _on_clock(self, message: Clock) -> None:
