@@ -80,6 +80,10 @@ def test_a_program_is_flown_and_ends_with_zeros(bench: Bench, tmp_path: Path) ->
     assert thrust[-5:] == [0.0] * 5 and rudder[-5:] == [0.0] * 5
     assert words(bench) == ["running", "complete"]
     assert not node.fault
+    sent: list[object] = []
+    node._outputs.send = sent.append
+    node._watch()  # a recorder waits for silence
+    assert sent == []
 
 
 def test_commands_of_another_node_stop_it(bench: Bench, tmp_path: Path) -> None:

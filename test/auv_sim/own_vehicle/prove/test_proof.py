@@ -242,7 +242,8 @@ def test_a_new_vehicle_states_what_is_uncertain(tmp_path) -> None:
     file = tmp_path / "own.yaml"
     file.write_text(text_of(facts, assumed, assumed.hull, None, ""), encoding="utf-8")
     found = spread_of_file(file)
-    assert found["max_rate_deg_s"] == found["Nur"] == found["Yuv"] == (0.5, 2.0)
+    assert found["max_rate_deg_s"] == found["Nur"] == found["Xvr"] == (0.5, 2.0)
+    assert found["Yuv"] == pytest.approx((1.0 / 3.0, 3.0))
     assert found["dead_time"] == pytest.approx((0.4, 6.0))
 
 

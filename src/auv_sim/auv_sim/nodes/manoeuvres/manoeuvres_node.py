@@ -108,9 +108,8 @@ class ManoeuvresNode(SuiteNode):
         """Look for what no odometry shows, repeat the state, and end after the farewell."""
         now = time.monotonic()
         if self._ended_at is not None:
-            self._outputs.send(SPATIAL_STOP)
-            if now - self._ended_at > self.farewell:
-                self._end()
+            over = now - self._ended_at > self.farewell
+            self._end() if over else self._outputs.send(SPATIAL_STOP)
             return
         if not self.run.begun:
             self._may_begin()
