@@ -102,7 +102,9 @@ def identify_dive(
     """
     prior = dive_prior_of(hull, vertical)
     starts = [(prior, dead_time) for dead_time in _DEAD_TIMES]
-    return best_of(recordings, starts, DataSheet() if sheet is None else sheet, dead_band, progress)
+    # The trim of the planes acts nearly as a centre of gravity ahead of that of buoyancy.
+    sheet = (DataSheet() if sheet is None else sheet)._replace(trim=0.0)
+    return best_of(recordings, starts, sheet, dead_band, progress)
 
 
 def best_of(

@@ -17,7 +17,7 @@ from auv_sim.own_vehicle.identify.dive.dive_filter import dive_innovations
 from auv_sim.own_vehicle.identify.filter.exact_servo import fin_angles
 from auv_sim.own_vehicle.identify.filter.planar_filter import planar_flight, planar_innovations
 from auv_sim.own_vehicle.identify.time_grid import SAME, Passage, PlanarData, passage_of
-from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, HALF_PLAY, LATENCY, RATE, DataSheet
+from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, HALF_PLAY, LATENCY, RATE, TRIM, DataSheet
 
 take_over_pure()
 _fin_angles = compiled(fin_angles)
@@ -198,7 +198,7 @@ def rudder_of(passage: Passage, dead_band: float, physical: Numbers) -> tuple[Nu
         means,
         changes,
     )
-    return means[1:], changes[1:]
+    return means[1:] + physical[TRIM], changes[1:]
 
 
 def arguments_of(channels: Channels, physical: Numbers) -> Numbers:
@@ -223,7 +223,7 @@ def _uncompiled(channels: Channels, sets: Sequence[Numbers]) -> Numbers:
         seen: dict[tuple[float, ...], tuple[Numbers, Numbers]] = {}
         rudders = []
         for one in sets:
-            key = tuple(float(one[k]) for k in (RATE, DEAD_TIME, HALF_PLAY))
+            key = tuple(float(one[k]) for k in (RATE, DEAD_TIME, HALF_PLAY, TRIM))
             if key not in seen:
                 seen[key] = rudder_of(passage, channels.dead_band, one)
             rudders.append(seen[key])

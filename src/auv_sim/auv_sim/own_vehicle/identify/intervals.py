@@ -46,7 +46,7 @@ class Covariances(NamedTuple):
 
     @property
     def deviations(self) -> Numbers:
-        """Total standard deviation of each unknown, shape (21,)."""
+        """Total standard deviation of each unknown, shape (22,)."""
         return np.array([self.total(row) for row in np.eye(ALL)])
 
 
@@ -69,7 +69,7 @@ def spread_of(channels: Channels, scaling: Scaling, estimate: Minimised) -> Cova
 
 
 def systematic_of(physical: Numbers, sheet: DataSheet, plane: Plane) -> Numbers:
-    """Return one standard deviation of each error that no data show, by the unknowns, shape (2, 21)."""
+    """Return one standard deviation of each error that no data show, by the unknowns, shape (2, 22)."""
     found = np.zeros((2, ALL))
     found[0, :COUNT] = physical[:COUNT] * plane.scale_powers * sheet.log_scale
     if plane.has_thrust:

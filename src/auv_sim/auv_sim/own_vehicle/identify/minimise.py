@@ -12,7 +12,7 @@ from scipy.optimize import least_squares
 
 from auv_sim.own_vehicle.identify.combinations import Numbers
 from auv_sim.own_vehicle.identify.innovations import Channels, innovations, many_innovations
-from auv_sim.own_vehicle.identify.unknowns import ALL, LATENCY, Scaling
+from auv_sim.own_vehicle.identify.unknowns import ALL, LATENCY, TRIM, Scaling
 
 #: Step of the finite differences of scaled unknowns.
 _STEP = 1e-4
@@ -42,8 +42,9 @@ class Minimised(NamedTuple):
 
 def free_unknowns(scaling: Scaling) -> NDArray[np.int64]:
     """Return the indices of the unknowns that are not fixed."""
-    free = np.arange(ALL, dtype=np.int64)
-    return free if scaling.sheet.latency_deviation > 0.0 else free[free != LATENCY]
+    is_free = np.ones(ALL, bool)
+    is_free[LATENCY], is_free[TRIM] = scaling.sheet.latency_deviation > 0.0, scaling.sheet.trim > 0.0
+    return np.flatnonzero(is_free).astype(np.int64)
 
 
 def deviations_of(errors: Numbers, rows: NDArray[np.int64]) -> Numbers:

@@ -10,14 +10,14 @@ import numpy as np
 from auv_sim.own_vehicle.identify.combinations import COUNT, Combinations, Numbers, Prior
 
 #: Names of the unknowns behind the combinations.
-FURTHER = ("rate", "dead_time", "half_play", "gyro", "u_bias", "v_bias", "latency")
-RATE, DEAD_TIME, HALF_PLAY, GYRO, U_BIAS, V_BIAS, LATENCY = range(COUNT, COUNT + len(FURTHER))
+FURTHER = ("rate", "dead_time", "half_play", "gyro", "u_bias", "v_bias", "latency", "trim")
+RATE, DEAD_TIME, HALF_PLAY, GYRO, U_BIAS, V_BIAS, LATENCY, TRIM = range(COUNT, COUNT + len(FURTHER))
 #: How many unknowns.
 ALL = COUNT + len(FURTHER)
 
 
 class DataSheet(NamedTuple):
-    """What data sheets say, as standard deviations, and first values.
+    """What data sheets say, as standard deviations, and first values; a deviation of 0 fixes an unknown.
 
     Attributes:
         rate: of the rudder, rad/s, within about a factor of two.
@@ -25,6 +25,7 @@ class DataSheet(NamedTuple):
         half_play: of the rudder, rad.
         gyro, u_bias, v_bias: deviations of constant offsets, rad/s, m/s.
         latency, latency_deviation: age of a velocity when it arrives, s.
+        trim: deviation of the rudder's angle at a command of 0, rad.
         log_scale, thrust_bias: deviations of shares that motion data cannot show.
         thrust_drift, drift_time: deviation of the thrust's slow error, a share, and its time constant, s.
     """
@@ -37,6 +38,7 @@ class DataSheet(NamedTuple):
     v_bias: float = 0.005
     latency: float = 0.1
     latency_deviation: float = 0.0
+    trim: float = math.radians(2.0)
     log_scale: float = 0.007
     thrust_bias: float = 0.02
     thrust_drift: float = 0.03
@@ -58,7 +60,7 @@ class Scaling(NamedTuple):
         return np.asarray(self.prior.mean + self.prior.root @ z[:COUNT])
 
     def physical(self, z: Numbers) -> Numbers:
-        """Return combinations, rate (rad/s), dead time (s), half play (rad), biases, latency: (21,)."""
+        """Return combinations, rate (rad/s), dead time (s), half play (rad), biases, latency, trim: (22,)."""
         s = self.sheet
         further = [
             s.rate * math.exp(_LOG_RATE * z[RATE]),
@@ -68,15 +70,16 @@ class Scaling(NamedTuple):
             s.u_bias * z[U_BIAS],
             s.v_bias * z[V_BIAS],
             s.latency + s.latency_deviation * z[LATENCY],
+            s.trim * z[TRIM],
         ]
         return np.concatenate((self.combinations(z), further))
 
     def slopes(self, z: Numbers) -> Numbers:
-        """Return the derivatives of the physical unknowns by the scaled ones, shape (21, 21)."""
+        """Return the derivatives of the physical unknowns by the scaled ones, shape (22, 22)."""
         s, slopes = self.sheet, np.zeros((ALL, ALL))
         slopes[:COUNT, :COUNT] = self.prior.root
         rate = s.rate * math.exp(_LOG_RATE * z[RATE]) * _LOG_RATE
-        further = (rate, _DEAD_TIME, _HALF_PLAY, s.gyro, s.u_bias, s.v_bias, s.latency_deviation)
+        further = (rate, _DEAD_TIME, _HALF_PLAY, s.gyro, s.u_bias, s.v_bias, s.latency_deviation, s.trim)
         slopes[range(COUNT, ALL), range(COUNT, ALL)] = further
         return slopes
 
@@ -90,6 +93,8 @@ class Scaling(NamedTuple):
         z[GYRO : V_BIAS + 1] = physical[GYRO : V_BIAS + 1] / np.array([s.gyro, s.u_bias, s.v_bias])
         if s.latency_deviation > 0.0:
             z[LATENCY] = (physical[LATENCY] - s.latency) / s.latency_deviation
+        if s.trim > 0.0:
+            z[TRIM] = physical[TRIM] / s.trim
         return z
 
     def lowest(self) -> Numbers:

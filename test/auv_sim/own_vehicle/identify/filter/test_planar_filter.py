@@ -22,13 +22,13 @@ from auv_sim.own_vehicle.identify.innovations import (
     many_innovations,
 )
 from auv_sim.own_vehicle.identify.study.simulated_data import planar_data
-from auv_sim.own_vehicle.identify.unknowns import DataSheet
+from auv_sim.own_vehicle.identify.unknowns import TRIM, DataSheet
 from auv_sim.own_vehicle.manoeuvres import program_file
 from auv_sim.own_vehicle.manoeuvres.manoeuvre_flight import simulate
 
 REMUS = vehicle_file.load("remus100")
 C = combinations_of(REMUS.coefficients)
-TRUE = np.array([*C, REMUS.rudder.max_rate, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+TRUE = np.array([*C, REMUS.rudder.max_rate, *[0.0] * 7])
 
 
 @given(
@@ -80,3 +80,15 @@ def test_exact_data_leave_no_innovations_and_both_forms_agree() -> None:
     assert np.abs(innovations(channels, other)[channels.rows == 0]).max() > 1e-3
     compiled = many_innovations(channels, [TRUE, other])
     assert _uncompiled(channels, [TRUE, other]) == pytest.approx(compiled, abs=1e-9)
+
+
+@pytest.mark.parametrize("trim", [0.035, -0.035])
+def test_a_fin_that_stands_off_its_command_is_one_with_a_trim(trim: float) -> None:
+    data = planar_data(simulate(REMUS, None, program_file.load("two_minutes"))).between(0.0, 30.0)
+    channels = channels_of([data._replace(rudder=data.rudder - trim)], DataSheet(latency=0.0), 0.0)
+    trimmed = TRUE.copy()
+    trimmed[TRIM] = trim
+    # The servo's way from neutral to the first command differs, for a moment.
+    settled = (channels.rows == 0) & (channels.passages[0].rows > data.t[0] + 5.0)
+    assert np.abs(innovations(channels, trimmed)[settled]).max() < 2e-4
+    assert np.abs(innovations(channels, TRUE)[settled]).max() > 1e-3

@@ -22,6 +22,7 @@ from auv_sim.own_vehicle.identify.unknowns import (
     HALF_PLAY,
     LATENCY,
     RATE,
+    TRIM,
     U_BIAS,
     V_BIAS,
 )
@@ -100,6 +101,7 @@ def servo_figures(found: Identified) -> list[Figure]:
             "play of the rudder", 2.0 * math.degrees(p[HALF_PLAY]), 2.0 * math.degrees(off[HALF_PLAY]), "deg"
         ),
         Figure("dead band of the rudder", math.degrees(found.dead_band), math.nan, "deg"),
+        Figure("trim of the rudder", math.degrees(p[TRIM]), math.degrees(off[TRIM]), "deg"),
         Figure("bias of the gyro", math.degrees(p[GYRO]), math.degrees(off[GYRO]), "deg/s"),
         Figure("bias of u", p[U_BIAS], off[U_BIAS], "m/s"),
         Figure("bias of v", p[V_BIAS], off[V_BIAS], "m/s"),

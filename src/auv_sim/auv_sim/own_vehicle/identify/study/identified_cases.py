@@ -17,7 +17,7 @@ from auv_sim.own_vehicle.identify.innovations import channels_of
 from auv_sim.own_vehicle.identify.predictions import predictions_of
 from auv_sim.own_vehicle.identify.study.random_hulls import random_vehicle
 from auv_sim.own_vehicle.identify.study.simulated_data import planar_data, thrust_share
-from auv_sim.own_vehicle.identify.unknowns import ALL, DEAD_TIME, HALF_PLAY, RATE
+from auv_sim.own_vehicle.identify.unknowns import ALL, DEAD_TIME, HALF_PLAY, LATENCY, RATE
 from auv_sim.own_vehicle.identify.water_current import mean_current
 from auv_sim.own_vehicle.manoeuvres import program_file
 from auv_sim.own_vehicle.manoeuvres.manoeuvre_flight import Manoeuvred, simulate
@@ -125,7 +125,7 @@ def true_unknowns(vehicle: Vehicle, sea: Sea) -> Numbers:
     found[RATE] = vehicle.rudder.max_rate
     found[DEAD_TIME] = vehicle.rudder.dead_time + sea.rudder.dead_time
     found[HALF_PLAY] = math.radians(0.5 * sea.rudder.backlash_deg)
-    found[ALL - 1] = sea.sensors.water_track.latency
+    found[LATENCY] = sea.sensors.water_track.latency
     return found
 
 
