@@ -17,17 +17,16 @@ from auv_sim.own_vehicle.identify.innovations import channels_of
 from auv_sim.own_vehicle.identify.predictions import predictions_of
 from auv_sim.own_vehicle.identify.study.random_hulls import random_vehicle
 from auv_sim.own_vehicle.identify.study.simulated_data import planar_data, thrust_share
+from auv_sim.own_vehicle.identify.time_grid import PlanarData
 from auv_sim.own_vehicle.identify.unknowns import ALL, DEAD_TIME, HALF_PLAY, LATENCY, RATE
 from auv_sim.own_vehicle.identify.water_current import mean_current
 from auv_sim.own_vehicle.manoeuvres import program_file
-from auv_sim.own_vehicle.manoeuvres.manoeuvre_flight import Manoeuvred, simulate
+from auv_sim.own_vehicle.manoeuvres.manoeuvre_flight import simulate
 from auv_sim.vehicle import sea as sea_file
 from auv_sim.vehicle.sea import Sea
 
 #: The known vehicle of every identification, and the program that is left out of it.
 KNOWN, LEFT_OUT = "remus100", "two_minutes"
-#: Seeds of the left-out manoeuvres' seas lie this far from those of the identified ones.
-_FURTHER = 100_000
 
 
 class Case(NamedTuple):
@@ -73,32 +72,45 @@ class Judged(NamedTuple):
     true_ten: float
 
 
+class Recorded(NamedTuple):
+    """One flight: the part to identify, the part that is left out, and the mean true current of the first."""
+
+    used: PlanarData
+    left_out: PlanarData
+    current: Numbers
+
+
 def outcome_of(case: Case) -> Judged:
     """Fly, identify and compare."""
     vehicle, sea = random_vehicle(case.seed, case.stable), sea_file.load(case.sea)
-    flown = simulate(vehicle, sea, program_file.load(case.program), case.seed)
-    known = vehicle_file.load(KNOWN)
-    found = identify([planar_data(flown)], known.coefficients)
-    left = simulate(vehicle, sea, program_file.load(LEFT_OUT), case.seed + _FURTHER)
-    return _compared(case, vehicle, sea, flown, found, left)
+    recorded = recorded_of(case, vehicle, sea)
+    return _compared(case, vehicle, sea, recorded, identify([recorded.used], _known().coefficients))
 
 
-def _compared(
-    case: Case, vehicle: Vehicle, sea: Sea, flown: Manoeuvred, found: Identified, left: Manoeuvred
-) -> Judged:
+def recorded_of(case: Case, vehicle: Vehicle, sea: Sea) -> Recorded:
+    """Fly the program and what is left out in one go, so that the instruments' errors are those of one run."""
+    program, further = program_file.load(case.program), program_file.load(LEFT_OUT)
+    joined = dataclasses.replace(program, legs=(*program.legs, *further.legs))
+    flown = simulate(vehicle, sea, joined, case.seed)
+    own = flown.leg < len(program.legs)
+    end, data = float(flown.t[own][-1]) + 1e-6, planar_data(flown)
+    used, left_out = data.between(float(data.t[0]) - 1.0, end), data.between(end, math.inf)
+    return Recorded(used, left_out, flown.current[own].mean(axis=0))
+
+
+def _known() -> Vehicle:
+    return vehicle_file.load(KNOWN)
+
+
+def _compared(case: Case, vehicle: Vehicle, sea: Sea, recorded: Recorded, found: Identified) -> Judged:
     true = combinations_of(vehicle.coefficients)
     speed = speed_of(true, vehicle.thrust_max * thrust_share(sea, case.seed))
     radius = radius_of(true, vehicle, 1.0)
-    known = vehicle_file.load(KNOWN)
-    named = {
-        one.name: one.value
-        for one in abilities_of(
-            found.physical, found.spread, dataclasses.replace(known, rudder=vehicle.rudder)
-        )
-    }
+    known = dataclasses.replace(_known(), rudder=vehicle.rudder)
+    named = {one.name: one.value for one in abilities_of(found.physical, found.spread, known)}
     p, sd = found.physical[:COUNT], found.spread.deviations[:COUNT]
-    two, ten = _predicted(left, found, found.physical)
-    true_two, true_ten = _predicted(left, found, true_unknowns(vehicle, sea))
+    two, ten = _predicted(recorded.left_out, found, found.physical)
+    true_two, true_ten = _predicted(recorded.left_out, found, true_unknowns(vehicle, sea))
     return Judged(
         case,
         pole_of(true, speed),
@@ -108,7 +120,7 @@ def _compared(
         named["yaw pole"] - pole_of(true, speed),
         float(found.physical[DEAD_TIME]) - vehicle.rudder.dead_time - sea.rudder.dead_time,
         float(found.physical[RATE]) / vehicle.rudder.max_rate - 1.0,
-        _current_off(flown),
+        _current_off(recorded),
         tuple((sd / np.abs(p)).tolist()),
         tuple(((p - np.array(true)) / sd).tolist()),
         two,
@@ -129,15 +141,15 @@ def true_unknowns(vehicle: Vehicle, sea: Sea) -> Numbers:
     return found
 
 
-def _predicted(left: Manoeuvred, found: Identified, physical: Numbers) -> tuple[float, float]:
-    channels = channels_of([planar_data(left)], found.scaling.sheet, found.dead_band)
+def _predicted(left_out: PlanarData, found: Identified, physical: Numbers) -> tuple[float, float]:
+    channels = channels_of([left_out], found.scaling.sheet, found.dead_band)
     two, ten = predictions_of(channels, physical)
     return two.error, ten.error
 
 
-def _current_off(flown: Manoeuvred) -> float:
-    found = mean_current(planar_data(flown))
+def _current_off(recorded: Recorded) -> float:
+    found = mean_current(recorded.used)
     if found is None:
         return math.nan
-    north, east, _ = flown.current.mean(axis=0)
+    north, east, _ = recorded.current
     return float(max(abs(found.north - north), abs(found.east - east)))
