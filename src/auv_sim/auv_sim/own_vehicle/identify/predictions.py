@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -22,12 +23,14 @@ class Prediction(NamedTuple):
     Attributes:
         horizon: s.
         error: rms error of the yaw rate over the rms yaw rate.
+        noise: white noise of the measured yaw rate over the rms yaw rate; no error lies below it.
         speed: rms error of u over its rms.
         starts: how many.
     """
 
     horizon: float
     error: float
+    noise: float
     speed: float
     starts: int
 
@@ -53,10 +56,11 @@ def _over(channels: Channels, physical: Numbers, horizon: float) -> Prediction:
             track = flown(passage, channels, physical, first, length, states[first])
             errors.append(_compared(passage, track, first, length, physical[GYRO], states))
     if not errors:
-        return Prediction(horizon, np.nan, np.nan, 0)
+        return Prediction(horizon, np.nan, np.nan, np.nan, 0)
     off_r, r, off_u, u = np.concatenate(errors, axis=1)
     rate, speed = np.sqrt(np.mean(off_r**2) / np.mean(r**2)), np.sqrt(np.mean(off_u**2) / np.mean(u**2))
-    return Prediction(horizon, float(rate), float(speed), len(errors))
+    noise = math.sqrt(channels.noise[2] / float(np.mean(r**2)))
+    return Prediction(horizon, float(rate), noise, float(speed), len(errors))
 
 
 def starts_of(passage: Passage, horizon: float) -> list[tuple[int, int]]:

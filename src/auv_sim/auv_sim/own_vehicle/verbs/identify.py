@@ -82,7 +82,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--left-out", nargs=2, type=not_negative, metavar=("BEGIN", "END"),
         help="part of the last recording to leave out and predict, s from its begin; 0 0: none "
-        f"(default: its last {LAST:g} s where there are {ENOUGH:g} s in all)",
+        f"(default: the last {LAST:g} s that turn enough, where there are {ENOUGH:g} s in all)",
     )  # fmt: skip
     _add_sheet(parser)
     add_study_arguments(parser)

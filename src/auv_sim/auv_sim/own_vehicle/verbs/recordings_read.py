@@ -17,8 +17,8 @@ from auv_sim.own_vehicle.identify.results.known_vehicle import forces
 from auv_sim.own_vehicle.identify.results.plausibility import check_commands
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
 
-#: With at least this much data (s) the last part is left out, and predicted.
-ENOUGH, LAST = 150.0, 45.0
+#: With this much data (s) a part of so many seconds is left out and predicted; step of its choice, s.
+ENOUGH, LAST, _STEP = 150.0, 45.0, 15.0
 #: Heave and pitch need at least so many odometries and samples, and planes that move (deviation, rad).
 _LEAST_ROWS, _LEAST_SAMPLES, _LEAST_ANGLE = 800, 100, 0.01
 
@@ -97,6 +97,21 @@ def diving(recorded: Manoeuvring, vehicle: Vehicle, hull: Hull) -> DiveData | No
     )
 
 
+def turning_part(data: PlanarData) -> tuple[float, float]:
+    """Return begin and end (s) of the last part of `LAST` that turns as much as the whole recording does.
+
+    Of a part that hardly turns, the yaw rate's error is the noise of the gyro.
+    """
+    begin, end = data.t[0], data.t[-1]
+    firsts = (
+        np.arange(end - LAST, begin + LAST, -_STEP) if end - begin > 3.0 * LAST else np.array([end - LAST])
+    )
+    squares = [float(np.mean(data.between(first, first + LAST).r ** 2)) for first in firsts]
+    enough = np.flatnonzero(np.array(squares) >= float(np.mean(data.r**2)))
+    first = firsts[enough[0] if enough.size else int(np.argmax(squares))]
+    return float(first), float(first + LAST)
+
+
 def divided(
     recordings: list[PlanarData], left_out: list[float] | None
 ) -> tuple[list[PlanarData], PlanarData | None]:
@@ -104,7 +119,7 @@ def divided(
 
     Args:
         recordings: in the plane.
-        left_out: begin and end of the part of the last recording, s from its begin; None: the last part.
+        left_out: begin and end of the part of the last recording, s from its begin; None: see `turning_part`.
 
     Raises:
         ConfigurationError: the part lies outside the recording, or ends before it begins.
@@ -115,7 +130,7 @@ def divided(
         total = sum(data.t[-1] - data.t[0] for data in recordings)
         if total < ENOUGH:
             return recordings, None
-        first, until = end - LAST, end
+        first, until = turning_part(last)
     elif left_out == [0.0, 0.0]:
         return recordings, None
     else:

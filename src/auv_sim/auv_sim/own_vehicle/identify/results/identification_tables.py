@@ -153,8 +153,10 @@ def whiteness_table(found: Identified) -> Table:
 def predictions_table(predictions: Sequence[Prediction]) -> Table:
     """Return the errors on left-out manoeuvres."""
     table = headed_table(
-        "left-out manoeuvres, by the commands alone", ("over",), ("starts", "yaw rate off %", "speed off %")
-    )
+        "left-out manoeuvres, by the commands alone", ("over",),
+        ("starts", "yaw rate off %", "of it noise of the gyro %", "speed off %"),
+    )  # fmt: skip
     for p in predictions:
-        table.add_row(f"{p.horizon:g} s", str(p.starts), f"{100.0 * p.error:.1f}", f"{100.0 * p.speed:.1f}")
+        shares = (f"{100.0 * share:.1f}" for share in (p.error, p.noise, p.speed))
+        table.add_row(f"{p.horizon:g} s", str(p.starts), *shares)
     return table

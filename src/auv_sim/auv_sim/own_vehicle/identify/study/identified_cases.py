@@ -88,7 +88,7 @@ def outcome_of(case: Case) -> Judged:
 
 
 def recorded_of(case: Case, vehicle: Vehicle, sea: Sea) -> Recorded:
-    """Fly the program and what is left out in one go, so that the instruments' errors are those of one run."""
+    """Fly the program and what is left out in one go: the errors of the instruments are those of one run."""
     program, further = program_file.load(case.program), program_file.load(LEFT_OUT)
     joined = dataclasses.replace(program, legs=(*program.legs, *further.legs))
     flown = simulate(vehicle, sea, joined, case.seed)
