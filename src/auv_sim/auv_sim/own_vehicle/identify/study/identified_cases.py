@@ -72,7 +72,7 @@ class Judged(NamedTuple):
     true_ten: float
 
 
-class Recorded(NamedTuple):
+class FlownCase(NamedTuple):
     """One flight: the part to identify, the part that is left out, and the mean true current of the first."""
 
     used: PlanarData
@@ -87,7 +87,7 @@ def outcome_of(case: Case) -> Judged:
     return _compared(case, vehicle, sea, recorded, identify([recorded.used], _known().coefficients))
 
 
-def recorded_of(case: Case, vehicle: Vehicle, sea: Sea) -> Recorded:
+def recorded_of(case: Case, vehicle: Vehicle, sea: Sea) -> FlownCase:
     """Fly the program and what is left out in one go: the errors of the instruments are those of one run."""
     program, further = program_file.load(case.program), program_file.load(LEFT_OUT)
     joined = dataclasses.replace(program, legs=(*program.legs, *further.legs))
@@ -95,14 +95,14 @@ def recorded_of(case: Case, vehicle: Vehicle, sea: Sea) -> Recorded:
     own = flown.leg < len(program.legs)
     end, data = float(flown.t[own][-1]) + 1e-6, planar_data(flown)
     used, left_out = data.between(float(data.t[0]) - 1.0, end), data.between(end, math.inf)
-    return Recorded(used, left_out, flown.current[own].mean(axis=0))
+    return FlownCase(used, left_out, flown.current[own].mean(axis=0))
 
 
 def _known() -> Vehicle:
     return vehicle_file.load(KNOWN)
 
 
-def _compared(case: Case, vehicle: Vehicle, sea: Sea, recorded: Recorded, found: Identified) -> Judged:
+def _compared(case: Case, vehicle: Vehicle, sea: Sea, recorded: FlownCase, found: Identified) -> Judged:
     true = combinations_of(vehicle.coefficients)
     speed = speed_of(true, vehicle.thrust_max * thrust_share(sea, case.seed))
     radius = radius_of(true, vehicle, 1.0)
@@ -147,7 +147,7 @@ def _predicted(left_out: PlanarData, found: Identified, physical: Numbers) -> tu
     return two.error, ten.error
 
 
-def _current_off(recorded: Recorded) -> float:
+def _current_off(recorded: FlownCase) -> float:
     found = mean_current(recorded.used)
     if found is None:
         return math.nan
