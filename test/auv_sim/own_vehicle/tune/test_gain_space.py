@@ -36,6 +36,13 @@ def test_the_first_point_is_the_rule(space: GainSpace) -> None:
     assert first.pitch == rule.pitch
 
 
+@pytest.mark.parametrize("space", SPACES)
+def test_gains_lead_back_to_their_point(space: GainSpace) -> None:
+    """But for the corners, whose factors are not searched for."""
+    point = space.first + np.array([0.3, -0.2, 0.1, 0.2, 0.1, -0.3, 0.2, 0.0, 0.0])
+    assert space.point_of(space.gains(point)) == pytest.approx(np.clip(point, *bounds()), abs=1e-3)
+
+
 @settings(deadline=None, max_examples=40)
 @given(
     st.lists(st.floats(-6.0, 6.0), min_size=len(VARIABLES), max_size=len(VARIABLES)), st.sampled_from(SPACES)

@@ -11,7 +11,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from auv_sim.flight.batch.flight_figures import Flights
-from auv_sim.own_vehicle.tune.objective import LIMIT_CYCLE, cycling, distance_cost, ratios_of, terms_of, worst
+from auv_sim.own_vehicle.tune.objective import (
+    LIMIT_CYCLE,
+    cycling,
+    distance_cost,
+    ratios_of,
+    reference_of,
+    terms_of,
+    worst,
+)
 
 #: Two flights on lines, three along courses.
 IS_LINE = np.array([True, True, False, False, False])
@@ -78,7 +86,30 @@ def test_margins_that_are_missing_cost() -> None:
     assert terms_of(flights(), flights(), IS_LINE, 2 / 3).total > 1.0
 
 
+@settings(deadline=None)
+@given(
+    st.lists(st.floats(0.01, 5.0), min_size=5, max_size=5), st.lists(st.booleans(), min_size=5, max_size=5)
+)
+def test_the_reference_is_never_worse_than_either(values, completed) -> None:
+    ruled, both = flights(), np.array(completed)
+    present = flights(rms_distance=np.array(values), completed=both, rudder_travel_per_metre=np.array(values))
+    reference = reference_of(ruled, present)
+    assert reference_of(ruled, None) is ruled
+    assert (reference.rms_distance <= np.where(ruled.completed, ruled.rms_distance, np.inf)).all()
+    assert (reference.rms_distance[both] <= present.rms_distance[both]).all()
+    assert (reference.completed == (ruled.completed | both)).all()
+    known = ruled.completed
+    ratio = (reference.rudder_travel_per_metre / ruled.rudder_travel_per_metre)[known]
+    assert ((ratio >= 0.5) & (ratio <= 2.0)).all()
+
+
+def test_a_flight_without_the_present_gains_counts_with_the_rule() -> None:
+    ruled = flights()
+    present = flights(rms_distance=np.full(5, 0.01), completed=np.zeros(5, bool))
+    assert (reference_of(ruled, present).rms_distance[2:] == 0.1).all()
+
+
 def test_ratios_are_plain_means() -> None:
     found = ratios_of(flights(rms_distance=np.array([9.0, 9.0, 0.22, 0.1, 0.1])), flights(), IS_LINE)
-    assert found.rms == pytest.approx(2.0 ** (1 / 3))
+    assert found.rms == pytest.approx((0.23 / 0.11) ** (1 / 3))
     assert found.travel == pytest.approx(1.0)

@@ -13,8 +13,8 @@ from auv_path_following import config_files
 from auv_sim.own_vehicle.tune import search as searching
 from auv_sim.own_vehicle.tune import tuned_file
 from auv_sim.own_vehicle.tune.gain_space import VARIABLES, GainSpace
-from auv_sim.own_vehicle.tune.gain_verdict import judge
-from auv_sim.own_vehicle.tune.search import Budget, Found, Problem, hulls_of, search
+from auv_sim.own_vehicle.tune.gain_verdict import PRESENT, RULE, judge
+from auv_sim.own_vehicle.tune.search import Budget, Found, Problem, beginning, hulls_of, search
 from auv_sim.own_vehicle.tune.trial_flights import Amount, Conditions, draw_flights
 from auv_sim.sim_parameters import SUITE
 from hulls import REMUS, STABLE
@@ -24,6 +24,7 @@ CONDITIONS = Conditions(0.05, 0.05, (0.1, 0.05), None)
 SPACE = GainSpace(STABLE, BASE[topics.GUIDANCE].guidance, 0.05, 0.05)
 PROBLEM = Problem(SPACE, [STABLE], CONDITIONS, 4)
 FEW = Amount(starts=2, courses=1, legs=4, at_sea=0)
+FEWEST = Amount(starts=1, courses=1, legs=3, at_sea=0)
 #: Gains that a search of 50 generations found on this hull, as ratios.
 GOOD = (0.345, 0.351, 0.139, 0.251, 0.787, 0.87, 5.25, 0.95, 0.88)
 
@@ -31,6 +32,7 @@ GOOD = (0.345, 0.351, 0.139, 0.251, 0.787, 0.87, 5.25, 0.95, 0.88)
 def test_good_gains_are_accepted() -> None:
     verdict = judge(PROBLEM, Found(np.log(GOOD), ()), 1, FEW)
     assert verdict.accepted, verdict.why
+    assert verdict.gains == SPACE.gains(verdict.point)
     assert verdict.share == 1.0
     assert verdict.held[0].ratios.rms < 0.8
     assert verdict.held[0].unrest < 0.3
@@ -41,13 +43,49 @@ def test_bad_gains_are_not_and_the_rule_stays() -> None:
     wild = SPACE.first.copy()
     wild[0], wild[3] = np.log(1.25) * 20.0, np.log(0.4) + 20.0
     verdict = judge(PROBLEM, Found(wild, ()), 1, FEW)
-    assert not verdict.accepted
+    assert verdict.source == RULE
     assert verdict.point == pytest.approx(SPACE.first)
+    assert verdict.gains == SPACE.rule()
     assert any("margins" in why or "limit cycle" in why for why in verdict.why)
 
 
+def test_better_present_gains_stay() -> None:
+    """Against good gains the rule is no progress, nor is a third of the way to worse ones."""
+    problem = PROBLEM._replace(present=SPACE.gains(np.log(GOOD)))
+    slow = SPACE.first.copy()
+    slow[0] += np.log(0.8)
+    verdict = judge(problem, Found(slow, ()), 1, FEWEST)
+    assert verdict.source == PRESENT
+    assert verdict.gains == problem.present
+    assert any("present gains" in why for why in verdict.why)
+    held = verdict.held[0].present
+    assert held is not None
+    assert held.holds
+    assert held.ratios.off > 1.05
+
+
+def test_present_gains_with_a_limit_cycle_do_not_stay() -> None:
+    """The default swings on this hull: gains of the rule's kind replace it, and the reason is given."""
+    default = tuned_file.flown_of(BASE)
+    problem = PROBLEM._replace(present=default)
+    verdict = judge(problem, Found(np.log(GOOD), ()), 1, FEWEST)
+    assert verdict.accepted
+    held = verdict.held[0].present
+    assert held is not None
+    assert held.unrest > 0.3
+    assert not held.holds
+
+
+def test_the_search_begins_at_present_gains_that_are_better(monkeypatch) -> None:
+    monkeypatch.setattr(searching, "SEARCHED", FEWEST)
+    good = SPACE.gains(np.log(GOOD))
+    assert beginning(PROBLEM._replace(present=good), 1) == pytest.approx(SPACE.point_of(good))
+    wild = SPACE.gains(SPACE.first + np.array([9.0, 0, 0, 9.0, 0, 0, 0, 0, 0]))
+    assert beginning(PROBLEM._replace(present=wild), 1) == pytest.approx(SPACE.first)
+
+
 def test_a_short_search_improves_or_the_rule_stays(monkeypatch) -> None:
-    monkeypatch.setattr(searching, "SEARCHED", Amount(starts=1, courses=1, legs=3, at_sea=0))
+    monkeypatch.setattr(searching, "SEARCHED", FEWEST)
     found = search(PROBLEM, Budget(generations=2, population=4, threads=1))
     again = search(PROBLEM, Budget(generations=2, population=4, threads=1))
     assert found == Found(pytest.approx(again.point), again.history)

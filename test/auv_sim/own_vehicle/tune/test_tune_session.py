@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
+import re
 from pathlib import Path
 
 import pytest
 
 from auv_msgs_py.settings import params_file
 from auv_path_following import config_files, vehicle
+from auv_path_following.abilities import Turning
 from auv_path_following.control.pitch_plane import pitch_gains
 from auv_path_following.control.rule.gain_rule import gains_for
 from auv_sim.cli.vehicles.vehicle_command import main, parser
 from auv_sim.own_vehicle.tune import tuned_file
-from auv_sim.own_vehicle.tune.gain_verdict import GainVerdict, Held
+from auv_sim.own_vehicle.tune.gain_verdict import FOUND, PRESENT, RULE, GainVerdict, Held
 from auv_sim.own_vehicle.tune.objective import CostTerms, Ratios
 from auv_sim.own_vehicle.tune.sampled_loop import Margins
-from auv_sim.own_vehicle.tune.tune_session import comments_of, problem_of
+from auv_sim.own_vehicle.tune.tune_session import MEMBERS, present_of, problem_of, settled
+from auv_sim.own_vehicle.tune.verdict_words import comments_of
 from auv_sim.sim_parameters import SUITE
 from hulls import DIVER, REMUS
 
@@ -24,7 +28,7 @@ BASE = params_file.load(config_files.find("params", "robust"), SUITE)
 
 
 def options_of(*words: str) -> argparse.Namespace:
-    return parser(["tune"]).parse_args(["tune", *words])
+    return settled(parser(["tune"]).parse_args(["tune", *words]))
 
 
 def test_planes_of_a_diver_get_the_gains_of_the_rule(tmp_path: Path) -> None:
@@ -43,17 +47,45 @@ def test_planes_of_a_diver_get_the_gains_of_the_rule(tmp_path: Path) -> None:
         assert written.guidance.vertical.lookahead == pytest.approx(ruled.lookahead, rel=1e-4)
 
 
-@pytest.mark.parametrize("accepted", [True, False])
-def test_flights_of_rejected_gains_are_not_in_the_file_of_the_rule(accepted: bool) -> None:
+@pytest.mark.parametrize("source", [FOUND, RULE, PRESENT])
+def test_flights_of_rejected_gains_are_not_in_the_file_of_others(source: str) -> None:
     options = options_of("remus100")
     problem = problem_of(options, REMUS, BASE)
     margins = Margins(2.0, 2.0, 0.1, True)
     held = Held(CostTerms(0.2, 0.0, 0.0, 0.0, 0.0, 0.0), Ratios(1.2, 1.3, 0.9), 0.01, 0.01, 67, 0)
+    accepted = source == FOUND
     why = () if accepted else ("no less distance than with the rule",)
-    verdict = GainVerdict(accepted, 1.0, problem.space.first, why, (held,), margins, margins)
-    text = "\n".join(comments_of(options, REMUS, problem, verdict))
+    rule = problem.space.rule()
+    verdict = GainVerdict(source, rule, 1.0, problem.space.first, why, (held,), margins)
+    text = "\n".join(comments_of(options, REMUS, problem, verdict, "robust"))
     assert ("Held out" in text) is accepted
     assert ("Not accepted: no less distance" in text) is not accepted
+    assert ("those of robust" in text) is (source == PRESENT)
+    assert ("Ratios" in text) is (source != PRESENT)
+
+
+def test_an_uncertainty_that_the_file_states_is_tuned_for(tmp_path: Path) -> None:
+    text = config_files.find("vehicles", "remus100").read_text(encoding="utf-8")
+    stated = tmp_path / "stated.yaml"
+    stated.write_text(re.sub(r"(  Nuud: \S+).*", r"\1  # assumed (x1.8)", text), encoding="utf-8")
+    assert "x1.8" in stated.read_text(encoding="utf-8")
+    plain, own = options_of("remus100"), options_of(str(stated))
+    assert (plain.spread, plain.members) == (0.0, 1)
+    assert (own.spread, own.members) == ("file", MEMBERS)
+    assert own.generations < plain.generations
+    effects = {hull.coefficients.Nuud for hull in problem_of(own, vehicle.load(str(stated)), BASE).hulls}
+    assert len(effects) == MEMBERS
+    assert options_of(str(stated), "--spread", "5").spread == 5.0
+    assert options_of(str(stated), "--spread", "0").members == 1
+
+
+def test_present_gains_are_those_that_the_vehicle_names() -> None:
+    name, settings = present_of(dataclasses.replace(REMUS, params="rough"))
+    assert name == "rough"
+    assert settings == params_file.load(config_files.find("params", "rough"), SUITE)
+    assert present_of(dataclasses.replace(REMUS, params=None)) == ("robust", BASE)
+    unknown = dataclasses.replace(vehicle.load("mss_remus100"), turning=Turning(radius=10.0))
+    assert present_of(unknown) == ("robust", None)
 
 
 @pytest.mark.parametrize(

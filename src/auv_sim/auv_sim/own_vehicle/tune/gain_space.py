@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from auv_msgs_py.settings.schema import leaves
 from auv_path_following.comparators.mss_pilot import MssPilot
+from auv_path_following.control import autopilot
 from auv_path_following.control.autopilot import AutopilotConfig
 from auv_path_following.control.hull_model import tightest_turn
 from auv_path_following.control.nism import NismConfig
@@ -33,6 +34,8 @@ Vector = npt.NDArray[np.float64]
 #: Largest acceleration of the reference over b times the full rudder angle, and its largest rate over u0/R of
 #: the steady turn: a corner is over before the turn has cost speed, so this is more than the steady rate.
 LARGEST_ACCELERATION, LARGEST_RATE = 0.8, 0.9
+#: Rounds in which the crossover of given gains converges.
+_ROUNDS = 12
 
 
 class GainSet(NamedTuple):
@@ -131,6 +134,32 @@ class GainSpace:
             1.0,
         )
         return np.log(ratios)
+
+    def point_of(self, gains: GainSet) -> Vector:
+        """Return the point whose gains are nearest to some, within the bounds; their controller is NISM.
+
+        Raises:
+            ConfigurationError: the gains need values that the vehicle's file does not have.
+        """
+        prepared, response = autopilot.prepare(gains.autopilot, self.vehicle), self.response
+        nism, reference = prepared.controller.gains, prepared.reference
+        steepness = nism.kp * nism.k5
+        w_c = response.effect * steepness
+        for _ in range(_ROUNDS):  # until |r/delta| at w_c is 1/steepness
+            w_c *= math.sqrt(abs(response.gain(w_c)) * steepness)
+        limits = reference.limits
+        ratios = (
+            w_c * self.delay,
+            nism.k1 * nism.k2 / w_c,
+            nism.k3 * nism.k4 / w_c,
+            reference.bandwidth / w_c,
+            limits.acceleration / (response.effect * self.vehicle.rudder.max_angle),
+            limits.rate / self.fastest,
+            gains.guidance.lookahead * reference.bandwidth / response.speed,
+            1.0,
+            1.0,
+        )
+        return self._clipped(np.log(np.maximum(ratios, 1e-9)))
 
     @staticmethod
     def bounds() -> tuple[Vector, Vector]:

@@ -1,4 +1,4 @@
-"""Whether found gains replace the rule's: only after courses, starts and seas that the search never saw."""
+"""Which gains a vehicle gets: found ones only after courses, starts and seas that the search never saw."""
 
 from __future__ import annotations
 
@@ -19,19 +19,25 @@ from auv_sim.own_vehicle.tune.trial_flights import HELD_OUT, Amount, draw_flight
 #: Shares of the way from the rule's gains to those found; the first that is accepted counts. Each has flights
 #: of its own.
 SHARES = (1.0, 0.6, 0.3)
-#: Largest travel of the rudder over that of the rule, mean of the held-out flights.
-MOST_TRAVEL = 3.0
+#: Largest travel of the rudder over that of the rule and over that of the present gains, whichever is more,
+#: mean of the held-out flights.
+MOST_TRAVEL = 1.5
+#: Largest distance away from corners over that of the present gains.
+MOST_BEHIND = 1.05
+#: Where the gains of a verdict come from.
+FOUND, PRESENT, RULE = "found", "present", "rule"
 
 
 class Held(NamedTuple):
-    """Held-out flights of one hull, with gains and with the rule's.
+    """Held-out flights of one hull, with gains, with the rule's and with those that the vehicle has.
 
     Attributes:
-        terms: the objective's parts.
+        terms: the objective's parts, against the rule.
         ratios: to the rule.
         unrest, ruled_unrest: largest late rms yaw rate on lines, deg/s.
         flights: how many.
         lost: how many did not complete their course.
+        present: the present gains; None without any.
     """
 
     terms: CostTerms
@@ -40,47 +46,91 @@ class Held(NamedTuple):
     ruled_unrest: float
     flights: int
     lost: int
+    present: HeldPresent | None = None
+
+
+class HeldPresent(NamedTuple):
+    """The same flights with the present gains.
+
+    Attributes:
+        terms: the parts of the objective of the present gains, against the rule.
+        ratios: of the gains to the present ones.
+        unrest: as of `Held`.
+    """
+
+    terms: CostTerms
+    ratios: Ratios
+    unrest: float
+
+    @property
+    def holds(self) -> bool:
+        """Whether the present gains keep all conditions: no limit cycle, all courses completed, margins."""
+        return self.unrest <= LIMIT_CYCLE and self.terms.lost == 0.0 and self.terms.margins == 0.0
 
 
 class GainVerdict(NamedTuple):
     """What the held-out flights say.
 
     Attributes:
-        accepted: whether the gains replace the rule's.
-        share: of the way from the rule's gains to those found; 0 where nothing is accepted.
-        point: the gains; the rule's where nothing is accepted.
+        source: `FOUND`, `PRESENT` or `RULE`.
+        gains: what the vehicle gets.
+        share: of the way from the rule's gains to those found; 0 where they are not accepted.
+        point: of the gains found; the rule's where they are not accepted.
         why: reasons against the gains found, in words; empty for none.
-        held: of each hull.
-        margins: of the vehicle itself, with the gains found and with the rule's.
+        held: of each hull, with the gains found.
+        margins: of the vehicle itself, with `gains`.
     """
 
-    accepted: bool
+    source: str
+    gains: GainSet
     share: float
     point: Vector
     why: tuple[str, ...]
     held: tuple[Held, ...]
     margins: Margins
-    ruled_margins: Margins
+
+    @property
+    def accepted(self) -> bool:
+        """Whether the vehicle gets gains that were found."""
+        return self.source == FOUND
 
 
 def judge(problem: Problem, found: Found, threads: int, amount: Amount = HELD_OUT) -> GainVerdict:
-    """Fly the held-out flights with the gains found, or with a share of the way to them."""
+    """Fly the held-out flights with the gains found, or with a share of the way to them.
+
+    Gains that are behind the present ones are accepted only where those do not keep the conditions.
+    """
     space, vehicle = problem.space, problem.space.vehicle
     reasons: list[str] = []
-    held: tuple[Held, ...] = ()
-    ruled = margins_of(space.rule(), vehicle, vehicle, problem.conditions)
+    flown: list[tuple[Held, ...]] = []
+    behind: list[GainVerdict] = []
     for attempt, share in enumerate(SHARES):
         point = space.first + share * (found.point - space.first)
         gains = space.gains(point)
-        own = tuple(hold_out(problem, gains, (1, attempt), threads, amount))
-        against = reasons_against(own)
-        if not reasons or not against:
-            held = own
+        flown.append(tuple(hold_out(problem, gains, (1, attempt), threads, amount)))
+        against, lag = reasons_against(flown[-1]), reasons_behind(flown[-1])
         margins = margins_of(gains, vehicle, vehicle, problem.conditions)
+        verdict = GainVerdict(FOUND, gains, share, point, tuple(reasons), flown[-1], margins)
+        if not against and not lag:
+            return verdict
         if not against:
-            return GainVerdict(True, share, point, tuple(reasons), held, margins, ruled)
-        reasons.extend(f"{100 * share:.0f} % of the way: {reason}" for reason in against)
-    return GainVerdict(False, 0.0, space.first, tuple(reasons), held, ruled, ruled)
+            behind.append(verdict)
+        reasons.extend(f"{100 * share:.0f} % of the way: {reason}" for reason in against + lag)
+    present = flown[0][0].present
+    may_stay = all(one.present is not None and one.present.holds for one in flown[0])
+    if behind and not may_stay:
+        return min(behind, key=_off_present)._replace(why=tuple(reasons))
+    stays, gains = RULE, space.rule()
+    if may_stay and problem.present is not None and present is not None and present.terms.distance < 0.0:
+        stays, gains = PRESENT, problem.present
+    margins = margins_of(gains, vehicle, vehicle, problem.conditions)
+    return GainVerdict(stays, gains, 0.0, space.first, tuple(reasons), flown[0], margins)
+
+
+def _off_present(verdict: GainVerdict) -> float:
+    """Return the ratio of the distances off corners to those of the present gains."""
+    present = verdict.held[0].present
+    return 0.0 if present is None else present.ratios.off
 
 
 def hold_out(
@@ -92,18 +142,25 @@ def hold_out(
         random = np.random.default_rng([problem.seed, *stream, k])
         flights = draw_flights(hull, problem.conditions, amount, random)
         is_line = np.array([flight.is_line for flight in flights])
-        flown, ruled = fly_all(flights, [gains, space.rule()], space.vehicle, threads, courses)
+        sets = [gains, space.rule()] if problem.present is None else [gains, space.rule(), problem.present]
+        flown, ruled, *others = fly_all(flights, sets, space.vehicle, threads, courses)
         asked = margins_asked(space, hull, problem.conditions)
-        terms = terms_of(flown, ruled, is_line, lacking(asked, gains, space.vehicle))
-        lost = int(np.sum(~is_line & ~flown.completed))
+        present = None
+        if problem.present is not None:
+            lacks = lacking(asked, problem.present, space.vehicle)
+            present = HeldPresent(
+                terms_of(others[0], ruled, is_line, lacks), ratios_of(flown, others[0], is_line),
+                unrest(others[0], is_line),
+            )  # fmt: skip
         held.append(
             Held(
-                terms,
+                terms_of(flown, ruled, is_line, lacking(asked, gains, space.vehicle)),
                 ratios_of(flown, ruled, is_line),
                 unrest(flown, is_line),
                 unrest(ruled, is_line),
                 len(flights),
-                lost,
+                int(np.sum(~is_line & ~flown.completed)),
+                present,
             )
         )
     return held
@@ -116,7 +173,10 @@ def unrest(flown: Flights, is_line: np.ndarray) -> float:
 
 
 def reasons_against(held: Sequence[Held]) -> list[str]:
-    """Return why gains are not accepted, from held-out flights of each hull; empty where they are."""
+    """Return why gains are not accepted, from held-out flights of each hull; empty where they are.
+
+    That they are behind the present gains is the matter of `reasons_behind`.
+    """
     reasons = []
     worst = max(held, key=lambda one: one.unrest)
     if worst.unrest > LIMIT_CYCLE:
@@ -126,13 +186,26 @@ def reasons_against(held: Sequence[Held]) -> list[str]:
         reasons.append(f"{lost} flights that did not complete their course")
     if any(one.terms.margins > 0.0 for one in held):
         reasons.append("margins of the linear loop below those asked for")
-    travel = max(one.ratios.travel for one in held)
-    if travel > MOST_TRAVEL:
-        reasons.append(f"{travel:.1f} times the rudder travel of the rule, more than {MOST_TRAVEL:g}")
+    travel = max(
+        min(one.ratios.travel, math.inf if one.present is None else one.present.ratios.travel) for one in held
+    )
+    most = MOST_TRAVEL if all(one.present is not None for one in held) else 2.0 * MOST_TRAVEL
+    if travel > most:
+        reasons.append(f"{travel:.1f} times the rudder travel, more than {most:g}")
     distance = max(one.terms.distance for one in held)
     if distance >= 0.0 and not _cures(held):
         reasons.append("no less distance than with the rule")
     return reasons
+
+
+def reasons_behind(held: Sequence[Held]) -> list[str]:
+    """Return why the present gains of the vehicle itself, the first hull, are better; empty for none."""
+    present = held[0].present
+    if present is None or present.ratios.off <= MOST_BEHIND:
+        return []
+    cycling = ", which have a limit cycle" if present.unrest > LIMIT_CYCLE else ""
+    ratio = present.ratios.off
+    return [f"{ratio:.2f} times the distance off corners of the present gains{cycling}"]
 
 
 def _cures(held: Sequence[Held]) -> bool:

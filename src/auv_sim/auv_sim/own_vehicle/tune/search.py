@@ -12,14 +12,23 @@ from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.batch.scenarios import Courses
 from auv_sim.own_vehicle.tune import sampled_loop
 from auv_sim.own_vehicle.tune.gain_space import GainSet, GainSpace, Vector
-from auv_sim.own_vehicle.tune.objective import LEAST_DELAY, LEAST_GAIN, CostTerms, terms_of, worst
+from auv_sim.own_vehicle.tune.objective import (
+    LEAST_DELAY,
+    LEAST_GAIN,
+    CostTerms,
+    reference_of,
+    terms_of,
+    worst,
+)
 from auv_sim.own_vehicle.tune.sampled_loop import LinearPlane, Margins
 from auv_sim.own_vehicle.tune.trial_flights import SEARCHED, Amount, Conditions, draw_flights, fly_all
 
 #: First step of the search, in logarithms of the ratios.
 FIRST_STEP = 0.25
 #: Candidates of a generation.
-POPULATION = 12
+POPULATION = 14
+#: Streams of the draws: generations, and the flights that choose where the search begins.
+_GENERATIONS, _BEGINNING = 0, 4
 #: Hulls of an ensemble that a generation flies besides the vehicle itself; others follow in the next ones.
 DRAWN_HULLS = 2
 
@@ -40,12 +49,14 @@ class Problem(NamedTuple):
         hulls: the vehicle, and others that it may be.
         conditions: delay, rates, sea.
         seed: of all draws.
+        present: gains that the vehicle has, with which found ones are compared too; None without any.
     """
 
     space: GainSpace
     hulls: Sequence[Vehicle]
     conditions: Conditions
     seed: int
+    present: GainSet | None = None
 
 
 class Found(NamedTuple):
@@ -121,20 +132,23 @@ def assess(
     """
     space, conditions = problem.space, problem.conditions
     model = space.vehicle
+    others = [space.rule()] if problem.present is None else [space.rule(), problem.present]
     terms: list[list[CostTerms]] = [[] for _ in candidates]
     for k, hull in enumerate(hulls):
         random = np.random.default_rng([problem.seed, *stream, k])
         flights = draw_flights(hull, conditions, amount, random)
         is_line = np.array([flight.is_line for flight in flights])
-        *flown, ruled = fly_all(flights, [*candidates, space.rule()], model, threads, courses)
+        found = fly_all(flights, [*candidates, *others], model, threads, courses)
+        flown, (ruled, *present) = found[: len(candidates)], found[len(candidates) :]
+        reference = reference_of(ruled, present[0] if present else None)
         asked = margins_asked(space, hull, conditions)
         for own, candidate, figures in zip(terms, candidates, flown, strict=True):
-            own.append(terms_of(figures, ruled, is_line, lacking(asked, candidate, model)))
+            own.append(terms_of(figures, reference, is_line, lacking(asked, candidate, model)))
     return terms
 
 
 def search(problem: Problem, budget: Budget, done: Callable[[float], Any] | None = None) -> Found:
-    """Search from the rule's gains.
+    """Search from the rule's gains, or from the present ones where those are better.
 
     Args:
         problem: what is tuned.
@@ -143,10 +157,10 @@ def search(problem: Problem, budget: Budget, done: Callable[[float], Any] | None
     """
     import cma
 
-    space = problem.space
+    space, begin = problem.space, beginning(problem, budget.threads)
     low, high = space.bounds()
     options = {
-        "bounds": [(low - space.first).tolist(), (high - space.first).tolist()],
+        "bounds": [(low - begin).tolist(), (high - begin).tolist()],
         "popsize": budget.population, "seed": problem.seed + 1, "verbose": -9, "verb_disp": 0, "verb_log": 0,
         "maxiter": budget.generations, "tolfun": 0.0, "tolfunhist": 0.0, "tolx": 0.0, "tolstagnation": 10**9,
         "tolflatfitness": 10**9,
@@ -155,17 +169,33 @@ def search(problem: Problem, budget: Budget, done: Callable[[float], Any] | None
     history = []
     for generation in range(budget.generations):
         points = strategy.ask()
-        gains = [space.gains(space.first + point) for point in points]
+        gains = [space.gains(begin + point) for point in points]
         hulls = hulls_of(problem, generation)
         # Courses are drawn anew: those of earlier generations are not kept.
-        terms = assess(problem, gains, SEARCHED, (0, generation), hulls, budget.threads, Courses())
+        stream = (_GENERATIONS, generation)
+        terms = assess(problem, gains, SEARCHED, stream, hulls, budget.threads, Courses())
         costs = [worst([one.total for one in own]) for own in terms]
         strategy.tell(points, costs)
         history.append(float(np.mean(sorted(costs)[: max(len(costs) // 2, 1)])))
         if done is not None:
             done(history[-1])
     mean = np.asarray(strategy.result.xfavorite, float)
-    return Found(space.first + (mean if np.isfinite(mean).all() else 0.0), tuple(history))
+    return Found(begin + (mean if np.isfinite(mean).all() else 0.0), tuple(history))
+
+
+def beginning(problem: Problem, threads: int) -> Vector:
+    """Return where the search begins: the best of the rule's point, that of the present gains, and between.
+
+    Present gains of another law than NISM have no point.
+    """
+    space, present = problem.space, problem.present
+    if present is None or present.autopilot.controller != "nism":
+        return space.first
+    other = space.point_of(present)
+    points = [space.first, 0.5 * (space.first + other), other]
+    gains = [space.gains(point) for point in points]
+    terms = assess(problem, gains, SEARCHED, (_BEGINNING,), [space.vehicle], threads, Courses())
+    return points[int(np.argmin([worst([one.total for one in own]) for own in terms]))]
 
 
 def hulls_of(problem: Problem, generation: int) -> list[Vehicle]:

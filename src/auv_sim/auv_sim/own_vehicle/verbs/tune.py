@@ -1,8 +1,8 @@
 """Tune gains, look-ahead, corners and limits of the reference for a vehicle.
 
-Starts from the rule's gains (docs/tuning.md), flies thousands of drawn flights, and accepts what it finds
-only after flights that the search never saw. Otherwise the rule's gains stay. Writes a parameter file that
-`mission.py --params FILE` flies, and a picture beside it.
+Starts from the rule's gains (docs/tuning.md) or from those that the vehicle has, flies thousands of drawn
+flights, and accepts what it finds only after flights that the search never saw. Otherwise the better of those
+gains stay. Writes a parameter file that `mission.py --params FILE` flies, and a picture beside it.
 """
 
 from __future__ import annotations
@@ -22,13 +22,15 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
         help="parameter file to write (default: %(default)s); the picture stands beside it",
     )  # fmt: skip
     p.add_argument(
-        "--members", type=at_least_one, default=1, metavar="N",
-        help="hulls: the vehicle and N - 1 drawn within --spread (1)",
+        "--members", type=at_least_one, metavar="N",
+        help="hulls: the vehicle and N - 1 drawn within --spread (5 with a spread, else 1)",
     )  # fmt: skip
     p.add_argument(
-        "--generations", type=at_least_one, default=60, metavar="N", help="of the search (default: 60)"
+        "--generations", type=at_least_one, metavar="N", help="of the search (80; 50 for several hulls)"
     )
     add_conditions(p)
+    # By default the uncertainty is what the vehicle file states, if it states one.
+    p.set_defaults(spread=None)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -20,7 +20,7 @@ from auv_sim.command_line import EXIT_DONE, Parser, at_least_one, command, targe
 from auv_sim.own_vehicle.tune import tuned_file
 from auv_sim.own_vehicle.tune.ensemble import planar
 from auv_sim.own_vehicle.tune.gain_space import GainSet, GainSpace
-from auv_sim.own_vehicle.tune.gain_verdict import judge
+from auv_sim.own_vehicle.tune.gain_verdict import FOUND, PRESENT, RULE, judge
 from auv_sim.own_vehicle.tune.search import Budget, Problem, search
 from auv_sim.own_vehicle.tune.trial_flights import Conditions
 from auv_sim.sim_parameters import SUITE
@@ -34,8 +34,8 @@ from auv_sim.vehicle import sea
 DELAYS = (0.05, 0.15)
 #: kp with which `robust.yaml` is compared on the hull that is stable in yaw, rad/s.
 KP = 0.262
-#: Distance (m) below which two flights are alike.
-ALIKE = 0.005
+#: Resolution of a vehicle's navigation, m: a smaller distance counts as this one.
+RESOLUTION = 0.01
 Row = dict[str, Any]
 
 
@@ -47,7 +47,7 @@ def parser() -> argparse.ArgumentParser:
     )  # fmt: skip
     p.add_argument("--hulls", nargs="+", metavar="NAME", help="some of them (default: all)")
     p.add_argument("--drawn", type=whole, default=10, metavar="N", help="drawn hulls (default: 10)")
-    p.add_argument("--generations", type=at_least_one, default=60, metavar="N", help="of a search (60)")
+    p.add_argument("--generations", type=at_least_one, default=80, metavar="N", help="of a search (80)")
     p.add_argument("--threads", type=at_least_one, default=1, metavar="N", help="flights at once (1)")
     p.add_argument("--seed", type=whole, default=0, metavar="N", help="of the searches (0)")
     p.add_argument("--rule-only", action="store_true", help="the table of limit cycles alone")
@@ -92,16 +92,16 @@ def _tuned(options: argparse.Namespace, space: GainSpace, robust: GainSet) -> Ro
     """Tune one hull; return the figures of its courses, and limit cycles at its own delay."""
     hull = space.vehicle
     conditions = Conditions(0.0, 0.05, STEPS, sea.load("moderate"))
-    problem = Problem(space, [hull], conditions, options.seed)
+    problem = Problem(space, [hull], conditions, options.seed, robust)
     found = search(problem, Budget(options.generations, threads=options.threads))
     verdict = judge(problem, found, options.threads)
     slower: dict[str, Any] = {"nism": dataclasses.replace(robust.autopilot.nism, kp=KP, kp_from_rudder=False)}
     with_kp = robust._replace(autopilot=dataclasses.replace(robust.autopilot, **slower))
-    sets = {"robust": robust, f"kp {KP}": with_kp, "rule": space.rule(), "tuned": space.gains(verdict.point)}
+    sets = {"robust": robust, f"kp {KP}": with_kp, "rule": space.rule(), "tuned": verdict.gains}
     flown = {label: fly_courses(hull, gains, options.threads) for label, gains in sets.items()}
     late = hull.rudder.dead_time
     return {
-        "accepted": verdict.accepted, "why": list(verdict.why),
+        "source": verdict.source, "why": list(verdict.why),
         "own cycles": {
             label: max(unrest(hull, late, step, gains) for step in STEPS) for label, gains in sets.items()
         },
@@ -120,13 +120,12 @@ def _tuned(options: argparse.Namespace, space: GainSpace, robust: GainSet) -> Ro
 def compared(tuned: Mapping[Any, Figures], other: Mapping[Any, Figures]) -> dict[str, float]:
     """Return ratios over all courses: rms off corners (together, and the worst), rudder travel (together).
 
-    Two flights whose distances differ by less than `ALIKE` count as alike in the worst ratio.
+    A distance below `RESOLUTION` counts as this one.
     """
-    off = [(tuned[key].off, other[key].off) for key in tuned]
-    ratios = [1.0 if abs(one - two) < ALIKE else one / two for one, two in off]
+    off = [(max(tuned[key].off, RESOLUTION), max(other[key].off, RESOLUTION)) for key in tuned]
     return {
         "off corners": math.sqrt(sum(one**2 for one, _ in off) / sum(two**2 for _, two in off)),
-        "worst off corners": max(ratios),
+        "worst off corners": max(one / two for one, two in off),
         "travel": sum(tuned[key].travel for key in tuned) / sum(other[key].travel for key in tuned),
     }
 
@@ -149,8 +148,8 @@ def _print(console: Console, row: Row) -> None:
         table.add_row(label, f"{row['own cycles'][label]:.2f}", *cells)
     console.print(table)
     against = ", ".join(f"{name} {value:.2f}" for name, value in row["against robust"].items())
-    state = "accepted" if row["accepted"] else f"not accepted: {'; '.join(row['why'])}"
-    console.print(f"against robust: {against}; {state}")
+    state = {FOUND: "the gains found", PRESENT: "robust", RULE: "the rule"}[row["source"]]
+    console.print(f"tuned is {state}; against robust: {against}; {'; '.join(row['why'])}", markup=False)
 
 
 if __name__ == "__main__":
