@@ -14,17 +14,18 @@ from auv_sim.own_vehicle.tune import search as searching
 from auv_sim.own_vehicle.tune import tuned_file
 from auv_sim.own_vehicle.tune.gain_space import VARIABLES, GainSpace
 from auv_sim.own_vehicle.tune.gain_verdict import PRESENT, RULE, judge
-from auv_sim.own_vehicle.tune.search import Budget, Found, Problem, beginning, hulls_of, search
+from auv_sim.own_vehicle.tune.search import Budget, Found, beginning, hulls_of, search
 from auv_sim.own_vehicle.tune.trial_flights import Amount, Conditions, draw_flights
+from auv_sim.own_vehicle.tune.tuning_problem import Problem
 from auv_sim.sim_parameters import SUITE
 from hulls import REMUS, STABLE
 
 BASE = params_file.load(config_files.find("params", "robust"), SUITE)
 CONDITIONS = Conditions(0.05, 0.05, (0.1, 0.05), None)
 SPACE = GainSpace(STABLE, BASE[topics.GUIDANCE].guidance, 0.05, 0.05)
-PROBLEM = Problem(SPACE, [STABLE], CONDITIONS, 4)
 FEW = Amount(starts=2, courses=1, legs=4, at_sea=0)
 FEWEST = Amount(starts=1, courses=1, legs=3, at_sea=0)
+PROBLEM = Problem(SPACE, [STABLE], CONDITIONS, 4, amount=FEWEST)
 #: Gains that a search of 50 generations found on this hull, as ratios.
 GOOD = (0.345, 0.351, 0.139, 0.251, 0.787, 0.87, 5.25, 0.95, 0.88)
 
@@ -76,16 +77,14 @@ def test_present_gains_with_a_limit_cycle_do_not_stay() -> None:
     assert not held.holds
 
 
-def test_the_search_begins_at_present_gains_that_are_better(monkeypatch) -> None:
-    monkeypatch.setattr(searching, "SEARCHED", FEWEST)
+def test_the_search_begins_at_present_gains_that_are_better() -> None:
     good = SPACE.gains(np.log(GOOD))
     assert beginning(PROBLEM._replace(present=good), 1) == pytest.approx(SPACE.point_of(good))
     wild = SPACE.gains(SPACE.first + np.array([9.0, 0, 0, 9.0, 0, 0, 0, 0, 0]))
     assert beginning(PROBLEM._replace(present=wild), 1) == pytest.approx(SPACE.first)
 
 
-def test_a_short_search_improves_or_the_rule_stays(monkeypatch) -> None:
-    monkeypatch.setattr(searching, "SEARCHED", FEWEST)
+def test_a_short_search_improves_or_the_rule_stays() -> None:
     found = search(PROBLEM, Budget(generations=2, population=4, threads=1))
     again = search(PROBLEM, Budget(generations=2, population=4, threads=1))
     assert found == Found(pytest.approx(again.point), again.history)

@@ -18,9 +18,9 @@ from auv_sim.cli.vehicles.vehicle_command import main, parser
 from auv_sim.own_vehicle.tune import tuned_file
 from auv_sim.own_vehicle.tune.gain_verdict import FOUND, PRESENT, RULE, GainVerdict, Held
 from auv_sim.own_vehicle.tune.objective import CostTerms, Ratios
+from auv_sim.own_vehicle.tune.outcome.verdict_words import comments_of
 from auv_sim.own_vehicle.tune.sampled_loop import Margins
 from auv_sim.own_vehicle.tune.tune_session import MEMBERS, present_of, problem_of, settled
-from auv_sim.own_vehicle.tune.verdict_words import comments_of
 from auv_sim.sim_parameters import SUITE
 from hulls import DIVER, REMUS
 

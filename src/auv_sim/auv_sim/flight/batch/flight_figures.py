@@ -38,6 +38,7 @@ UNITS = {
     "largest_depth_error": "m",
     "steady_rms_depth_error": "m",
     "steady_largest_depth_error": "m",
+    "late_rms_pitch_rate": "deg/s",
     "largest_pitch": "deg",
     "sternplane_travel": "deg",
     "sternplane_travel_per_metre": "deg/m",
@@ -146,6 +147,7 @@ class SpatialFlights(Flights):
     Attributes:
         rms_depth_error, largest_depth_error: over the whole flight.
         steady_rms_depth_error, steady_largest_depth_error: settled on the path, away from corners.
+        late_rms_pitch_rate: true, from `tally.CALM_TIME` on, deg/s.
         largest_pitch: absolute, deg.
         sternplane_travel: deg; sternplane_travel_per_metre: deg/m.
         last_z: last depth, m.
@@ -156,6 +158,7 @@ class SpatialFlights(Flights):
     largest_depth_error: Column
     steady_rms_depth_error: Column
     steady_largest_depth_error: Column
+    late_rms_pitch_rate: Column
     largest_pitch: Column
     sternplane_travel: Column
     sternplane_travel_per_metre: Column

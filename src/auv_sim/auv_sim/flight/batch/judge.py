@@ -65,6 +65,7 @@ def judged(run: Run, scenario: Scenario) -> dict[str, Any]:
         joined = elapsed[near[0]] if near.size else math.inf
         settled = elapsed - joined >= SETTLING_TIME - 1e-6
         figures |= _in_space(run, rows, path, summary, settled)
+        figures["late_rms_pitch_rate"] = math.degrees(_rms(run.q[elapsed >= tally.CALM_TIME - 1e-6]))
     return figures
 
 

@@ -10,7 +10,8 @@ from auv_sim.own_vehicle.prove.peer_space import PeerSpace
 from auv_sim.own_vehicle.prove.proof import Proof, Proposition, draw_claim, fly_proof
 from auv_sim.own_vehicle.tune.ensemble import planar
 from auv_sim.own_vehicle.tune.gain_space import LAWS, OWN_LAW, GainSet, GainSpace
-from auv_sim.own_vehicle.tune.search import Budget, Problem, search
+from auv_sim.own_vehicle.tune.search import Budget, search
+from auv_sim.own_vehicle.tune.tuning_problem import Problem
 from auv_sim.own_vehicle.tune.trial_flights import STRAIGHT, Flight
 
 #: Name of MSS's law in tables.

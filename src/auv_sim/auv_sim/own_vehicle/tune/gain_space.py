@@ -99,6 +99,7 @@ class GainSpace:
         whole: the diving vehicle of which `vehicle` is the planar part: its planes have the rule's gains.
 
     Attributes:
+        model: the vehicle that guidance and autopilots assume in flight.
         fastest: u0/R of the steady turn, rad/s.
         ruled: gains of the rule.
         first: their point, within the bounds.
@@ -108,7 +109,8 @@ class GainSpace:
         self, vehicle: Vehicle, guidance: PathFollowerConfig, delay: float, step: float,
         law: str = OWN_LAW, whole: Vehicle | None = None,
     ) -> None:  # fmt: skip
-        self.vehicle, self._guidance, self._law = vehicle, guidance, LAWS[law]
+        self.vehicle = self.model = vehicle
+        self._guidance, self._law = guidance, LAWS[law]
         self.response: FinResponse = response_of(vehicle)
         self.delay = max(delay + vehicle.rudder.dead_time + 0.5 * step, 0.02)
         self.fastest = self.response.speed / tightest_turn(vehicle).radius

@@ -13,8 +13,9 @@ from auv_sim.flight.batch.scenarios import Courses
 from auv_sim.own_vehicle.tune.gain_space import GainSet, Vector
 from auv_sim.own_vehicle.tune.objective import LIMIT_CYCLE, CostTerms, Ratios, ratios_of, terms_of
 from auv_sim.own_vehicle.tune.sampled_loop import Margins
-from auv_sim.own_vehicle.tune.search import Found, Problem, lacking, margins_asked, margins_of
-from auv_sim.own_vehicle.tune.trial_flights import HELD_OUT, Amount, draw_flights, fly_all
+from auv_sim.own_vehicle.tune.search import Found
+from auv_sim.own_vehicle.tune.trial_flights import HELD_OUT, Amount
+from auv_sim.own_vehicle.tune.tuning_problem import Problem, lacking, margins_asked, margins_of
 
 #: Shares of the way from the rule's gains to those found; the first that is accepted counts. Each has flights
 #: of its own.
@@ -100,7 +101,7 @@ def judge(problem: Problem, found: Found, threads: int, amount: Amount = HELD_OU
 
     Gains that are behind the present ones are accepted only where those do not keep the conditions.
     """
-    space, vehicle = problem.space, problem.space.vehicle
+    space, vehicle = problem.space, problem.space.model
     reasons: list[str] = []
     flown: list[tuple[Held, ...]] = []
     behind: list[GainVerdict] = []
@@ -109,7 +110,7 @@ def judge(problem: Problem, found: Found, threads: int, amount: Amount = HELD_OU
         gains = space.gains(point)
         flown.append(tuple(hold_out(problem, gains, (1, attempt), threads, amount)))
         against, lag = reasons_against(flown[-1]), reasons_behind(flown[-1])
-        margins = margins_of(gains, vehicle, vehicle, problem.conditions)
+        margins = margins_of(problem, gains, vehicle)
         verdict = GainVerdict(FOUND, gains, share, point, tuple(reasons), flown[-1], margins)
         if not against and not lag:
             return verdict
@@ -123,7 +124,7 @@ def judge(problem: Problem, found: Found, threads: int, amount: Amount = HELD_OU
     stays, gains = RULE, space.rule()
     if may_stay and problem.present is not None and present is not None and present.terms.distance < 0.0:
         stays, gains = PRESENT, problem.present
-    margins = margins_of(gains, vehicle, vehicle, problem.conditions)
+    margins = margins_of(problem, gains, vehicle)
     return GainVerdict(stays, gains, 0.0, space.first, tuple(reasons), flown[0], margins)
 
 
@@ -137,28 +138,25 @@ def hold_out(
     problem: Problem, gains: GainSet, stream: Sequence[int], threads: int, amount: Amount
 ) -> list[Held]:
     """Fly one set of held-out flights on each hull."""
-    space, courses, held = problem.space, Courses(), []
+    rule, courses, held = problem.space.rule(), Courses(), []
+    sets = [gains, rule] if problem.present is None else [gains, rule, problem.present]
     for k, hull in enumerate(problem.hulls):
-        random = np.random.default_rng([problem.seed, *stream, k])
-        flights = draw_flights(hull, problem.conditions, amount, random)
-        is_line = np.array([flight.is_line for flight in flights])
-        sets = [gains, space.rule()] if problem.present is None else [gains, space.rule(), problem.present]
-        flown, ruled, *others = fly_all(flights, sets, space.vehicle, threads, courses)
-        asked = margins_asked(space, hull, problem.conditions)
+        (flown, ruled, *others), is_line = problem.fly(hull, amount, (*stream, k), sets, threads, courses)
+        asked = margins_asked(problem, hull)
         present = None
         if problem.present is not None:
-            lacks = lacking(asked, problem.present, space.vehicle)
+            lacks = lacking(problem, asked, problem.present)
             present = HeldPresent(
                 terms_of(others[0], ruled, is_line, lacks), ratios_of(flown, others[0], is_line),
                 unrest(others[0], is_line),
             )  # fmt: skip
         held.append(
             Held(
-                terms_of(flown, ruled, is_line, lacking(asked, gains, space.vehicle)),
+                terms_of(flown, ruled, is_line, lacking(problem, asked, gains)),
                 ratios_of(flown, ruled, is_line),
                 unrest(flown, is_line),
                 unrest(ruled, is_line),
-                len(flights),
+                len(is_line),
                 int(np.sum(~is_line & ~flown.completed)),
                 present,
             )

@@ -10,18 +10,15 @@ import numpy as np
 
 from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.batch.scenarios import Courses
-from auv_sim.own_vehicle.tune import sampled_loop
-from auv_sim.own_vehicle.tune.gain_space import GainSet, GainSpace, Vector
+from auv_sim.own_vehicle.tune.gain_space import GainSet, Vector
 from auv_sim.own_vehicle.tune.objective import (
-    LEAST_DELAY,
-    LEAST_GAIN,
     CostTerms,
     reference_of,
     terms_of,
     worst,
 )
-from auv_sim.own_vehicle.tune.sampled_loop import LinearPlane, Margins
-from auv_sim.own_vehicle.tune.trial_flights import SEARCHED, Amount, Conditions, draw_flights, fly_all
+from auv_sim.own_vehicle.tune.trial_flights import Amount
+from auv_sim.own_vehicle.tune.tuning_problem import Problem, lacking, margins_asked
 
 #: First step of the search, in logarithms of the ratios.
 FIRST_STEP = 0.25
@@ -41,24 +38,6 @@ class Budget(NamedTuple):
     threads: int = 2
 
 
-class Problem(NamedTuple):
-    """What is tuned.
-
-    Attributes:
-        space: the gains.
-        hulls: the vehicle, and others that it may be.
-        conditions: delay, rates, sea.
-        seed: of all draws.
-        present: gains that the vehicle has, with which found ones are compared too; None without any.
-    """
-
-    space: GainSpace
-    hulls: Sequence[Vehicle]
-    conditions: Conditions
-    seed: int
-    present: GainSet | None = None
-
-
 class Found(NamedTuple):
     """The result of a search.
 
@@ -69,50 +48,6 @@ class Found(NamedTuple):
 
     point: Vector
     history: tuple[float, ...]
-
-
-class MarginsAsked(NamedTuple):
-    """The margins that a candidate must have on one hull; see `objective`."""
-
-    plane: LinearPlane
-    delay: float
-    step: float
-    up: float
-    down: float
-    later: float
-
-
-def margins_of(flown: GainSet, model: Vehicle, hull: Vehicle, conditions: Conditions) -> Margins:
-    """Return the margins of gains on a hull, at the slowest rate."""
-    step = max(conditions.steps)
-    loop = sampled_loop.loop_of(flown.autopilot, model, step)
-    return sampled_loop.margins(
-        sampled_loop.yaw_plane(hull), loop, step, conditions.delay + hull.rudder.dead_time
-    )
-
-
-def margins_asked(space: GainSpace, hull: Vehicle, conditions: Conditions) -> MarginsAsked:
-    """Return the margins to ask for: `LEAST_GAIN` and `LEAST_DELAY`, less where the rule has less."""
-    step = max(conditions.steps)
-    has = margins_of(space.rule(), space.vehicle, hull, conditions)
-    delay = conditions.delay + hull.rudder.dead_time
-    return MarginsAsked(
-        sampled_loop.yaw_plane(hull), delay, step,
-        min(LEAST_GAIN, max(0.95 * has.up, 1.0)), min(LEAST_GAIN, max(0.95 * has.down, 1.0)),
-        min(LEAST_DELAY * (delay + 0.5 * step), 0.9 * has.delay),
-    )  # fmt: skip
-
-
-def lacking(asked: MarginsAsked, flown: GainSet, model: Vehicle) -> float:
-    """Return the share of three margins (up, down, delay) that a candidate lacks."""
-    loop = sampled_loop.loop_of(flown.autopilot, model, asked.step)
-    cases = (
-        (asked.delay, asked.up),
-        (asked.delay, 1.0 / asked.down),
-        (asked.delay + asked.later, 1.0),
-    )
-    failed = [not sampled_loop.is_stable(asked.plane, loop, asked.step, *case) for case in cases]
-    return sum(failed) / len(cases)
 
 
 def assess(
@@ -130,20 +65,16 @@ def assess(
         threads: flights at the same time.
         courses: for paths that are flown again.
     """
-    space, conditions = problem.space, problem.conditions
-    model = space.vehicle
-    others = [space.rule()] if problem.present is None else [space.rule(), problem.present]
+    rule = problem.space.rule()
+    others = [rule] if problem.present is None else [rule, problem.present]
     terms: list[list[CostTerms]] = [[] for _ in candidates]
     for k, hull in enumerate(hulls):
-        random = np.random.default_rng([problem.seed, *stream, k])
-        flights = draw_flights(hull, conditions, amount, random)
-        is_line = np.array([flight.is_line for flight in flights])
-        found = fly_all(flights, [*candidates, *others], model, threads, courses)
+        found, is_line = problem.fly(hull, amount, (*stream, k), [*candidates, *others], threads, courses)
         flown, (ruled, *present) = found[: len(candidates)], found[len(candidates) :]
         reference = reference_of(ruled, present[0] if present else None)
-        asked = margins_asked(space, hull, conditions)
+        asked = margins_asked(problem, hull)
         for own, candidate, figures in zip(terms, candidates, flown, strict=True):
-            own.append(terms_of(figures, reference, is_line, lacking(asked, candidate, model)))
+            own.append(terms_of(figures, reference, is_line, lacking(problem, asked, candidate)))
     return terms
 
 
@@ -173,7 +104,7 @@ def search(problem: Problem, budget: Budget, done: Callable[[float], Any] | None
         hulls = hulls_of(problem, generation)
         # Courses are drawn anew: those of earlier generations are not kept.
         stream = (_GENERATIONS, generation)
-        terms = assess(problem, gains, SEARCHED, stream, hulls, budget.threads, Courses())
+        terms = assess(problem, gains, problem.amount, stream, hulls, budget.threads, Courses())
         costs = [worst([one.total for one in own]) for own in terms]
         strategy.tell(points, costs)
         history.append(float(np.mean(sorted(costs)[: max(len(costs) // 2, 1)])))
@@ -189,12 +120,12 @@ def beginning(problem: Problem, threads: int) -> Vector:
     Present gains of another law than NISM have no point.
     """
     space, present = problem.space, problem.present
-    if present is None or present.autopilot.controller != "nism":
+    if present is None or problem.plane.steering(present).controller != "nism":
         return space.first
     other = space.point_of(present)
     points = [space.first, 0.5 * (space.first + other), other]
     gains = [space.gains(point) for point in points]
-    terms = assess(problem, gains, SEARCHED, (_BEGINNING,), [space.vehicle], threads, Courses())
+    terms = assess(problem, gains, problem.amount, (_BEGINNING,), [space.model], threads, Courses())
     return points[int(np.argmin([worst([one.total for one in own]) for own in terms]))]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from pathlib import Path
 from typing import Any
 
@@ -18,13 +19,22 @@ from auv_path_following.vehicle import Vehicle
 from auv_sim.command_line import EXIT_DONE, to_type
 from auv_sim.flight.batch.compiled import COMPILED
 from auv_sim.own_vehicle.output_files import check_outputs
-from auv_sim.own_vehicle.tune import tuned_file, tuned_picture
+from auv_sim.own_vehicle.tune import tuned_file
 from auv_sim.own_vehicle.tune.ensemble import Factors, check_simulated, ensemble, planar, spread_of_file
 from auv_sim.own_vehicle.tune.gain_space import GainSet, GainSpace
-from auv_sim.own_vehicle.tune.gain_verdict import FOUND, PRESENT, RULE, GainVerdict, judge
-from auv_sim.own_vehicle.tune.search import Budget, Problem, search
-from auv_sim.own_vehicle.tune.trial_flights import Amount, Conditions, draw_flights, with_laws
-from auv_sim.own_vehicle.tune.verdict_words import comments_of, report
+from auv_sim.own_vehicle.tune.gain_verdict import PRESENT, GainVerdict, judge
+from auv_sim.own_vehicle.tune.outcome.tuned_picture import draw_verdict
+from auv_sim.own_vehicle.tune.outcome.verdict_words import comments_of, planes_comments_of, report
+from auv_sim.own_vehicle.tune.pitch.pitch_plane_tuning import (
+    HELD_OUT_DIVES,
+    PITCH,
+    SEARCHED_DIVES,
+    PitchSpace,
+    can_be_tuned,
+)
+from auv_sim.own_vehicle.tune.search import Budget, Found, search
+from auv_sim.own_vehicle.tune.trial_flights import HELD_OUT, Amount, Conditions
+from auv_sim.own_vehicle.tune.tuning_problem import Problem
 from auv_sim.own_vehicle.verbs.gain_options import FROM_FILE
 from auv_sim.sim_parameters import SUITE
 from auv_sim.terminal import console as terminal
@@ -35,16 +45,10 @@ from auv_sim.vehicle import sea
 BASE = "robust"
 #: Hulls where the vehicle file states an uncertainty; generations of a search for one hull, and for several.
 MEMBERS, GENERATIONS, SHARED_GENERATIONS = 5, 80, 50
+#: Generations of the search for the stern planes over those for the rudder, and candidates of each.
+DIVES, POPULATION_OF_DIVES = 0.4, 10
 #: Odometry rates of the flights on lines besides the vehicle's own, 1/s.
 RATES = (10.0, 20.0, 50.0)
-#: Stream of the draw of the picture's course.
-_PICTURE = 3
-#: Of each source of gains: label of its track, state in the picture's title.
-_STATES = {
-    FOUND: ("tuned", "tuned"),
-    PRESENT: ("present", "the present gains stay"),
-    RULE: ("", "the rule's gains stay"),
-}
 
 
 def run(options: argparse.Namespace) -> int:
@@ -67,17 +71,15 @@ def run(options: argparse.Namespace) -> int:
     problem = problem_of(options, own, base)
     _explain(console, problem, name)
     budget = Budget(options.generations, threads=options.threads)
-    with progress_bar(console, disable=options.quiet) as bar:
-        task = bar.add_task("search", total=budget.generations)
-        found = search(problem, budget, lambda _: bar.advance(task))
-        task = bar.add_task("held-out flights", total=1)
-        verdict = judge(problem, found, budget.threads)
-        bar.advance(task)
-    report(console, verdict, name)
-    comments = comments_of(options, own, problem, verdict, name)
+    found, verdict = _tuned(console, problem, budget, options.quiet, "rudder")
+    report(console, verdict, name, "the rudder")
+    gains, comments = verdict.gains, comments_of(options, own, problem, verdict, name)
+    if own.dives:
+        gains, words = _tuned_planes(console, options, own, problem, gains, name)
+        comments += words
     others = present if verdict.source == PRESENT and present is not None else base
-    written = tuned_file.write(options.out, verdict.gains, others, comments)
-    _draw(picture, own, problem, written, verdict, found.history)
+    written = tuned_file.write(options.out, gains, others, comments)
+    draw_verdict(picture, own, problem, written, verdict, found.history)
     wrote(console, options.out, "gains: `mission.py --params` flies them")
     wrote(console, picture, "a held-out course, before and after")
     rest = ["--delay", f"{options.delay:g}"] if options.delay else []
@@ -88,6 +90,53 @@ def run(options: argparse.Namespace) -> int:
     )
     go_on(console, "Prove them", line)
     return EXIT_DONE
+
+
+def _tuned(
+    console: Console, problem: Problem, budget: Budget, quiet: bool, name: str, amount: Amount = HELD_OUT
+) -> tuple[Found, GainVerdict]:
+    """Search and judge, with a progress bar."""
+    with progress_bar(console, disable=quiet) as bar:
+        task = bar.add_task(f"{name}: search", total=budget.generations)
+        found = search(problem, budget, lambda _: bar.advance(task))
+        task = bar.add_task(f"{name}: held-out flights", total=1)
+        verdict = judge(problem, found, budget.threads, amount)
+        bar.advance(task)
+    return found, verdict
+
+
+def _tuned_planes(
+    console: Console,
+    options: argparse.Namespace,
+    own: Vehicle,
+    heading: Problem,
+    gains: GainSet,
+    present: str,
+) -> tuple[GainSet, list[str]]:
+    """Tune the stern planes beside gains of the heading; return all gains, and paragraphs for the file."""
+    if not can_be_tuned(own):
+        why = "the range of depth is too small to tune the stern planes"
+        console.print(f"notice {own.name}: {why}", markup=False)
+        return gains, [f"Pitch gains by the rule: {why}."]
+    problem = pitch_problem(own, heading, gains)
+    budget = Budget(math.ceil(DIVES * options.generations), POPULATION_OF_DIVES, options.threads)
+    _, verdict = _tuned(console, problem, budget, options.quiet, "stern planes", HELD_OUT_DIVES)
+    report(console, verdict, present, "the planes; distances are errors of depth")
+    return verdict.gains, planes_comments_of(verdict, present)
+
+
+def pitch_problem(own: Vehicle, heading: Problem, gains: GainSet) -> Problem:
+    """Return what is tuned in the vertical plane.
+
+    Args:
+        own: the diving vehicle.
+        heading: what was tuned in the horizontal plane.
+        gains: of the heading.
+    """
+    c = heading.conditions
+    space = PitchSpace(own, gains, c.delay, c.step)
+    present = None if heading.present is None else space.with_planes_of(heading.present)
+    return Problem(space, [own], c, heading.seed, present, PITCH, SEARCHED_DIVES)
 
 
 def check_compiled(verb: str) -> None:
@@ -186,24 +235,3 @@ def _explain(console: Console, problem: Problem, present: str) -> None:
         "hulls, the worst counts\n"
         f"objective: distance and rudder travel against {others}, no limit cycle, margins (docs/tuning.md)"
     )
-
-
-def _draw(
-    picture: Path,
-    own: Vehicle,
-    problem: Problem,
-    written: GainSet,
-    verdict: GainVerdict,
-    history: tuple[float, ...],
-) -> None:
-    space = problem.space
-    one = Amount(starts=0, courses=1, legs=5, at_sea=0)
-    random = np.random.default_rng([problem.seed, _PICTURE])
-    # The second: sharp corners in a current.
-    flight = draw_flights(space.vehicle, problem.conditions, one, random)[1]
-    label, state = _STATES[verdict.source]
-    gains = [("rule", space.rule())] + ([(label, written)] if label else [])
-    flights = [(name, with_laws(flight, flown, space.vehicle)) for name, flown in gains]
-    speed = np.hypot(*flight.scenario.current[:2])
-    title = f"{own.name}: {state}. A held-out course in {speed:.2f} m/s of current"
-    tuned_picture.draw(picture, title, flight.scenario.path, flights, history)

@@ -21,8 +21,9 @@ from auv_sim.own_vehicle.tune import tuned_file
 from auv_sim.own_vehicle.tune.ensemble import planar
 from auv_sim.own_vehicle.tune.gain_space import GainSet, GainSpace
 from auv_sim.own_vehicle.tune.gain_verdict import FOUND, PRESENT, RULE, judge
-from auv_sim.own_vehicle.tune.search import Budget, Problem, search
+from auv_sim.own_vehicle.tune.search import Budget, search
 from auv_sim.own_vehicle.tune.trial_flights import Conditions
+from auv_sim.own_vehicle.tune.tuning_problem import Problem
 from auv_sim.sim_parameters import SUITE
 from auv_sim.studies.gains.gain_flights import STEPS, Figures, fly_courses, unrest
 from auv_sim.studies.gains.study_hulls import study_hulls

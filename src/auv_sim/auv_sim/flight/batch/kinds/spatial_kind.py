@@ -118,7 +118,7 @@ def spatial_extras(
     rows = path.plan.subpath
     is_near = _is_near_joint(rows[i], motion) or (i > 0 and _is_near_joint(rows[i - 1], motion))
     sine = 2.0 * (motion.qw * motion.qj - motion.qk * motion.qi)
-    count_depth(whole, subpaths, i, elapsed, below, sine, is_near)
+    count_depth(whole, subpaths, i, elapsed, below, sine, motion.q, is_near)
     return is_near
 
 

@@ -11,15 +11,28 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from auv_path_following.curves.composite import CompositePath
+from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.batch import engine
 from auv_sim.flight.figures.flown_rows import FlownRows
 from auv_sim.flight.loops import followed_path
 from auv_sim.flight.metrics import under_way
 from auv_sim.flight.scenario import Scenario
+from auv_sim.own_vehicle.tune.gain_space import GainSet
+from auv_sim.own_vehicle.tune.gain_verdict import FOUND, PRESENT, RULE, GainVerdict
+from auv_sim.own_vehicle.tune.trial_flights import Amount, draw_flights, with_laws
+from auv_sim.own_vehicle.tune.tuning_problem import Problem
 from auv_sim.views.plot_style import BLUE, INK, MUTED, ORANGE, PATH, save, style
 
 #: Colours of before and after.
 _COLOURS = (ORANGE, BLUE)
+#: Stream of the draw of the picture's course.
+_PICTURE = 3
+#: Of each source of gains: label of its track, state in the picture's title.
+_STATES = {
+    FOUND: ("tuned", "tuned"),
+    PRESENT: ("present", "the present gains stay"),
+    RULE: ("", "the rule's gains stay"),
+}
 
 
 def draw(
@@ -62,6 +75,40 @@ def draw(
     figure.suptitle(title, color=INK, fontsize=12)
     figure.tight_layout(rect=(0.0, 0.0, 1.0, 0.97))
     save(figure, target)
+
+
+def draw_verdict(
+    picture: Path,
+    own: Vehicle,
+    problem: Problem,
+    written: GainSet,
+    verdict: GainVerdict,
+    history: tuple[float, ...],
+) -> None:
+    """Draw a held-out course with the rule's gains and with those that a vehicle gets.
+
+    Args:
+        picture: the file.
+        own: the vehicle.
+        problem: what was tuned.
+        written: gains as the parameter file has them.
+        verdict: where they come from.
+        history: objective of each generation.
+
+    Raises:
+        NotWritten: it cannot be written.
+    """
+    space = problem.space
+    one = Amount(starts=0, courses=1, legs=5, at_sea=0)
+    random = np.random.default_rng([problem.seed, _PICTURE])
+    # The second: sharp corners in a current.
+    flight = draw_flights(space.vehicle, problem.conditions, one, random)[1]
+    label, state = _STATES[verdict.source]
+    gains = [("rule", space.rule())] + ([(label, written)] if label else [])
+    flights = [(name, with_laws(flight, flown, space.vehicle)) for name, flown in gains]
+    speed = np.hypot(*flight.scenario.current[:2])
+    title = f"{own.name}: {state}. A held-out course in {speed:.2f} m/s of current"
+    draw(picture, title, flight.scenario.path, flights, history)
 
 
 def _add(label: str, scenario: Scenario, colour: str, panels: Sequence[Axes]) -> None:

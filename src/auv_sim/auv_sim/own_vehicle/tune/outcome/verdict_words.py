@@ -10,38 +10,45 @@ from rich.table import Table
 from auv_path_following.vehicle import Vehicle
 from auv_sim.command_line import to_type
 from auv_sim.own_vehicle.tune.gain_space import ratios_at
-from auv_sim.own_vehicle.tune.gain_verdict import FOUND, PRESENT, GainVerdict, Held
+from auv_sim.own_vehicle.tune.gain_verdict import FOUND, PRESENT, RULE, GainVerdict, Held
 from auv_sim.own_vehicle.tune.objective import Ratios
 from auv_sim.own_vehicle.tune.sampled_loop import LARGEST_FACTOR, Margins
-from auv_sim.own_vehicle.tune.search import Problem
+from auv_sim.own_vehicle.tune.tuning_problem import Problem
 from auv_sim.terminal import headed_table
 
+#: What each source of gains is called in the file.
+_KINDS = {
+    FOUND: "found by a search",
+    PRESENT: "those of {}, the search found none better",
+    RULE: "by the rule of docs/tuning.md, the search found none better",
+}
 #: Options that a search's result depends on, in the order of the command in the file.
 _OPTIONS = ("delay", "rate", "slowest", "sea", "spread", "members", "generations", "seed")
 
 
-def report(console: Console, verdict: GainVerdict, present: str) -> None:
+def report(console: Console, verdict: GainVerdict, present: str, title: str) -> None:
     """Print the table of held-out flights, and which gains the vehicle gets.
 
     Args:
         console: where to.
         verdict: of the held-out flights.
         present: name of the gains that the vehicle has.
+        title: what was tuned.
     """
     for reason in verdict.why:
         console.print(f"not accepted: {reason}", markup=False)
     if verdict.held:
-        console.print(_table(verdict, present))
+        console.print(_table(verdict, present, title))
     stays = f"the present gains ({present}) stay" if verdict.source == PRESENT else "the rule's gains stay"
     share = "" if verdict.share == 1.0 else f" ({100 * verdict.share:.0f} % of the way from the rule)"
     result = f"accepted{share}" if verdict.accepted else stays
     console.print(f"{result}; margins {words_of(verdict.margins)}", markup=False)
 
 
-def _table(verdict: GainVerdict, present: str) -> Table:
+def _table(verdict: GainVerdict, present: str, title: str) -> Table:
     table = headed_table(
-        "Held-out flights of the gains found, against others", ("hull", "against"),
-        ("flights", "distance", "off corners", "rudder travel", "late yaw rate °/s", "theirs"),
+        f"Held-out flights with gains found, against others: {title}", ("hull", "against"),
+        ("flights", "distance", "off corners", "travel", "late rate °/s", "theirs"),
     )  # fmt: skip
     for k, held in enumerate(verdict.held):
         hull = "the vehicle" if k == 0 else f"drawn {k}"
@@ -72,10 +79,8 @@ def comments_of(
 ) -> list[str]:
     """Return the paragraphs at the head of the file: the command, the margins, the held-out flights."""
     flags = [part for name in _OPTIONS for part in (f"--{name}", f"{getattr(options, name)}")]
-    kinds = {FOUND: "found by a search", PRESENT: f"those of {present}, the search found none better"}
-    kind = kinds.get(verdict.source, "by the rule of docs/tuning.md, the search found none better")
     comments = [
-        f"Gains for {own.name}, {kind}:",
+        f"Gains for {own.name}, {_KINDS[verdict.source].format(present)}:",
         " " + to_type("vehicle.py", "tune", options.vehicle, *flags),
         f"Delay {1e3 * (options.delay + own.rudder.dead_time):.0f} ms, of which the fin's dead time "
         f"{1e3 * own.rudder.dead_time:.0f} ms. Margins {words_of(verdict.margins)}.",
@@ -86,9 +91,20 @@ def comments_of(
     comments += [f"Not accepted: {reason}." for reason in verdict.why]
     ratios = ", ".join(f"{name} {value:.3g}" for name, value in ratios_at(verdict.point).items())
     words = f"Ratios: {ratios}." if verdict.source != PRESENT else ""
-    pitch = "Pitch gains by the rule." if own.dives else ""
-    last = f"{words} {pitch}".strip()
-    return [*comments, last] if last else comments
+    return [*comments, words] if words else comments
+
+
+def planes_comments_of(verdict: GainVerdict, present: str) -> list[str]:
+    """Return the paragraphs about the stern planes."""
+    comments = [f"Gains of the stern planes {_KINDS[verdict.source].format(present)}."]
+    for held in verdict.held if verdict.accepted else ():
+        words = _held_out(0, held, present)
+        comments.append(f"{words} Distances are errors of depth, off corners settled ones.")
+    return [
+        *comments,
+        f"Margins {words_of(verdict.margins)}.",
+        *(f"Not accepted: {reason}." for reason in verdict.why),
+    ]
 
 
 def _held_out(k: int, held: Held, present: str) -> str:
@@ -96,9 +112,9 @@ def _held_out(k: int, held: Held, present: str) -> str:
     words = f"Held out, {name}, {held.flights} flights: against the rule {_ratios(held.ratios)}; "
     if held.present is not None:
         words += f"against {present} {_ratios(held.present.ratios)}; "
-    return words + f"late yaw rate on lines at most {held.unrest:.2f} deg/s."
+    return words + f"late rate on lines at most {held.unrest:.2f} deg/s."
 
 
 def _ratios(ratios: Ratios) -> str:
     distance, off, travel = ratios
-    return f"distance {distance:.2f} times, off corners {off:.2f}, rudder travel {travel:.2f}"
+    return f"distance {distance:.2f} times, off corners {off:.2f}, travel of the fin {travel:.2f}"
