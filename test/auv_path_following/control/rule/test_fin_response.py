@@ -54,6 +54,18 @@ def test_its_gain_is_that_of_the_linear_hull(name: str) -> None:
     assert response.divergence == pytest.approx(np.linalg.eigvals(A).real.max(), abs=1e-3)
 
 
+@pytest.mark.parametrize("name", HULLS)
+def test_slip_is_the_sway_that_a_steady_turn_of_the_bow_begins_with(name: str) -> None:
+    """The rudder holds r, the hull does not slip yet."""
+    hull = HULLS[name]
+    response, A = response_of(hull), jacobian(hull, hull.top_speed, 0.0, 0.0)
+    by_sway, by_yaw = rudder_gain(HullModel(hull).sway_yaw, hull.top_speed)
+    sideways = A[0, 1] - by_sway * A[1, 1] / by_yaw
+    assert response.slip == pytest.approx(-sideways / response.speed, rel=1e-3)
+    assert 0.0 < response.slip_at(0.1) < response.slip_at(1.0) < response.slip
+    assert response_of(MEASURED).slip_at(1.0) == 0.0
+
+
 def test_sideslip_makes_some_hulls_late_and_others_early() -> None:
     assert response_of(drawn(5)).lag(4.0) > 0.05
     assert response_of(REMUS).lag(4.0) == pytest.approx(0.0, abs=0.06)

@@ -75,6 +75,26 @@ def test_a_hull_that_drifts_looks_further_ahead() -> None:
     assert share > own.lookahead * own.autopilot.reference.bandwidth / REMUS.top_speed + 0.3
 
 
+@given(_response, _fin, st.floats(0.0, 1.2), st.floats(0.0, 0.3))
+def test_a_hull_that_slips_looks_further_ahead_and_is_steered_alike(response, fin, slip, more) -> None:
+    response = response._replace(zero=-0.04)
+    less = plane_gains(response._replace(slip=slip), fin, 0.05, 0.05)
+    further = plane_gains(response._replace(slip=slip + more), fin, 0.05, 0.05)
+    assert less.lookahead <= further.lookahead < 5.0 * plane_gains(response, fin, 0.05, 0.05).lookahead
+    assert less.autopilot == further.autopilot
+
+
+def test_the_look_ahead_of_a_usual_slip_is_that_without() -> None:
+    """A slow swing was seen at a slip of 0.8, none at 0.6."""
+    response, fin = response_of(STABLE), STABLE.rudder
+    without = plane_gains(response._replace(slip=0.0), fin, 0.05, 0.05).lookahead
+    usual, strong = (
+        plane_gains(response._replace(slip=slip), fin, 0.05, 0.05).lookahead for slip in (0.59, 0.8)
+    )
+    assert usual == without
+    assert strong > 1.4 * without
+
+
 def test_the_turn_is_the_true_one() -> None:
     """Sway and lost speed make the stable hull turn at 0.21 rad/s, two thirds of speed over radius."""
     assert gains_for(STABLE).heading.autopilot.reference.max_rate <= 0.9 * tightest_turn(STABLE).rate

@@ -35,6 +35,7 @@ class FinResponse(NamedTuple):
         zero, pole: of the part that sideslip adds, (s - zero)/(s - pole), 1/s; equal where it is not known.
         course_turn: rate at the beginning of the tightest turn of a course, before it costs speed, rad/s;
             0 where there are none.
+        slip: share of a turn of the bow that sideslip takes back at once; 0 where it is not known.
     """
 
     speed: float
@@ -45,6 +46,7 @@ class FinResponse(NamedTuple):
     zero: float
     pole: float
     course_turn: float = 0.0
+    slip: float = 0.0
 
     def gain(self, w: float) -> complex:
         """Return r/delta at the angular frequency w (1/s), 1/s; positive for a fin that works at once."""
@@ -55,6 +57,10 @@ class FinResponse(NamedTuple):
         """Return by how much sideslip makes the response later at w (1/s), s; 0 where it makes it earlier."""
         s = complex(0.0, w)
         return max(-cmath.phase((s - self.zero) / (s - self.pole)), 0.0) / w
+
+    def slip_at(self, w: float) -> float:
+        """Return the share of a swing of the bow at w (1/s) that sideslip takes back."""
+        return self.slip * w / math.hypot(w, self.zero)
 
 
 def response_of(vehicle: Vehicle) -> FinResponse:
@@ -111,6 +117,8 @@ def _of_hull(vehicle: Vehicle, speed: float) -> FinResponse:
         vv - rv * by_sway / by_yaw,
         pole,
         _course_turn(vehicle, speed, radius),
+        # v' = zero v - slip speed r + ..., with the rudder that a yaw rate needs.
+        (rr * by_sway / by_yaw - vr) / speed,
     )
 
 
