@@ -115,7 +115,7 @@ def _tuned_planes(
 ) -> tuple[GainSet, list[str]]:
     """Tune the stern planes beside gains of the heading; return all gains, and paragraphs for the file."""
     if not can_be_tuned(own):
-        why = "the range of depth is too small to tune the stern planes"
+        why = "depth.max or the speed is too small to tune the stern planes"
         console.print(f"notice {own.name}: {why}", markup=False)
         return gains, [f"Pitch gains by the rule: {why}."]
     problem = pitch_problem(own, heading, gains)

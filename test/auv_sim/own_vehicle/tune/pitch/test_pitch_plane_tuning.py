@@ -73,6 +73,8 @@ def test_dives_stay_within_the_range_of_depth() -> None:
     assert can_be_tuned(shallow)
     assert not can_be_tuned(dataclasses.replace(DIVER, depth=dataclasses.replace(DIVER.depth, max=5.0)))
     assert not can_be_tuned(REMUS)
+    slow = dataclasses.replace(DIVER.depth, minimum_speed=3.0)
+    assert not can_be_tuned(dataclasses.replace(DIVER, depth=slow))
 
 
 def test_a_limit_cycle_in_pitch_is_seen_and_the_rule_has_none() -> None:

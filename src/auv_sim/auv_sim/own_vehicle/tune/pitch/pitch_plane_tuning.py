@@ -105,9 +105,10 @@ def room_of(vehicle: Vehicle) -> tuple[float, float]:
 
 
 def can_be_tuned(vehicle: Vehicle) -> bool:
-    """Return whether a vehicle has planes, and a range of depth that lets them show what they do."""
+    """Return whether a vehicle has planes, and the range of depth and the speed that let them work."""
     top, bottom = room_of(vehicle)
-    return vehicle.dives and bottom - top >= LEAST_ROOM
+    is_fast = vehicle.speed_at(thrust_of(vehicle)) >= vehicle.depth.minimum_speed
+    return vehicle.dives and is_fast and bottom - top >= LEAST_ROOM
 
 
 def draw_dives(
