@@ -36,7 +36,7 @@ A_SHARE, C_SHARE, K1_SHARE, K3_SHARE = 0.19, 0.05, 0.9, 1.0
 #: Delta = `LOOKAHEADS` u0/w_r + `DRIFTS` u0 T_v; in pitch the drift counts `PITCH_SHARE` times less.
 LOOKAHEADS, DRIFTS = 2.0, 3.5
 #: Share of a turn that sideslip may take back before Delta grows, and up to which it grows; see `_caution`.
-USUAL_SLIP, LARGEST_SLIP = 0.6, 0.9
+USUAL_SLIP, LARGEST_SLIP = 0.62, 0.9
 #: Product of divergence and delay, and authority (rad/s), up to and from which limit cycles were absent.
 LARGEST_PRODUCT, LEAST_AUTHORITY = 0.4, 0.1
 

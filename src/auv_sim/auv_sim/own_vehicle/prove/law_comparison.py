@@ -11,8 +11,8 @@ from auv_sim.own_vehicle.prove.proof import Proof, Proposition, draw_claim, fly_
 from auv_sim.own_vehicle.tune.ensemble import planar
 from auv_sim.own_vehicle.tune.gain_space import LAWS, OWN_LAW, GainSet, GainSpace
 from auv_sim.own_vehicle.tune.search import Budget, search
-from auv_sim.own_vehicle.tune.tuning_problem import Problem
 from auv_sim.own_vehicle.tune.trial_flights import STRAIGHT, Flight
+from auv_sim.own_vehicle.tune.tuning_problem import Problem
 
 #: Name of MSS's law in tables.
 PEER = "MSS: ALOS, sliding mode"

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from auv_sim.own_vehicle.prove.proof import Proof, Proposition
-from auv_sim.own_vehicle.tune.outcome import tuned_picture
 from auv_sim.own_vehicle.tune.gain_space import GainSet
+from auv_sim.own_vehicle.tune.outcome import tuned_picture
 from auv_sim.own_vehicle.tune.trial_flights import Flight, with_laws
 
 
