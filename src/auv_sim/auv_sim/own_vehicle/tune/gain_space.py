@@ -34,8 +34,6 @@ Vector = npt.NDArray[np.float64]
 #: Largest acceleration of the reference over b times the full rudder angle, and its largest rate over u0/R of
 #: the steady turn: a corner is over before the turn has cost speed, so this is more than the steady rate.
 LARGEST_ACCELERATION, LARGEST_RATE = 0.8, 0.9
-#: Rounds in which the crossover of given gains converges.
-_ROUNDS = 12
 
 
 class GainSet(NamedTuple):
@@ -147,16 +145,15 @@ class GainSpace:
         nism, reference = prepared.controller.gains, prepared.reference
         steepness = nism.kp * nism.k5
         w_c = response.effect * steepness
-        for _ in range(_ROUNDS):  # until |r/delta| at w_c is 1/steepness
+        for _ in range(12):  # until |r/delta| at w_c is 1/steepness
             w_c *= math.sqrt(abs(response.gain(w_c)) * steepness)
-        limits = reference.limits
         ratios = (
             w_c * self.delay,
             nism.k1 * nism.k2 / w_c,
             nism.k3 * nism.k4 / w_c,
             reference.bandwidth / w_c,
-            limits.acceleration / (response.effect * self.vehicle.rudder.max_angle),
-            limits.rate / self.fastest,
+            reference.limits.acceleration / (response.effect * self.vehicle.rudder.max_angle),
+            reference.limits.rate / self.fastest,
             gains.guidance.lookahead * reference.bandwidth / response.speed,
             1.0,
             1.0,
