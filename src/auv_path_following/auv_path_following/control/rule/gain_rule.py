@@ -35,7 +35,7 @@ RATE_SHARE = 0.9
 A_SHARE, C_SHARE, K1_SHARE, K3_SHARE = 0.19, 0.05, 0.9, 1.0
 #: Delta = `LOOKAHEADS` u0/w_r + `DRIFTS` u0 T_v; in pitch the drift counts `PITCH_SHARE` times less.
 LOOKAHEADS, DRIFTS = 2.0, 3.5
-#: Share of a turn that sideslip may take back before Delta grows, and up to which it grows; see `_caution`.
+#: Share of a turn that sideslip may take back before Delta grows, and up to which it grows; see `_lookahead`.
 USUAL_SLIP, LARGEST_SLIP = 0.62, 0.9
 #: Product of divergence and delay, and authority (rad/s), up to and from which limit cycles were absent.
 LARGEST_PRODUCT, LEAST_AUTHORITY = 0.4, 0.1
@@ -108,7 +108,7 @@ def plane_gains(
         delay, step: as in `gains_for`.
         quickness: factor of the reference's bandwidth, divisor of the drift in the look-ahead.
     """
-    b, p, speed = response.effect, max(response.divergence, 1e-6), response.speed
+    b, p = response.effect, max(response.divergence, 1e-6)
     tau = max(delay + fin.dead_time + 0.5 * step, LEAST_DELAY)
     crossover = _crossover(response, tau)
     kp = min(fin.max_rate, LARGEST_KP)
@@ -128,12 +128,9 @@ def plane_gains(
     reference = ReferenceConfig(
         enabled=True, bandwidth=bandwidth, max_rate=rate, max_acceleration=acceleration, max_jerk=jerk
     )
-    lookahead = speed * (
-        LOOKAHEADS * _caution(response, bandwidth) / bandwidth + DRIFTS / quickness * response.drift_time
-    )
     return PlaneGains(
         AutopilotConfig(nism=nism, reference=reference),
-        lookahead,
+        _lookahead(response, bandwidth, quickness),
         crossover,
         p * (tau + response.lag(crossover)),
         authority,
@@ -149,14 +146,16 @@ def _crossover(response: FinResponse, tau: float) -> float:
     return crossover
 
 
-def _caution(response: FinResponse, bandwidth: float) -> float:
-    """Return the factor of Delta for a hull that slips, 1 or more.
+def _lookahead(response: FinResponse, bandwidth: float, quickness: float) -> float:
+    """Return Delta, m; longer for a hull that slips.
 
     Guidance turns the bow by 1/(1 - slip) times a change of course. So the course follows later than the
     heading, and a Delta that suits the heading alone leaves a swing that takes minutes to decay.
     """
     slip = min(response.slip_at(bandwidth), LARGEST_SLIP)
-    return max((1.0 - USUAL_SLIP) / (1.0 - slip), 1.0)
+    caution = max((1.0 - USUAL_SLIP) / (1.0 - slip), 1.0)
+    drift = DRIFTS / quickness * response.drift_time
+    return response.speed * (LOOKAHEADS * caution / bandwidth + drift)
 
 
 def _notices(name: str, fin: str, plane: PlaneGains) -> list[str]:
