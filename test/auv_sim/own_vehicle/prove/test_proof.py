@@ -129,9 +129,13 @@ def test_the_sentence_has_the_bounds_and_the_conditions(tmp_path) -> None:
     assert "keep within 1.50 m of the path" in text and "within 2.50 m anywhere, and within 0.30 m of" in text
     assert "in each of the seas calm and rough" in text and "2 of 1500 did not complete" in text
     assert "fin rates" in text
+    _, (calm, rough) = proof_words.rows_of({"tuned": both}, dives=True)
+    assert calm[:5] == ["tuned", "calm", "1.00", "2.00", "0.20"] and calm[-3:-1] == ["0 of 500", "0.6"]
+    assert rough[1:3] == ["rough", "1.50"] and rough[-4:-1] == ["2 of 1000", "", ""]
+    assert proof_words.rows_of({"tuned": proof(lost=30)})[1][0][1:3] == ["none", "none"]
     page = tmp_path / "proof.png"
     laws = {f"law {k}": proof(lost=30, cycles=20) for k in range(7)}
-    proof_picture.draw(page, text, "Proven", True, 2.0, {"tuned": both, **laws}, 0.5)
+    proof_picture.draw(page, "Proven", True, 2.0, {"tuned": both, **laws}, 0.5)
     assert page.read_bytes().startswith(b"\x89PNG")
 
 

@@ -17,18 +17,17 @@ from auv_sim.views.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, PATH, RED,
 
 #: Line of each set of gains and sea, in the order drawn.
 _LINES = [(colour, line) for line in ("-", "--", ":") for colour in (BLUE, ORANGE, GREEN, RED, MUTED, INK)]
-_WIDTH = 145
+_WIDTH = 115
 
 
 def draw(
-    target: Path, sentence: str, verdict: str, is_proven: bool, within: float, proofs: Mapping[str, Proof],
+    target: Path, verdict: str, is_proven: bool, within: float, proofs: Mapping[str, Proof],
     depth_within: float | None = None,
 ) -> None:  # fmt: skip
     """Draw the distributions.
 
     Args:
         target: the picture.
-        sentence: what is proven.
         verdict: one line.
         is_proven: whether it is.
         within: largest distance away from corners that is good enough, m.
@@ -38,12 +37,11 @@ def draw(
     Raises:
         NotWritten: it cannot be written.
     """
-    figure = Figure(figsize=(12.0, 9.0), dpi=90, facecolor="white")
+    figure = Figure(figsize=(12.0, 8.2), dpi=90, facecolor="white")
     FigureCanvasAgg(figure)
-    head = "\n".join(textwrap.wrap(sentence, _WIDTH))
-    figure.text(0.05, 0.965, verdict, color=GREEN if is_proven else RED, fontsize=13, va="top", weight="bold")
-    figure.text(0.05, 0.925, head, color=INK, fontsize=10, va="top", linespacing=1.5)
-    grid = figure.add_gridspec(2, 2, left=0.08, right=0.97, top=0.79, bottom=0.07, hspace=0.34, wspace=0.22)
+    head = "\n".join(textwrap.wrap(verdict, _WIDTH))
+    figure.text(0.05, 0.975, head, color=GREEN if is_proven else RED, fontsize=12, va="top", weight="bold")
+    grid = figure.add_gridspec(2, 2, left=0.08, right=0.97, top=0.9, bottom=0.07, hspace=0.34, wspace=0.22)
     off, whole, calm, last = (figure.add_subplot(grid[k // 2, k % 2]) for k in range(4))
     along = _along(proofs)
     _spread(off, "off", along, within)

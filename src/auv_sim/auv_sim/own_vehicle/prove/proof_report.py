@@ -85,7 +85,7 @@ def conclude(
         console.print(f"notice {notice}")
     worst = worst_of(claim, proof)
     refly = provenance.command_of(options, refly=worst)
-    _draw(outputs, result, sentence, verdict, worst)
+    _draw(outputs, result, verdict, worst)
     page = Page(
         f"{own.name}: proof of the gains {result.label}", holds, verdict, sentence, notice,
         _tables(options, result), outputs.picture, outputs.flight,
@@ -102,14 +102,14 @@ def conclude(
     return EXIT_DONE if holds else EXIT_FAILED
 
 
-def _draw(outputs: Outputs, result: Result, sentence: str, verdict: str, worst: int) -> None:
+def _draw(outputs: Outputs, result: Result, verdict: str, worst: int) -> None:
     """Draw the distributions and the worst flight."""
     claim, proof = result.claim, result.proof
     others = {} if result.laws is None else dict(result.laws.alike)
     shown = {result.label: proof} | {name: one for name, one in others.items() if name != result.label}
     depth = claim.within_depth if claim.vehicle.dives else None
     holds = proof.holds(claim.within, claim.within_depth)
-    proof_picture.draw(outputs.picture, sentence, verdict, holds, claim.within, shown, depth)
+    proof_picture.draw(outputs.picture, verdict, holds, claim.within, shown, depth)
     draw_flight(outputs.flight, claim, result.label, result.gains, result.flights, worst)
 
 

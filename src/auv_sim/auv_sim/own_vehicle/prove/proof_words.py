@@ -22,6 +22,10 @@ def metres(bound: float) -> str:
     return "no distance" if math.isinf(bound) else f"{bound:.2f} m"
 
 
+def _cell(bound: float) -> str:
+    return "none" if math.isinf(bound) else f"{bound:.2f}"
+
+
 def listed(names: Sequence[str]) -> str:
     """Return names as an enumeration."""
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
@@ -95,8 +99,8 @@ def rows_of(proofs: Mapping[str, Proof], dives: bool = False) -> tuple[list[str]
         for number, (name, sea) in enumerate(p.seas.items()):
             starts = [f"{p.cycles} of {len(p.unrest)}", f"{100.0 * p.cycle_bound:.1f}"]
             rows.append(
-                [label, *([name] if several else []), f"{sea.off_bound:.2f}", f"{sea.whole_bound:.2f}"]
-                + ([f"{sea.deep_bound:.2f}"] if dives else [])
+                [label, *([name] if several else []), _cell(sea.off_bound), _cell(sea.whole_bound)]
+                + ([_cell(sea.deep_bound)] if dives else [])
                 + [
                     f"{sea.lost} of {len(sea.rms)}",
                     *(starts if number == 0 else ["", ""]),
