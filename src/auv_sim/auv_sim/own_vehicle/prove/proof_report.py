@@ -133,8 +133,10 @@ def _next(console: Console, options: argparse.Namespace, holds: bool) -> None:
         rest = ["--params", options.params] if options.params else []
         go_on(console, "Fly them", to_type("mission.py", "--vehicle", options.vehicle, *map(str, rest)))
     else:
-        rest = ["--overwrite"] if Path("tuned.yaml").exists() else []
-        line = to_type("vehicle.py", "tune", options.vehicle, "--delay", f"{options.delay:g}", *rest)
+        rest = ["--delay", f"{options.delay:g}"] if options.delay else []
+        rest += ["--spread", str(options.spread)] if options.spread else []
+        rest += ["--overwrite"] if Path("tuned.yaml").exists() else []
+        line = to_type("vehicle.py", "tune", options.vehicle, *rest)
         go_on(console, "Tune", line)
 
 
