@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
-from auv_sim.own_vehicle.verbs.recordings_read import LAST, divided, turning_part
+from auv_sim.own_vehicle.verbs.recordings_read import LAST, divided, motion_within, turning_part
 
 
 def turning(begin: float, end: float, rate: float) -> PlanarData:
@@ -33,3 +33,10 @@ def test_a_straight_at_the_end_is_not_what_the_model_is_judged_by(rate: float) -
 def test_the_last_part_is_left_out_where_it_turns() -> None:
     data = turning(100.0, 300.0, 0.2)
     assert turning_part(data)[1] == pytest.approx(data.t[-1])
+
+
+@pytest.mark.parametrize(("begin", "moves"), [(-5.0, True), (400.0, False)])
+def test_commands_beside_the_odometry_are_no_motion_of_the_planes(begin: float, moves: bool) -> None:
+    t = np.arange(0.0, 300.0, 0.05)
+    commands = 0.2 * np.sign(np.sin(t))
+    assert (motion_within(t + begin, commands, t) > 0.1) == moves

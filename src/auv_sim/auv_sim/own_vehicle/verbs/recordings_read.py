@@ -12,6 +12,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.vehicle import Hull, Vehicle
 from auv_sim.bags.content.recorded_manoeuvres import READ, Manoeuvring, manoeuvres_in
 from auv_sim.flight.run_record import SpatialRun
+from auv_sim.own_vehicle.identify.combinations import Numbers
 from auv_sim.own_vehicle.identify.dive.dive_data import DiveData, coupling_of
 from auv_sim.own_vehicle.identify.results.known_vehicle import forces
 from auv_sim.own_vehicle.identify.results.plausibility import check_commands
@@ -85,7 +86,9 @@ def diving(recorded: Manoeuvring, vehicle: Vehicle, hull: Hull) -> DiveData | No
         return None
     known = np.isfinite(run.q) & np.isfinite(run.theta) & np.isfinite(run.r)
     water = np.isfinite(recorded.water[:, 2])
-    if known.sum() < _LEAST_ROWS or water.sum() < _LEAST_SAMPLES or np.std(planes.value) < _LEAST_ANGLE:
+    if known.sum() < _LEAST_ROWS or water.sum() < _LEAST_SAMPLES:
+        return None
+    if motion_within(planes.t, planes.value, run.t[known]) < _LEAST_ANGLE:
         return None
     log = recorded.water[water]
     return DiveData(
@@ -95,6 +98,12 @@ def diving(recorded: Manoeuvring, vehicle: Vehicle, hull: Hull) -> DiveData | No
         *(planes.t, np.clip(planes.value, -limits.max_angle, limits.max_angle)),
         coupling_of(hull, hull.vertical),
     )
+
+
+def motion_within(command_t: Numbers, commands: Numbers, t: Numbers) -> float:
+    """Return the standard deviation of the commands between the first and last of the times; 0 of none."""
+    within = commands[(command_t >= t[0]) & (command_t <= t[-1])]
+    return float(np.std(within)) if within.size else 0.0
 
 
 def turning_part(data: PlanarData) -> tuple[float, float]:

@@ -11,7 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from auv_path_following import vehicle as vehicle_file
-from auv_sim.own_vehicle.identify.dive.dive_combinations import dive_combinations_of, vertical_with
+from auv_sim.own_vehicle.identify.dive.dive_combinations import (
+    dive_combinations_of,
+    dive_prior_of,
+    vertical_with,
+)
 from auv_sim.own_vehicle.identify.dive.dive_data import coupling_of
 from auv_sim.own_vehicle.identify.dive.dive_filter import dive_accelerations, dive_jacobian, dive_rates
 from auv_sim.own_vehicle.identify.identification import identify_dive
@@ -72,3 +76,14 @@ def test_a_dive_shows_planes_drag_and_righting_moment(tmp_path: Path) -> None:
     assert c["Msin"] == pytest.approx(C.Msin, rel=0.2)
     assert c["Mqq"] == pytest.approx(C.Mqq, rel=0.2)
     assert np.degrees(found.physical[RATE]) == pytest.approx(15.0, rel=0.05)
+
+
+def test_a_coefficient_that_the_file_leaves_at_zero_is_found_by_the_data_not_by_the_file() -> None:
+    known, left_out = (
+        dive_prior_of(HULL, VERTICAL),
+        dive_prior_of(HULL, dataclasses.replace(VERTICAL, Muw=0.0)),
+    )
+    place = C._fields.index("Muw")
+    spread = [np.linalg.norm(prior.root[place]) for prior in (known, left_out)]
+    assert spread[1] == pytest.approx(spread[0], rel=0.3)
+    assert left_out.mean[place] == pytest.approx(known.mean[place], rel=0.3)

@@ -7,9 +7,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from auv_path_following import vehicle as vehicle_file
 from auv_path_following.vehicle import GRAVITY, Hull
 from auv_path_following.vertical_hull import VerticalHull
 from auv_sim.own_vehicle.identify.combinations import Prior
+
+#: Where a vehicle's file has no coefficient of heave or pitch, it is that of this vehicle, scaled.
+DIVING_REFERENCE = "remus100_6dof_corrected"
 
 
 class DiveCombinations(NamedTuple):
@@ -110,8 +114,25 @@ def vertical_with(combinations: DiveCombinations, m: float, assumed: VerticalHul
 _DRAWS, _WIDENED, _BUOYANCY, _AHEAD = 3000, 1.5, 0.01, 0.3
 
 
+#: Powers of length with which the coefficients of similar hulls grow.
+_POWERS = {
+    "Zww": 2, "Zqq": 4, "Zuw": 2, "Zuq": 3, "Zwd": 3, "Zqd": 4, "Zuud": 2,
+    "Mww": 3, "Mqq": 5, "Muw": 3, "Muq": 4, "Mwd": 4, "Mqd": 5, "Muud": 3, "Iyy": 5,
+}  # fmt: skip
+
+
+def _similar(name: str, vertical: VerticalHull) -> float:
+    """Return a coefficient of the REMUS 100 scaled to the weight of another hull; 0 of weights and arms."""
+    reference = vehicle_file.load(DIVING_REFERENCE).coefficients.vertical
+    assert reference is not None
+    ratio = (vertical.W / reference.W) ** (1.0 / 3.0)
+    return float(getattr(reference, name) * ratio ** _POWERS[name]) if name in _POWERS else 0.0
+
+
 def dive_prior_of(hull: Hull, vertical: VerticalHull, seed: int = 0) -> Prior:
     """Return what is assumed before any data: each coefficient of a known hull within a factor of two.
+
+    A coefficient that a file leaves at 0 is drawn around that of the REMUS 100, scaled to the same weight.
 
     Args:
         hull, vertical: a known hull of about this size.
@@ -121,7 +142,8 @@ def dive_prior_of(hull: Hull, vertical: VerticalHull, seed: int = 0) -> Prior:
     values: dict[str, Any] = {}
     for name in _NEEDED:
         largest = 0.3 if name in ("Iyy", "W") else 1.0
-        values[name] = getattr(vertical, name) * 2.0 ** generator.uniform(-largest, largest, _DRAWS)
+        value = getattr(vertical, name) or _similar(name, vertical)
+        values[name] = value * 2.0 ** generator.uniform(-largest, largest, _DRAWS)
     values["m"] = values["W"] / GRAVITY
     values["B"] = (
         values["W"] + (vertical.B - vertical.W) + _BUOYANCY * vertical.W * generator.normal(size=_DRAWS)
