@@ -46,7 +46,7 @@ class FlightConfig(NamedTuple):
         plant: the simulated vehicle.
         dt: between two odometries, s.
         steps: at most this many odometries.
-        calm: time from which the yaw rate counts, s.
+        calm: time from which rates of yaw and pitch count, s.
     """
 
     pilot: Any
@@ -155,7 +155,7 @@ def fly_one(
         if finite:
             error = squared_error(estimate, seen.current)
             tally.count(whole, subpaths, i, s, k * c.dt, distance, guided.psi_e, error)
-            is_near = count_extras(path, whole, subpaths, i, k * c.dt, state, below)
+            is_near = count_extras(path, whole, subpaths, i, k * c.dt, c.calm, state, below)
             tally.count_steadiness(whole, k * c.dt, c.calm, distance, navigation.r, is_near)
         if every > 0 and k % every == 0:
             write_row(navigation, track[k // every], k, seen, guided, estimate, command)

@@ -147,7 +147,7 @@ class SpatialFlights(Flights):
     Attributes:
         rms_depth_error, largest_depth_error: over the whole flight.
         steady_rms_depth_error, steady_largest_depth_error: settled on the path, away from corners.
-        late_rms_pitch_rate: true, from `tally.CALM_TIME` on, deg/s.
+        late_rms_pitch_rate: true, from `tally.calm_time` on, deg/s.
         largest_pitch: absolute, deg.
         sternplane_travel: deg; sternplane_travel_per_metre: deg/m.
         last_z: last depth, m.

@@ -65,7 +65,9 @@ def judged(run: Run, scenario: Scenario) -> dict[str, Any]:
         joined = elapsed[near[0]] if near.size else math.inf
         settled = elapsed - joined >= SETTLING_TIME - 1e-6
         figures |= _in_space(run, rows, path, summary, settled)
-        figures["late_rms_pitch_rate"] = math.degrees(_rms(run.q[elapsed >= tally.CALM_TIME - 1e-6]))
+        figures["late_rms_pitch_rate"] = math.degrees(
+            _rms(run.q[elapsed >= tally.calm_time(scenario.vehicle) - 1e-6])
+        )
     return figures
 
 

@@ -50,8 +50,8 @@ is_finite = dispatched({PlantState: planar.planar_is_finite, BodyState: spatial.
 squared_error = dispatched(
     {Current: planar.planar_squared_error, SpatialCurrent: spatial.spatial_squared_error}
 )
-#: Counts what only one kind has: (path, whole, subpaths, i, elapsed, motion, how far below) -> whether the
-#: vehicle is at a corner.
+#: Counts what only one kind has: (path, whole, subpaths, i, elapsed, calm, motion, how far below) -> whether
+#: the vehicle is at a corner.
 count_extras = dispatched({PathRows: planar.planar_extras, SpatialRows: spatial.spatial_extras})
 #: Counts a step: (seen, seen before, subpaths, i, dt) -> distance covered, m.
 count_motion = dispatched({Seen: planar.planar_after, SpatialSeen: spatial.spatial_after})

@@ -97,8 +97,9 @@ def planar_squared_error(estimate: Current, current: Current) -> float:
 
 @pure
 def planar_extras(
-    path: PathRows, whole: Any, subpaths: Any, i: int, elapsed: float, motion: PlantState, below: float
-) -> bool:
+    path: PathRows, whole: Any, subpaths: Any, i: int, elapsed: float, calm: float, motion: PlantState,
+    below: float,
+) -> bool:  # fmt: skip
     """Return whether the vehicle is at a corner; count nothing more."""
     x, y = motion.x, motion.y
     return is_near_joint(path.subpath[i], x, y) or (i > 0 and is_near_joint(path.subpath[i - 1], x, y))

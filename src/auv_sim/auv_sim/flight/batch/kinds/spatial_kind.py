@@ -112,13 +112,14 @@ def spatial_squared_error(estimate: SpatialCurrent, current: SpatialCurrent) -> 
 
 @pure
 def spatial_extras(
-    path: SpatialRows, whole: Any, subpaths: Any, i: int, elapsed: float, motion: BodyState, below: float
-) -> bool:
+    path: SpatialRows, whole: Any, subpaths: Any, i: int, elapsed: float, calm: float, motion: BodyState,
+    below: float,
+) -> bool:  # fmt: skip
     """Count what an odometry says about depth and pitch; return whether the vehicle is at a corner."""
     rows = path.plan.subpath
     is_near = _is_near_joint(rows[i], motion) or (i > 0 and _is_near_joint(rows[i - 1], motion))
     sine = 2.0 * (motion.qw * motion.qj - motion.qk * motion.qi)
-    count_depth(whole, subpaths, i, elapsed, below, sine, motion.q, is_near)
+    count_depth(whole, subpaths, i, elapsed, calm, below, sine, motion.q, is_near)
     return is_near
 
 

@@ -18,7 +18,7 @@ DEPTH_SQUARES, DEPTH_LARGEST, PLANES_TRAVEL, SINE_OF_PITCH = range(
 SPATIAL_SUBPATH_TALLIES = tally.SUBPATH_TALLIES + 4
 # Further ones of the flight: from `SETTLING_TIME` after the path was joined on, away from corners.
 STEADY_ROWS, STEADY_SQUARES, STEADY_LARGEST = range(tally.FLIGHT_TALLIES, tally.FLIGHT_TALLIES + 3)
-# And of the pitch rate, from `tally.CALM_TIME` on.
+# And of the pitch rate, from `tally.calm_time` on.
 PITCH_SQUARES = tally.FLIGHT_TALLIES + 3
 SPATIAL_FLIGHT_TALLIES = tally.FLIGHT_TALLIES + 4
 # And how it ended.
@@ -32,15 +32,15 @@ Array = npt.NDArray[np.float64]
 
 @compiled
 def count_depth(
-    whole: Array, subpaths: Array, i: int, elapsed: float, below: float, sine_of_pitch: float,
+    whole: Array, subpaths: Array, i: int, elapsed: float, calm: float, below: float, sine_of_pitch: float,
     q: float, is_at_corner: bool,
 ) -> None:  # fmt: skip
     """Count an odometry that `tally.count` has counted, `elapsed` s after the start, `below` m too deep.
 
-    It has the pitch rate q, rad/s.
+    It has the pitch rate q (rad/s), which counts from `calm` (s) on.
     """
     error = abs(below)
-    if elapsed >= tally.CALM_TIME - _ROUNDING:
+    if elapsed >= calm - _ROUNDING:
         whole[PITCH_SQUARES] += q * q
     subpaths[i, DEPTH_SQUARES] += below * below
     subpaths[i, DEPTH_LARGEST] = max(subpaths[i, DEPTH_LARGEST], error)

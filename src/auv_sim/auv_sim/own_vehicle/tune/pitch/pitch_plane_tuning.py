@@ -30,12 +30,12 @@ from auv_sim.own_vehicle.tune.drawn_courses import drawn_course
 from auv_sim.own_vehicle.tune.gain_space import GainSet, GainSpace, Vector, with_lookahead
 from auv_sim.own_vehicle.tune.trial_flights import (
     LATER,
-    LINE_TIME,
     PATIENCE,
     STRONGEST,
     Amount,
     Conditions,
     Flight,
+    line_time,
     thrust_of,
 )
 from auv_sim.own_vehicle.tune.tuning_problem import TunedPlane
@@ -142,11 +142,11 @@ def _level(vehicle: Vehicle, conditions: Conditions, step: float, random: np.ran
     middle, speed = 0.5 * (top + bottom), vehicle.speed_at(thrust)
     below = random.uniform(-1.0, 1.0) * min(BELOW, 0.5 * (bottom - top))
     theta = random.uniform(-1.0, 1.0) * PITCHED * _steepest(vehicle, thrust)
-    length = 2.0 * speed * LINE_TIME
+    length = 2.0 * speed * line_time(vehicle)
     scenario = Scenario(
         path=CompositePath([Line(0.0, 0.0, length, 0.0)]), vehicle=vehicle, thrust=thrust, step=step,
         spatial=SpatialPath([Line(0.0, 0.0, length, 0.0)], DepthProfile.constant(middle, length)),
-        time_limit=LINE_TIME, initial=body_at(0.0, 0.0, middle + below, 0.0, theta, 0.0, speed),
+        time_limit=line_time(vehicle), initial=body_at(0.0, 0.0, middle + below, 0.0, theta, 0.0, speed),
         command_delay=late + random.uniform(0.0, LATER) * (late + planes.dead_time),
     )  # fmt: skip
     return Flight(scenario, True)
