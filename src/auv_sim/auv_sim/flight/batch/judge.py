@@ -64,10 +64,8 @@ def judged(run: Run, scenario: Scenario) -> dict[str, Any]:
     if isinstance(path, SpatialPath) and isinstance(run, SpatialRun):
         joined = elapsed[near[0]] if near.size else math.inf
         settled = elapsed - joined >= SETTLING_TIME - 1e-6
-        figures |= _in_space(run, rows, path, summary, settled)
-        figures["late_rms_pitch_rate"] = math.degrees(
-            _rms(run.q[elapsed >= tally.calm_time(scenario.vehicle) - 1e-6])
-        )
+        calm = elapsed >= tally.calm_time(scenario.vehicle) - 1e-6
+        figures |= _in_space(run, rows, path, summary, settled) | _of_pitch(run, calm)
     return figures
 
 
@@ -104,6 +102,11 @@ def _in_space(
         "last_z": float(run.depth[-1]),
         "subpath_rms_depth_error": np.array([part.rms_depth_error for part in summary.subpaths]),
     }
+
+
+def _of_pitch(run: SpatialRun, calm: Any) -> dict[str, float]:
+    """Return the rms pitch rate of the rows that `calm` marks."""
+    return {"late_rms_pitch_rate": math.degrees(_rms(run.q[calm]))}
 
 
 def _rms(values: Any) -> float:
