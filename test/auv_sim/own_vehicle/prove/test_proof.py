@@ -258,7 +258,9 @@ def test_a_file_without_a_stated_uncertainty_is_refused(capsys) -> None:
 
 
 def test_both_verbs_have_the_same_conditions() -> None:
-    tuned, proven = (parser([verb]).parse_args([verb, "remus100"]) for verb in ("tune", "prove"))
+    tuned, proven = (
+        parser([verb]).parse_args([verb, "remus100", "--spread", "file"]) for verb in ("tune", "prove")
+    )
     for name in ("delay", "rate", "slowest", "spread", "seed"):
         assert getattr(tuned, name) == getattr(proven, name)
     assert tuned.sea == "moderate" and proven.sea is None
