@@ -93,3 +93,12 @@ def test_coefficients_that_a_file_leaves_at_zero_have_a_prior(zeros: tuple[str, 
     assert np.diag(prior.root).min() > 0.0
     whole = prior_of(REMUS.coefficients)
     assert prior.mean == pytest.approx(whole.mean) and prior.root == pytest.approx(whole.root)
+
+
+def test_a_hull_whose_file_has_hardly_any_damping_may_have_as_much_as_a_similar_one() -> None:
+    hull = vehicle_file.load("remus100").coefficients
+    place = Combinations._fields.index("Nur")
+    usual, small = (prior_of(dataclasses.replace(hull, Nur=f * hull.Nur)) for f in (1.0, 0.05))
+    widths = [np.linalg.norm(prior.root[place]) for prior in (usual, small)]
+    assert widths[1] > 0.8 * widths[0]
+    assert abs(small.mean[place] - usual.mean[place]) < 2.0 * widths[1]

@@ -143,10 +143,16 @@ _DRAWS, _WIDENED = 3000, 1.5
 _INERTIA = ("m", "Izz")
 
 
+#: Coefficients of sway and yaw without inertia in them. Where a known one is smaller than that of a similar
+#: REMUS 100, the prior has this share of the difference as a further deviation.
+_DAMPING, _MISSING = ("Yvv", "Yrr", "Yur", "Yuv", "Nvv", "Nrr", "Nur", "Nuv"), 1.0
+
+
 def prior_of(hull: Hull, seed: int = 0) -> Prior:
     """Return what is assumed before any data: each coefficient of a similar hull within a factor of two.
 
-    A coefficient that a file leaves at 0 is drawn around that of the REMUS 100, scaled to the same mass.
+    A coefficient that a file leaves at 0 is drawn around that of the REMUS 100, scaled to the same mass. One
+    of damping that is smaller than that may also be as large.
 
     Args:
         hull: a known one of about this size: see `scaled_hull`.
@@ -156,12 +162,18 @@ def prior_of(hull: Hull, seed: int = 0) -> Prior:
     similar = scaled_hull(reference, (hull.m / reference.m) ** (1.0 / _POWERS["m"]))
     generator = np.random.default_rng(seed)
     values: dict[str, Any] = {}
+    missing: dict[str, float] = {}
     for field in dataclasses.fields(hull):
         value = getattr(hull, field.name)
         if isinstance(value, float):
-            value = value or getattr(similar, field.name)
+            usual = getattr(similar, field.name)
+            value = value or usual
             largest = 0.5 if field.name in _INERTIA else 1.0
             values[field.name] = value * 2.0 ** generator.uniform(-largest, largest, _DRAWS)
+            if field.name in _DAMPING and abs(value) < abs(usual):
+                missing[field.name] = abs(usual) - abs(value)
+    for name, width in missing.items():
+        values[name] = values[name] + _MISSING * width * generator.normal(size=_DRAWS)
     drawn = np.array(_combined(values, hull.surge_coupling))
     root = np.linalg.cholesky(np.cov(drawn) * _WIDENED**2)
     return Prior(drawn.mean(axis=1), np.asarray(root, float))

@@ -32,8 +32,8 @@ DEAD_BANDS = (0.0, 0.1, 0.2, 0.3, 0.5)
 #: of u, v, r in a second: it follows the measurements, and its likelihood has few local minima. Those that
 #: are left differ with the time.
 _BEGINS, _GROWTH = (150.0, math.inf), (1e-2, 1e-3, 1e-4)
-#: The prior is widened where the unknowns lie this far from its mean (rms, standard deviations).
-_FAR = 1.5
+#: The prior is widened where an unknown lies farther from its mean, in standard deviations; by this share.
+_FAR, _SHARE = 2.0, 0.75
 #: A found latency that differs by more from the grid's gets a grid of its own, s.
 _NEAR = 0.005
 
@@ -196,10 +196,10 @@ def _following(data: Recording, seconds: float, sheet: DataSheet, dead_band: flo
 def _widened(channels: Channels, scaling: Scaling, estimate: Minimised) -> tuple[Scaling, Minimised]:
     """Return an estimate whose prior is as wide as the hull differs from the known one, if it does."""
     for _ in range(2):
-        factor = math.sqrt(float(np.mean(estimate.z[:COUNT] ** 2)))
-        if factor < _FAR:
+        farthest = float(np.abs(estimate.z[:COUNT]).max())
+        if farthest < _FAR:
             break
-        wider = scaling._replace(prior=scaling.prior._replace(root=scaling.prior.root * factor))
+        wider = scaling._replace(prior=scaling.prior._replace(root=scaling.prior.root * _SHARE * farthest))
         z = wider.scaled(scaling.physical(estimate.z))
         scaling, estimate = wider, minimise(channels, wider, z, first=estimate.deviations)
     return scaling, estimate
