@@ -130,4 +130,4 @@ def _add_search(axes: Axes, history: Sequence[float]) -> None:
     style(axes, "objective")
     axes.axhline(0.0, color=PATH, linewidth=1.0)
     axes.plot(range(1, len(history) + 1), history, color=MUTED, linewidth=1.4)
-    axes.set_xlabel("generation, each with other courses; the rule has 0", color=INK)
+    axes.set_xlabel("generation, each with other courses; the gains it starts against have 0", color=INK)
