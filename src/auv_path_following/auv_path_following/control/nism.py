@@ -27,18 +27,18 @@ class NismConfig:
 
     k1: float = setting(0.8, "fastest decay of the heading error", unit="rad/s", gt=0.0, le=10.0, live=True)
     k2: float = setting(
-        1.5, "narrows the range of psi_e with exponential decay", unit="1/rad", gt=0.0, le=100.0, live=True
+        1.5, "narrows the range of psi_e with exponential decay", unit="1/rad", gt=0.0, le=1e4, live=True
     )
     k3: float = setting(0.8, "fastest decay of sigma_1", unit="rad/s^2", gt=0.0, le=10.0, live=True)
     k4: float = setting(
-        1.0, "narrows the range of sigma_1 with exponential decay", unit="s/rad", gt=0.0, le=100.0, live=True
+        1.0, "narrows the range of sigma_1 with exponential decay", unit="s/rad", gt=0.0, le=1e4, live=True
     )
     k5: float = setting(
         15.0,
         "narrows the range of sigma_2 with proportional rudder rate",
         unit="s^2/rad",
         gt=0.0,
-        le=1000.0,
+        le=1e5,
         live=True,
     )
     kp: float = setting(

@@ -51,7 +51,7 @@ class SwitchingConfig:
         "lead time of these turns, for their limits of acceleration and jerk",
         unit="s",
         ge=0.0,
-        le=60.0,
+        le=600.0,
         live=True,
     )
 

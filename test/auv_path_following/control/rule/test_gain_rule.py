@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import vehicle
 from auv_path_following.control.hull_model import tightest_turn
 from auv_path_following.control.rule.fin_response import FinResponse, response_of
@@ -22,7 +23,7 @@ _response = st.builds(
     lambda speed, effect, divergence, turn, drift: FinResponse(
         speed, effect, divergence, turn, drift, -1.0, -1.0
     ),
-    st.floats(0.5, 4.0), st.floats(0.3, 12.0), st.floats(-3.0, 3.5), st.floats(0.05, 1.2),
+    st.floats(0.2, 4.0), st.floats(0.01, 12.0), st.floats(-3.0, 3.5), st.floats(0.005, 1.2),
     st.floats(0.05, 3.0),
 )  # fmt: skip
 _fin = st.builds(
@@ -116,6 +117,12 @@ def test_measured_numbers_are_enough() -> None:
     nism = gains.heading.autopilot.nism
     power = PEER.turning.effect / math.hypot(gains.heading.crossover, PEER.turning.divergence)
     assert nism.kp * nism.k5 == pytest.approx(1.0 / power)
+
+
+def test_a_hull_beyond_all_ranges_costs_one_line() -> None:
+    quick = response_of(REMUS)._replace(effect=300.0)
+    with pytest.raises(ConfigurationError, match=r"rule: k3: found 35\.3, expected less than or equal to 10"):
+        plane_gains(quick, REMUS.rudder, 0.05, 0.05)
 
 
 def test_it_says_where_it_does_not_hold() -> None:

@@ -154,6 +154,15 @@ def test_a_thrust_that_no_hull_of_this_size_needs_is_refused() -> None:
         assumed_hull(FACTS._replace(thrust_unit="N", thrust_max=4000.0, speeds=((4000.0, 1.9),)))
 
 
+def test_a_mass_that_does_not_fit_the_thrust_is_named() -> None:
+    light = FACTS._replace(length=2.6, thrust_unit="N", thrust_max=20.0, speeds=((20.0, 1.8),), mass=9.0)
+    with pytest.raises(
+        ConfigurationError, match=r"--mass: found 9 kg with 20 N at 1\.8 m/s, .* such as 130 kg"
+    ):
+        assumed_hull(light)
+    assumed_hull(light._replace(mass=130.0))
+
+
 def test_the_command_line_writes_the_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     words = ["new", "--length", "1.6", "--thrust-unit", "percent", "--speed", "1.5@60", "--rudder", "25"]
     file = str(tmp_path / "p.yaml")

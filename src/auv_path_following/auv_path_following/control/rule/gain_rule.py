@@ -6,8 +6,11 @@ docs/tuning.md derives the rule and has its measured limits.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
+import pydantic
+
+from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.control.autopilot import AutopilotConfig
 from auv_path_following.control.nism import NismConfig
 from auv_path_following.control.pitch_plane import pitch_plane_of
@@ -82,7 +85,7 @@ def gains_for(vehicle: Vehicle, delay: float = 0.0, step: float = 0.05) -> Ruled
         step: between two odometries, s.
 
     Raises:
-        ConfigurationError: no turn of the hull is steady, and none was measured.
+        ConfigurationError: no turn of the hull is steady and none was measured; a gain is out of its range.
     """
     heading = plane_gains(response_of(vehicle), vehicle.rudder, delay, step)
     pitch = None
@@ -107,6 +110,9 @@ def plane_gains(
         fin: its limits and dead time.
         delay, step: as in `gains_for`.
         quickness: factor of the reference's bandwidth, divisor of the drift in the look-ahead.
+
+    Raises:
+        ConfigurationError: a gain is out of its range.
     """
     b, p = response.effect, max(response.divergence, 1e-6)
     tau = max(delay + fin.dead_time + 0.5 * step, LEAST_DELAY)
@@ -122,12 +128,13 @@ def plane_gains(
     bandwidth = quickness * min(REFERENCE_SHARE * crossover, slowest)
     rate = min(max(RATE_SHARE * response.turn, response.course_turn), acceleration / bandwidth)
     k1, k3 = K1_SHARE * rate, K3_SHARE * acceleration
-    nism = NismConfig(
-        k1=k1, k2=A_SHARE * crossover / k1, k3=k3, k4=C_SHARE * crossover / k3, k5=k5, kp=kp, ks=0.0
+    nism = _within(
+        NismConfig, k1=k1, k2=A_SHARE * crossover / k1, k3=k3, k4=C_SHARE * crossover / k3, k5=k5, kp=kp
     )
-    reference = ReferenceConfig(
-        enabled=True, bandwidth=bandwidth, max_rate=rate, max_acceleration=acceleration, max_jerk=jerk
-    )
+    reference = _within(
+        ReferenceConfig, enabled=True, bandwidth=bandwidth, max_rate=rate, max_acceleration=acceleration,
+        max_jerk=jerk,
+    )  # fmt: skip
     return PlaneGains(
         AutopilotConfig(nism=nism, reference=reference),
         _lookahead(response, bandwidth, quickness),
@@ -135,6 +142,20 @@ def plane_gains(
         p * (tau + response.lag(crossover)),
         authority,
     )
+
+
+def _within(kind: Any, **gains: Any) -> Any:
+    """Return gains as settings, which have ranges.
+
+    Raises:
+        ConfigurationError: one is out of its range.
+    """
+    try:
+        return kind(**gains)
+    except pydantic.ValidationError as error:
+        name, range_ = error.errors()[0]["loc"][0], error.errors()[0]["msg"]
+        expected = f"{range_.removeprefix('Input should be ')}, as of a vehicle's hull"
+        raise ConfigurationError(f"gains by the rule: {name}", f"{gains[str(name)]:.3g}", expected) from None
 
 
 def _crossover(response: FinResponse, tau: float) -> float:

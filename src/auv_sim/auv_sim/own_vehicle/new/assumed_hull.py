@@ -20,7 +20,12 @@ from auv_path_following.control.hull_model import HullModel, rudder_gain, slopes
 from auv_path_following.hull_coefficients import Hull
 from auv_path_following.thrust_units import Rows, interpolated, speed_between
 from auv_path_following.vehicle import Vehicle
-from auv_sim.own_vehicle.new.owner_facts import OwnerFacts, displaced_mass
+from auv_sim.own_vehicle.new.owner_facts import (
+    OwnerFacts,
+    check_thrust_of_hull,
+    displaced_mass,
+    usual_diameter,
+)
 
 #: p L/u of a torpedo of which it is not measured.
 DIVERGENCE = 1.2
@@ -69,7 +74,7 @@ def assumed_hull(facts: OwnerFacts) -> Assumed:
     remus = vehicle.load("remus100")
     mass = facts.mass
     if mass is None:
-        stout = facts.length * 0.19 / remus.length if facts.diameter is None else facts.diameter
+        stout = usual_diameter(facts.length) if facts.diameter is None else facts.diameter
         mass = displaced_mass(facts.length, stout)
     mu, size = mass / remus.coefficients.m, facts.length / remus.length
     hull = scaled(remus.coefficients, mu, size)
@@ -97,10 +102,7 @@ def _drag(facts: OwnerFacts, similar: float) -> tuple[float, Rows]:
     if facts.thrust_unit == "N" or facts.thrust_table:
         newtons = thrust if facts.thrust_unit == "N" else interpolated(facts.thrust_table, thrust)
         drag = newtons / speed**2
-        least, most = (share * similar * speed**2 for share in _DRAG)
-        if not least <= newtons <= most:
-            found = f"{newtons:g} N at {speed:g} m/s"
-            raise ConfigurationError("--speed", found, f"{least:.2g} to {most:.2g} N for a hull of this size")
+        check_thrust_of_hull(facts, newtons, *(share * similar * speed**2 for share in _DRAG))
         return drag, facts.thrust_table
     is_linear = facts.thrust_unit == "rpm"
     shares = sorted({0.25, 0.5, 0.75, 1.0} if is_linear else {1.0})

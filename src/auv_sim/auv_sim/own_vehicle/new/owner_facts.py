@@ -72,6 +72,11 @@ def displaced_mass(length: float, diameter: float) -> float:
     return DENSITY * FULLNESS * 0.25 * math.pi * diameter * diameter * length
 
 
+def usual_diameter(length: float) -> float:
+    """Return the diameter of a hull as stout as the REMUS 100, m."""
+    return length * 0.19 / 1.6
+
+
 def check_facts(facts: OwnerFacts) -> None:
     """Check that facts can belong to one vehicle.
 
@@ -146,6 +151,28 @@ def _check_unit(f: OwnerFacts) -> None:
     if f.thrust_table and f.thrust_table[-1][0] != f.thrust_max:
         found = f"a last row at {f.thrust_table[-1][0]:g}"
         raise ConfigurationError("--thrust-table", found, f"one at --thrust-max, {f.thrust_max:g}")
+
+
+def check_thrust_of_hull(facts: OwnerFacts, newtons: float, least: float, most: float) -> None:
+    """Check the thrust of the largest speed.
+
+    Args:
+        facts: given by the owner.
+        newtons: the thrust, N.
+        least, most: that hulls of this mass and length need, N.
+
+    Raises:
+        ConfigurationError: it does not fit; where it fits a mass usual for the length, the mass is named.
+    """
+    if least <= newtons <= most:
+        return
+    found, expected = f"{newtons:g} N at {facts.speed:g} m/s", f"{least:.2g} to {most:.2g} N"
+    if facts.mass is not None:
+        usual = displaced_mass(facts.length, usual_diameter(facts.length))
+        if least <= newtons * facts.mass / usual <= most:
+            found = f"{facts.mass:g} kg with {found}"
+            raise ConfigurationError("--mass", found, f"{expected}, or a mass such as {usual:.3g} kg")
+    raise ConfigurationError("--speed", found, f"{expected} for a hull of this size")
 
 
 def _within(option: str, value: float, bounds: tuple[float, float], found: str, unit: str) -> None:
