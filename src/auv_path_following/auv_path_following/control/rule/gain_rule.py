@@ -131,10 +131,8 @@ def plane_gains(
     nism = _within(
         NismConfig, k1=k1, k2=A_SHARE * crossover / k1, k3=k3, k4=C_SHARE * crossover / k3, k5=k5, kp=kp
     )
-    reference = _within(
-        ReferenceConfig, enabled=True, bandwidth=bandwidth, max_rate=rate, max_acceleration=acceleration,
-        max_jerk=jerk,
-    )  # fmt: skip
+    limits = {"max_rate": rate, "max_acceleration": acceleration, "max_jerk": jerk}
+    reference = _within(ReferenceConfig, enabled=True, bandwidth=bandwidth, **limits)
     return PlaneGains(
         AutopilotConfig(nism=nism, reference=reference),
         _lookahead(response, bandwidth, quickness),
