@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 import rclpy
+from hypothesis import settings
 
 from auv_sim.launch.processes.domains import free_domain
 from node_bench import Bench
@@ -26,6 +27,11 @@ os.environ.pop("COLUMNS", None)
 _ASKED = itertools.count()
 #: Domains of the other workers of this run are far from one worker's own.
 _FIRST = 33 * int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
+
+
+# A test that takes longer on a loaded machine has not failed.
+settings.register_profile("suite", deadline=None)
+settings.load_profile("suite")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -104,8 +104,10 @@ def test_the_listing_is_a_driver(
     out, err = checker.communicate(timeout=240)
     assert out, err
     items = {item["item"]: item for item in json.loads(out)["items"]}
-    # A loaded machine makes gaps and delays of its own; they are not the listing's mistakes.
-    machine = {"GAPS", "LATE", "JITTERY", "DEAD_TIME", "STAMP_JUMPS", "RUDDER_SLOW", "TOO_SLOW"}
+    # A loaded machine makes gaps and delays of its own; they are not the listing's mistakes. A datagram that
+    # waits for more than a period is stamped after the next one.
+    timing = {"GAPS", "LATE", "JITTERY", "OUT_OF_ORDER", "STAMP_JUMPS"}
+    machine = timing | {"DEAD_TIME", "RUDDER_SLOW", "TOO_SLOW"}
     found = {item["mistake"] for item in items.values() if item["verdict"] == "fail"} - machine
     assert found == set()
     for item in ("odom: yaw against course", "odom: velocity against position", "rudder: sign and scale"):

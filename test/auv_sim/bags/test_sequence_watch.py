@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from auv_sim.bags.sequence_watch import SequenceWatch
@@ -13,7 +13,6 @@ def lost(numbers: list[int], publishers: int = 1) -> int:
     return watch.lost
 
 
-@settings(deadline=None)
 @given(st.integers(1, 1000), st.lists(st.booleans(), max_size=60))
 def test_one_publisher_every_gap_is_counted(first: int, arrived: list[bool]) -> None:
     """A late joiner begins anywhere; what never came at the end cannot be known."""
@@ -21,7 +20,6 @@ def test_one_publisher_every_gap_is_counted(first: int, arrived: list[bool]) -> 
     assert lost(numbers) == numbers[-1] - first + 1 - len(numbers)
 
 
-@settings(deadline=None)
 @given(st.lists(st.integers(0, 2), max_size=80))
 def test_publishers_taking_turns_lose_nothing(turns: list[int]) -> None:
     counters = [0, 0, 0]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from auv_sim.nodes.pacing import PATIENCE, Pacer
@@ -31,7 +31,6 @@ def test_a_late_timer_is_caught_up_at_double_pace():
     assert pacer.behind == 0.0
 
 
-@settings(deadline=None)
 @given(st.lists(st.floats(0.0, 0.9 * PATIENCE), max_size=60))
 def test_no_step_is_lost_or_invented_while_the_pace_is_kept(delays):
     """Delays in periods, each followed by as many questions as are needed to catch up."""

@@ -42,7 +42,7 @@ def message(type_name: str, generator: np.random.Generator, frame: str, child: s
 
 
 @pytest.mark.parametrize("type_name", LAYOUTS)
-@settings(deadline=None, max_examples=20)
+@settings(max_examples=20)
 @given(frame=FRAME, child=FRAME, seed=st.integers(0, 2**32 - 1), n=st.integers(0, 4))
 def test_vectorised_decoding_equals_rosbags(
     type_name: str, frame: str, child: str, seed: int, n: int

@@ -146,7 +146,7 @@ def test_ned_throughout_under_enu_names_shows_as_the_rudder() -> None:
     assert found(replace(ned, odom=lying, water=water)) == {Mistake.RUDDER_SIGN}
 
 
-SOME = settings(max_examples=12, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+SOME = settings(max_examples=12, suppress_health_check=[HealthCheck.too_slow])
 
 
 @SOME

@@ -37,7 +37,7 @@ def turned(q: Quaternion, v: tuple[float, float, float]) -> np.ndarray:
     return v + 2.0 * np.cross(u, np.cross(u, v) + w * v)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.floats(-50, 50), st.floats(-50, 50), st.floats(0, 90), ANGLE, ANGLE, st.floats(-3.1, 3.1))
 def test_both_conventions_give_one_pose(
     x: float, y: float, z: float, phi: float, theta: float, psi: float

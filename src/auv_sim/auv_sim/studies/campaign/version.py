@@ -15,7 +15,7 @@ _FLOWN_BY = (
     *((auv_msgs_py, f"{room}/*.py") for room in ("values", "settings", "contract")),
     (auv_path_following, "*.py"),
     *((auv_path_following, f"{room}/**/*.py") for room in ("curves", "missions", "navigation")),
-    *((auv_path_following, f"{room}/**/*.py") for room in ("guidance", "control")),
+    *((auv_path_following, f"{room}/**/*.py") for room in ("guidance", "control", "comparators")),
     (auv_sim, "*parameters.py"),
     (auv_sim, "flight/**/*.py"),
     (auv_sim, "vehicle/**/*.py"),
