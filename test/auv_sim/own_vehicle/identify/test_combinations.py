@@ -102,3 +102,13 @@ def test_a_hull_whose_file_has_hardly_any_damping_may_have_as_much_as_a_similar_
     widths = [np.linalg.norm(prior.root[place]) for prior in (usual, small)]
     assert widths[1] > 0.8 * widths[0]
     assert abs(small.mean[place] - usual.mean[place]) < 2.0 * widths[1]
+
+
+def test_a_hull_may_damp_its_yaw_rate_many_times_as_much_as_a_similar_one() -> None:
+    """Published hulls do; a prior that excludes it makes the rudder's effect and dead time too small."""
+    hull = vehicle_file.load("remus100").coefficients
+    prior = prior_of(hull)
+    damped = dataclasses.replace(hull, Nur=7.0 * hull.Nur)
+    place = Combinations._fields.index("Nur")
+    off = combinations_of(damped).Nur - prior.mean[place]
+    assert abs(off) < 1.5 * float(np.linalg.norm(prior.root[place]))
