@@ -143,9 +143,9 @@ _DRAWS, _WIDENED = 3000, 1.5
 _INERTIA = ("m", "Izz")
 
 
-#: Coefficients of sway and yaw without inertia in them, and how many times as large as that of a similar REMUS
-#: 100 each may be: where a known one is smaller, the prior has the difference as a further deviation. REMUS 100
-#: damps its yaw rate little: Nur of eight other makes is 2 to 27 times as large, the median 5.
+#: Coefficients of sway and yaw without inertia in them, and how many times as large as that of a similar
+#: REMUS 100 each may be: where a known one is smaller, the prior has the difference as a further deviation.
+#: REMUS 100 damps its yaw rate little: Nur of eight other makes is 2 to 27 times as large, the median 5.
 _DAMPING = {"Yvv": 1.0, "Yrr": 1.0, "Yur": 1.0, "Yuv": 1.0, "Nvv": 1.0, "Nrr": 1.0, "Nur": 6.0, "Nuv": 1.0}
 
 

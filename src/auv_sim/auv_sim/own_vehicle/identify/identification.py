@@ -17,8 +17,9 @@ from auv_sim.own_vehicle.identify.dive.dive_data import DiveData
 from auv_sim.own_vehicle.identify.innovations import Channels, Recording, channels_of
 from auv_sim.own_vehicle.identify.intervals import Covariances, spread_of
 from auv_sim.own_vehicle.identify.minimise import Minimised, minimise
-from auv_sim.own_vehicle.identify.model_errors import with_model_errors
-from auv_sim.own_vehicle.identify.servo_search import search_servo
+from auv_sim.own_vehicle.identify.refine.model_errors import with_model_errors
+from auv_sim.own_vehicle.identify.refine.own_trims import own_trim_columns, with_own_trims
+from auv_sim.own_vehicle.identify.refine.servo_search import search_servo
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
 from auv_sim.own_vehicle.identify.unknowns import ALL, LATENCY, DataSheet, Scaling
 
@@ -136,11 +137,12 @@ def best_of(
     scaling, estimate = _anew(channels, scaling, estimate, [prior for prior, _ in starts])
     progress(total - 2, total, "errors of the model")
     channels, estimate = with_model_errors(channels, scaling, estimate)
+    channels, estimate = _with_own_trims(recordings, channels, scaling, estimate)
     channels, estimate = search_servo(channels, scaling, estimate, dead_band is not None)
     channels, estimate = with_model_errors(channels, scaling, estimate)
     scaling, estimate = _widened(channels, scaling, estimate)
     progress(total - 1, total, "intervals")
-    spread = spread_of(channels, scaling, estimate)
+    spread = spread_of(channels, scaling, estimate, own_trim_columns(channels, scaling, estimate))
     progress(total, total, "done")
     return Identified(
         scaling.physical(estimate.z), spread, channels.dead_band, channels, scaling, estimate,
@@ -191,6 +193,14 @@ def _following(data: Recording, seconds: float, sheet: DataSheet, dead_band: flo
     """Return the channels of the first `seconds`, with a filter that follows the measurements."""
     channels = channels_of([data.between(data.t[0] - 1.0, data.t[0] + seconds)], sheet, dead_band)
     return channels._replace(noise=(*channels.noise[:3], *_GROWTH, *channels.noise[6:]))
+
+
+def _with_own_trims(
+    recordings: Sequence[Recording], channels: Channels, scaling: Scaling, estimate: Minimised
+) -> tuple[Channels, Minimised]:
+    """Return an estimate with a trim for each recording where they differ, and the errors of its model."""
+    own, found = with_own_trims(channels, scaling, estimate, [data.name for data in recordings])
+    return (channels, estimate) if own is channels else with_model_errors(own, scaling, found)
 
 
 def _widened(channels: Channels, scaling: Scaling, estimate: Minimised) -> tuple[Scaling, Minimised]:

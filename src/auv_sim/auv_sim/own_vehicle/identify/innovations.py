@@ -87,6 +87,11 @@ class Channels(NamedTuple):
         """Return the channels with another number in `noise`."""
         return self._replace(noise=(*self.noise[:place], float(value), *self.noise[place + 1 :]))
 
+    def with_trims(self, more: Sequence[float]) -> Channels:
+        """Return the channels with an angle (rad) added to the trim of each passage."""
+        passages = zip(self.passages, more, strict=True)
+        return self._replace(passages=tuple(p._replace(trim=p.trim + float(m)) for p, m in passages))
+
 
 #: Places in `Channels.noise`: growth of the first state's variance, variance of the fin's error.
 FIRST_GROWTH, FIN_VARIANCE = 3, 8
@@ -198,7 +203,7 @@ def rudder_of(passage: Passage, dead_band: float, physical: Numbers) -> tuple[Nu
         means,
         changes,
     )
-    return means[1:] + physical[TRIM], changes[1:]
+    return means[1:] + (physical[TRIM] + passage.trim), changes[1:]
 
 
 def arguments_of(channels: Channels, physical: Numbers) -> Numbers:

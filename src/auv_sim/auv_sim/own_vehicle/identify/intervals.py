@@ -50,20 +50,29 @@ class Covariances(NamedTuple):
         return np.array([self.total(row) for row in np.eye(ALL)])
 
 
-def spread_of(channels: Channels, scaling: Scaling, estimate: Minimised) -> Covariances:
-    """Return the uncertainty of an estimate."""
+def spread_of(channels: Channels, scaling: Scaling, estimate: Minimised, further: Numbers) -> Covariances:
+    """Return the uncertainty of an estimate.
+
+    Args:
+        channels, scaling, estimate: the estimate.
+        further: derivatives of the weighed innovations by numbers that were estimated beside the unknowns,
+            (m, numbers).
+    """
     free = free_unknowns(scaling)
     weights = weights_of(channels, scaling, estimate)
     J = jacobian(channels, scaling, estimate.z, free, weights)
-    bread = np.linalg.inv(J.T @ J + np.eye(free.size))
-    scores = np.zeros((int(channels.blocks.max()) + 1, free.size))
+    J = np.hstack((J, further))
+    before = np.diag(np.arange(J.shape[1]) < free.size).astype(float)
+    bread = np.linalg.inv(J.T @ J + before)
+    scores = np.zeros((int(channels.blocks.max()) + 1, J.shape[1]))
     np.add.at(scores, channels.blocks, J * estimate.residuals[:, None])
-    meat = scores.T @ scores + np.eye(free.size)
+    meat = scores.T @ scores + before
+    sandwich = (bread @ meat @ bread)[: free.size, : free.size]
     slopes = scaling.slopes(estimate.z)[:, free]
     physical = scaling.physical(estimate.z)
     return Covariances(
-        slopes @ bread @ slopes.T,
-        slopes @ bread @ meat @ bread @ slopes.T,
+        slopes @ bread[: free.size, : free.size] @ slopes.T,
+        slopes @ sandwich @ slopes.T,
         systematic_of(physical, scaling.sheet, channels.plane),
     )
 

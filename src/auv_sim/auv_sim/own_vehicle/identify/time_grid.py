@@ -98,6 +98,7 @@ class Passage(NamedTuple):
         issued, commands: rudder commands.
         rows: time of each row of the innovations, s: channel after channel.
         counts: rows of each channel.
+        trim: of the fin, in addition to that of all recordings, rad.
     """
 
     grid: Grid
@@ -106,6 +107,7 @@ class Passage(NamedTuple):
     commands: Numbers
     rows: Numbers
     counts: tuple[int, int, int]
+    trim: float = 0.0
 
 
 def passage_of(data: PlanarData, latency: float) -> Passage:

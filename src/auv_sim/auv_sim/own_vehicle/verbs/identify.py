@@ -227,6 +227,7 @@ def _predicted(left_out: PlanarData | None, found: Identified) -> tuple[Channels
     if left_out is None or left_out.water_t.size < 10 or shared_time(left_out) < 1.0:
         return None, []
     channels = channels_of([left_out], found.scaling.sheet, found.dead_band, found.channels.latency)
+    channels = channels.with_trims([found.channels.passages[-1].trim])  # a part of the last recording
     return channels, predictions_of(channels, found.physical)
 
 

@@ -54,7 +54,7 @@ def read(
     for path in bags:
         recorded = manoeuvres_in(path, names, namespace)
         check_commands(recorded.rudder.value, recorded.thrust.value, vehicle, str(path))
-        found.append(Recorded(planar(recorded, vehicle, hull, path.name), diving(recorded, vehicle, hull)))
+        found.append(Recorded(planar(recorded, vehicle, hull, str(path)), diving(recorded, vehicle, hull)))
     return found
 
 

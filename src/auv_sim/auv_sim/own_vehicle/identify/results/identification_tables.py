@@ -102,10 +102,24 @@ def servo_figures(found: Identified) -> list[Figure]:
         ),
         Figure("dead band of the rudder", math.degrees(found.dead_band), math.nan, "deg"),
         Figure("trim of the rudder", math.degrees(p[TRIM]), math.degrees(off[TRIM]), "deg"),
+        *_own_trims(found),
         Figure("bias of the gyro", math.degrees(p[GYRO]), math.degrees(off[GYRO]), "deg/s"),
         Figure("bias of u", p[U_BIAS], off[U_BIAS], "m/s"),
         Figure("bias of v", p[V_BIAS], off[V_BIAS], "m/s"),
         Figure("latency of the log", p[LATENCY], off[LATENCY] or math.nan, "s"),
+    ]
+
+
+def _own_trims(found: Identified) -> list[Figure]:
+    """Return the trims of the last recordings where they differ from that of the first."""
+    trims = dict.fromkeys(passage.trim for passage in found.channels.passages)
+    off = REACH * found.spread.deviations[TRIM]
+    return [
+        Figure(
+            f"trim, recording {number}", math.degrees(found.physical[TRIM] + trim), math.degrees(off), "deg"
+        )
+        for number, trim in enumerate(trims, 1)
+        if number > 1
     ]
 
 

@@ -10,8 +10,8 @@ from auv_path_following import vehicle as vehicle_file
 from auv_sim.own_vehicle.identify.combinations import prior_of
 from auv_sim.own_vehicle.identify.innovations import channels_of
 from auv_sim.own_vehicle.identify.minimise import minimise
-from auv_sim.own_vehicle.identify.model_errors import with_model_errors
-from auv_sim.own_vehicle.identify.servo_search import search_servo
+from auv_sim.own_vehicle.identify.refine.model_errors import with_model_errors
+from auv_sim.own_vehicle.identify.refine.servo_search import search_servo
 from auv_sim.own_vehicle.identify.study.identified_cases import KNOWN, true_unknowns
 from auv_sim.own_vehicle.identify.study.random_hulls import random_vehicle
 from auv_sim.own_vehicle.identify.study.simulated_data import planar_data

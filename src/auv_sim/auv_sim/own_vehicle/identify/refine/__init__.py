@@ -1,0 +1,1 @@
+"""Better estimates near one: a servo, trims, and errors of the model."""
