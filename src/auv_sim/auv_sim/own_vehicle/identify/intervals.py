@@ -7,12 +7,15 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from auv_sim.own_vehicle.identify.combinations import COUNT, Numbers
 from auv_sim.own_vehicle.identify.innovations import Channels, Plane
-from auv_sim.own_vehicle.identify.minimise import Minimised, free_unknowns, jacobian, weights_of
-from auv_sim.own_vehicle.identify.unknowns import ALL, DataSheet, Scaling
+from auv_sim.own_vehicle.identify.minimise import STEP, Minimised, free_unknowns, jacobian, weights_of
+from auv_sim.own_vehicle.identify.unknowns import ALL, DEAD_TIME, HALF_PLAY, RATE, DataSheet, Scaling
 
+#: Further steps of the servo's scaled unknowns.
+_SERVO_STEPS = (-STEP, 30.0 * STEP, -30.0 * STEP)
 #: Of a 95 % interval, in standard deviations.
 REACH = 1.96
 
@@ -60,8 +63,7 @@ def spread_of(channels: Channels, scaling: Scaling, estimate: Minimised, further
     """
     free = free_unknowns(scaling)
     weights = weights_of(channels, scaling, estimate)
-    J = jacobian(channels, scaling, estimate.z, free, weights)
-    J = np.hstack((J, further))
+    J = np.hstack((_slopes(channels, scaling, estimate, free, weights), further))
     before = np.diag(np.arange(J.shape[1]) < free.size).astype(float)
     bread = np.linalg.inv(J.T @ J + before)
     scores = np.zeros((int(channels.blocks.max()) + 1, J.shape[1]))
@@ -75,6 +77,23 @@ def spread_of(channels: Channels, scaling: Scaling, estimate: Minimised, further
         slopes @ sandwich @ slopes.T,
         systematic_of(physical, scaling.sheet, channels.plane),
     )
+
+
+def _slopes(
+    channels: Channels, scaling: Scaling, estimate: Minimised, free: NDArray[np.int64], weights: Numbers
+) -> Numbers:
+    """Return the derivatives of the weighed innovations by the free unknowns, (m, free).
+
+    A dead band makes the innovations jump where the servo changes a little. A difference across a jump claims
+    far too much knowledge, so the least of several counts.
+    """
+    J = jacobian(channels, scaling, estimate.z, free, weights)
+    places = np.flatnonzero(np.isin(free, (RATE, DEAD_TIME, HALF_PLAY)))
+    for step in _SERVO_STEPS:
+        other = jacobian(channels, scaling, estimate.z, free[places], weights, step)
+        less = np.linalg.norm(other, axis=0) < np.linalg.norm(J[:, places], axis=0)
+        J[:, places[less]] = other[:, less]
+    return J
 
 
 def systematic_of(physical: Numbers, sheet: DataSheet, plane: Plane) -> Numbers:

@@ -15,7 +15,7 @@ from auv_sim.own_vehicle.identify.innovations import Channels, innovations, many
 from auv_sim.own_vehicle.identify.unknowns import ALL, LATENCY, TRIM, Scaling
 
 #: Step of the finite differences of scaled unknowns.
-_STEP = 1e-4
+STEP = 1e-4
 #: A residual beyond this many deviations is weighed down (Huber).
 _OUTLIER = 4.0
 #: Deviations of r, u and v at first, before they are re-estimated.
@@ -134,13 +134,18 @@ def _round(
 
 
 def jacobian(
-    channels: Channels, scaling: Scaling, z: Numbers, free: NDArray[np.int64], weights: Numbers
+    channels: Channels,
+    scaling: Scaling,
+    z: Numbers,
+    free: NDArray[np.int64],
+    weights: Numbers,
+    step: float = STEP,
 ) -> Numbers:
     """Return the derivatives of the weighed innovations by the free unknowns, (m, free)."""
     sets = [scaling.physical(z)]
     for k in free:
         moved = z.copy()
-        moved[k] += _STEP
+        moved[k] += step
         sets.append(scaling.physical(moved))
     values = many_innovations(channels, sets)
-    return (values[:, 1:] - values[:, :1]) / _STEP * weights[:, None]
+    return (values[:, 1:] - values[:, :1]) / step * weights[:, None]

@@ -46,7 +46,7 @@ class DataSheet(NamedTuple):
 
 
 #: Standard deviations of log(rate), dead time (s) and half the play (rad) before any data.
-_LOG_RATE, _DEAD_TIME, _HALF_PLAY = 0.7, 0.15, math.radians(0.2)
+_LOG_RATE, _DEAD_TIME, _HALF_PLAY = 0.7, 0.3, math.radians(0.2)
 
 
 class Scaling(NamedTuple):
