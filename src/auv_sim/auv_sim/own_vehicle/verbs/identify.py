@@ -44,7 +44,12 @@ from auv_sim.own_vehicle.identify.results.known_vehicle import (
     in_plane,
     known_hull,
 )
-from auv_sim.own_vehicle.identify.results.plausibility import check_fit, check_yaw_rate, doubts
+from auv_sim.own_vehicle.identify.results.plausibility import (
+    check_fit,
+    check_yaw_rate,
+    doubts,
+    latency_doubts,
+)
 from auv_sim.own_vehicle.identify.time_grid import PlanarData, shared_time
 from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, LATENCY, RATE, DataSheet, typed
 from auv_sim.own_vehicle.identify.water_current import mean_current
@@ -141,7 +146,7 @@ def run(arguments: argparse.Namespace) -> int:
         found = identify(used, hull, sheet, band, _reporter(bar))
     check_sign(found, where)
     check_fit(found, where)
-    for doubt in doubts(found, used, vehicle, -hull.Xuu):
+    for doubt in (*doubts(found, used, vehicle, -hull.Xuu), *latency_doubts(found)):
         say(f"notice {doubt}", error=True)
     dives = [one.dive for one in recorded if one.dive is not None]
     report(arguments, vehicle, recordings, left_out, found, _dive(dives, vehicle, hull, sheet, found))

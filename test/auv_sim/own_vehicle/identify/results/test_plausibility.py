@@ -13,16 +13,20 @@ import pytest
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import vehicle
+from auv_sim.own_vehicle.identify.combinations import prior_of
+from auv_sim.own_vehicle.identify.innovations import channels_of
+from auv_sim.own_vehicle.identify.minimise import minimise
 from auv_sim.own_vehicle.identify.results import plausibility
 from auv_sim.own_vehicle.identify.results.plausibility import (
     check_commands,
     check_fit,
     check_yaw_rate,
     doubts,
+    latency_doubts,
 )
 from auv_sim.own_vehicle.identify.study.simulated_data import planar_data
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
-from auv_sim.own_vehicle.identify.unknowns import ALL, DEAD_TIME
+from auv_sim.own_vehicle.identify.unknowns import ALL, DEAD_TIME, DataSheet, Scaling
 from auv_sim.own_vehicle.manoeuvres import program_file
 from auv_sim.own_vehicle.manoeuvres.manoeuvre_flight import simulate
 from auv_sim.vehicle import sea
@@ -33,6 +37,13 @@ REMUS = vehicle.load("remus100")
 @pytest.fixture(scope="module")
 def data() -> PlanarData:
     return planar_data(simulate(REMUS, sea.load("rough"), program_file.load("two_minutes"), 1))
+
+
+@pytest.fixture(scope="module")
+def slow_log() -> PlanarData:
+    """Return a flight with a good log whose samples are 0.1 s old."""
+    flown = simulate(REMUS, sea.load("moderate"), program_file.load("two_minutes"), 1)
+    return planar_data(flown)
 
 
 def test_the_contracts_units_pass(data: PlanarData) -> None:
@@ -90,6 +101,22 @@ def test_late_commands_and_a_thrust_of_another_unit_raise_doubts(data: PlanarDat
     percent = dataclasses.replace(REMUS, name="strong")
     (fast,) = doubts(_found(0.1), [data._replace(thrust=20.0 * data.thrust)], percent, 1.62)
     assert fast.startswith("1.") and "strong makes" in fast
+
+
+@pytest.mark.parametrize(("latency", "side"), [(0.1, None), (1.5, "less"), (0.0, "more")])
+def test_a_given_latency_that_the_data_contradict_raises_a_doubt(
+    slow_log: PlanarData, latency: float, side: str | None
+) -> None:
+    sheet = DataSheet(latency=latency)
+    scaling, channels = Scaling(prior_of(REMUS.coefficients), sheet), channels_of([slow_log], sheet, 0.0)
+    estimate = minimise(channels, scaling, np.zeros(ALL), rounds=3)
+    found: Any = SimpleNamespace(channels=channels, scaling=scaling, estimate=estimate)
+    lines = latency_doubts(found)
+    assert len(lines) == (side is not None)
+    if side is not None:
+        assert lines[0].startswith(f"--log-latency {latency:g}: the data show {side}")
+    free = found.scaling._replace(sheet=sheet._replace(latency_deviation=0.08))
+    assert latency_doubts(SimpleNamespace(channels=channels, scaling=free, estimate=estimate)) == []  # type: ignore[arg-type]
 
 
 def _found(dead_time: float) -> Any:

@@ -12,8 +12,9 @@ from auv_path_following.vehicle import Vehicle
 from auv_sim.own_vehicle.identify.combinations import Numbers
 from auv_sim.own_vehicle.identify.identification import Identified
 from auv_sim.own_vehicle.identify.predictions import predictions_of
+from auv_sim.own_vehicle.identify.refine.own_trims import derivative, shifts_of
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
-from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME
+from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, LATENCY
 
 #: Share of the commands that may exceed a limit: a controller may request more than there is for a moment.
 _EXCEEDING = 0.02
@@ -27,6 +28,9 @@ _HORIZON, _LARGEST_ERROR = 2.0, 0.2
 _SPEEDS = 2.5
 #: Dead time below which the commands were recorded too late, s.
 _LATE = -0.01
+#: A given latency of the log is doubted where the data would move it by more than this (s), and by so many
+#: standard deviations; step of the derivative, s.
+_LEAST_SHIFT, _CLEARLY, _STEP = 0.05, 4.0, 1e-3
 
 
 def check_commands(rudder: Numbers, thrust: Numbers, vehicle: Vehicle, where: str) -> None:
@@ -113,3 +117,19 @@ def doubts(found: Identified, recordings: Sequence[PlanarData], vehicle: Vehicle
             "check the unit of thrust_cmd"
         )
     return lines
+
+
+def latency_doubts(found: Identified) -> list[str]:
+    """Return one line where the data contradict the latency of the log that was given."""
+    if found.scaling.sheet.latency_deviation > 0.0:
+        return []
+    parts = found.channels, found.scaling, found.estimate
+    shifts = shifts_of(*parts, derivative(*parts, LATENCY, _STEP)[:, None])
+    shift, deviation = float(shifts.values[0]), float(shifts.deviations[0])
+    if abs(shift) < max(_LEAST_SHIFT, _CLEARLY * deviation):
+        return []
+    given, how = found.scaling.sheet.latency, "less" if shift < 0.0 else "more"
+    return [
+        f"--log-latency {given:g}: the data show {how} than {given:g} s, and the hull is off with it: "
+        "leave the option out to find the latency from the data"
+    ]
