@@ -10,6 +10,9 @@ from auv_msgs_py.settings.schema import Pair, setting, settings
 from auv_msgs_py.settings.validators import increasing, unfit
 from auv_path_following.thrust_units import Rows, interpolated
 
+#: Largest dead time of a fin, s.
+LONGEST_DEAD_TIME = 2.0
+
 
 @settings
 class Rudder:
@@ -22,7 +25,7 @@ class Rudder:
         "time from a command to the start of the fin: of the link and of the servo",
         unit="s",
         ge=0.0,
-        le=2.0,
+        le=LONGEST_DEAD_TIME,
     )
 
     @property

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 import re
@@ -18,7 +19,7 @@ from auv_sim.own_vehicle.prove import proof_picture, proof_words
 from auv_sim.own_vehicle.prove.one_flight import worst_of
 from auv_sim.own_vehicle.prove.proof import Proof, Proposition, SeaProof, draw_claim
 from auv_sim.own_vehicle.tune import tune_session
-from auv_sim.own_vehicle.tune.ensemble import UNCERTAIN_DIVING, spread_of_file
+from auv_sim.own_vehicle.tune.ensemble import UNCERTAIN_DIVING, drawn_hulls, spread_of_file
 from auv_sim.own_vehicle.tune.trial_flights import STRAIGHT, Conditions
 from auv_sim.vehicle import sea
 from hulls import DIVER, REMUS
@@ -128,7 +129,10 @@ def test_the_sentence_has_the_bounds_and_the_conditions(tmp_path) -> None:
     text = proof_words.sentence_of(CLAIM._replace(vehicle=DIVER), "tuned", both)
     assert "keep within 1.50 m of the path" in text and "within 2.50 m anywhere, and within 0.30 m of" in text
     assert "in each of the seas calm and rough" in text and "2 of 1500 did not complete" in text
-    assert "fin rates" in text
+    assert "fin rates" in text and "plane" not in text
+    part = CLAIM._replace(is_part=True)
+    assert f"on {REMUS.name} in its horizontal plane alone," in proof_words.sentence_of(part, "tuned", flown)
+    assert proof_words.verdict_of(part, flown).startswith("Proven in its horizontal plane alone: 99 % within")
     _, (calm, rough) = proof_words.rows_of({"tuned": both}, dives=True)
     assert calm[:5] == ["tuned", "calm", "1.00", "2.00", "0.20"] and calm[-3:-1] == ["0 of 500", "0.6"]
     assert rough[1:3] == ["rough", "1.50"] and rough[-4:-1] == ["2 of 1000", "", ""]
@@ -225,6 +229,7 @@ def test_a_file_states_the_uncertainty_of_its_coefficients(tmp_path) -> None:
         ("rudder:\n  dead_time: 0.2  # s, +- 2e-02", {"dead_time": pytest.approx((1 / 1.1, 1.1))}),
         ("rudder:\n  dead_time: 0.05  # s; assumed: 0.02 to 0.3 s", {"dead_time": pytest.approx((0.4, 6.0))}),
         ("rudder:\n  dead_time: 0  # s, +- 0.003", {}),
+        ("hull:\n  Nuud: -6  # assumed: -12 to -3", {"Nuud": (0.5, 2.0)}),
         ("depth:\n  max_rate_deg_s: 15  # assumed (x2)", {}),
         ("sternplanes:\n  max_rate_deg_s: 15  # (x2)", {"sternplanes.max_rate_deg_s": (0.5, 2.0)}),
         (
@@ -237,6 +242,58 @@ def test_unknown_numbers_and_the_rudder_are_uncertain_too(tmp_path, line: str, f
     file = tmp_path / "own.yaml"
     file.write_text(f"name: own\n{line}\n", encoding="utf-8")
     assert spread_of_file(file) == factors
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "hull:\n  Nuud: -6  # assumed (x0)",
+        "hull:\n  Nuud: -6  # assumed (x0.5)",
+        "hull:\n  Nuud: -6  # assumed (x1.2.3)",
+        "hull:\n  Nuud: -6  # assumed (100000 %)",
+        "hull:\n  Nuud: -6  # assumed: 3 to 9",
+        "rudder:\n  dead_time: 0.05  # s; assumed: 0 to 0.3 s",
+    ],
+)
+def test_an_uncertainty_that_cannot_be_drawn_is_refused(tmp_path, line: str) -> None:
+    file = tmp_path / "own.yaml"
+    file.write_text(f"name: own\n{line}\n", encoding="utf-8")
+    with pytest.raises(
+        ConfigurationError, match=r"own\.yaml: (hull\.Nuud|rudder\.dead_time): found the comment"
+    ):
+        spread_of_file(file)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "text"),
+    [
+        (["--spread", "100000"], "argument --spread: found 100000, expected 0 to 300 per cent, or `file`"),
+        (["--rate", "1e5"], "argument --rate: found 1e5, expected 0.5 to 200 a second"),
+        (["--delay", "30"], "argument --delay: found 30, expected 0 to 1 s"),
+    ],
+)
+def test_numbers_that_no_flight_can_have_are_refused(capsys, wrong: list[str], text: str) -> None:
+    for verb in ("tune", "prove"):
+        with pytest.raises(SystemExit) as ended:
+            main([verb, "remus100", *wrong])
+        assert ended.value.code == 2
+        (line,) = capsys.readouterr().err.splitlines()
+        assert text in line
+
+
+def test_a_delay_beyond_that_of_the_simulator_is_refused() -> None:
+    """The dead time of a drawn hull counts: its fins are delayed by both."""
+    late = dataclasses.replace(REMUS, rudder=dataclasses.replace(REMUS.rudder, dead_time=0.8))
+    claim = CLAIM._replace(vehicle=late, flights=6)
+    assert len(draw_claim(claim)) == 12
+    claim = claim._replace(conditions=CLAIM.conditions._replace(delay=1.0))
+    with pytest.raises(
+        ConfigurationError, match=r"--delay: found 1 s, with a dead time of .* at most 1\.74 s"
+    ):
+        draw_claim(claim)
+    # A dead time beyond what a fin may have is drawn again.
+    (drawn,) = drawn_hulls(late, 1, 0.0, np.random.default_rng(1), {"dead_time": (2.0, 4.0)})
+    assert 1.6 <= drawn.rudder.dead_time <= 2.0
 
 
 def test_a_new_vehicle_states_what_is_uncertain(tmp_path) -> None:

@@ -20,7 +20,7 @@ from auv_sim.own_vehicle.tune.gain_verdict import FOUND, PRESENT, RULE, GainVerd
 from auv_sim.own_vehicle.tune.objective import CostTerms, Ratios
 from auv_sim.own_vehicle.tune.outcome.verdict_words import comments_of
 from auv_sim.own_vehicle.tune.sampled_loop import Margins
-from auv_sim.own_vehicle.tune.tune_session import MEMBERS, present_of, problem_of, settled
+from auv_sim.own_vehicle.tune.tune_session import MEMBERS, conditions_again, present_of, problem_of, settled
 from auv_sim.sim_parameters import SUITE
 from hulls import DIVER, REMUS
 
@@ -112,3 +112,19 @@ def test_a_file_is_not_overwritten_unasked(
     assert Path("own.yaml").read_text(encoding="utf-8") == own
     assert Path("there.yaml").read_text(encoding="utf-8") == Path("drawn.png").read_text() == "mine"
     assert vehicle.load("own.yaml").name == vehicle.load("remus100").name
+
+
+def test_a_file_that_is_no_text_is_refused(tmp_path: Path, capsys) -> None:
+    """Its comments are read after it was checked."""
+    file = tmp_path / "latin.yaml"
+    file.write_bytes(b"name: \xe9\n")
+    assert main(["tune", str(file), "--out", str(tmp_path / "tuned.yaml")]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "latin.yaml" in line
+
+
+def test_the_next_command_has_the_same_conditions() -> None:
+    """Gains for 50 odometries a second are not proven at 20."""
+    assert conditions_again(options_of("remus100")) == []
+    words = ["--delay", "0.0512345678", "--rate", "50.0", "--slowest", "20.0", "--spread", "10.0"]
+    assert conditions_again(options_of("remus100", *words)) == words

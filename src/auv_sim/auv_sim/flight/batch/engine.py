@@ -53,6 +53,8 @@ from auv_sim.vehicle.simulated import SimulatedVehicle
 
 #: Flights of one compiled call.
 _CHUNK = 64
+#: Odometries of one compiled call, about: a call ends within seconds of Ctrl-C.
+_ODOMETRIES = 100_000
 
 Done = Callable[[int], None]
 
@@ -136,13 +138,14 @@ def _chunks(scenarios: Sequence[Scenario], largest: int, courses: Courses) -> li
         key = (layout, id(course)) if scenario.sea is None else place
         groups.setdefault(key, []).append((place, row))
     chunks = []
-    size = max(1, min(largest, _CHUNK))
     for members in groups.values():
         scenario = scenarios[members[0][0]]
         course, path = courses.of(scenario)
         example = preparation.flights[members[0][1]]
         different = sorted({row for _, row in members})
         configs = preparation.rows(different) if scenario.sea is None else None
+        longest = max(preparation.flights[row].steps for row in different)
+        size = max(1, min(largest, _CHUNK, _ODOMETRIES // longest))
         which = np.searchsorted(different, [row for _, row in members])
         for first in range(0, len(members), size):
             places = [place for place, _ in members[first : first + size]]

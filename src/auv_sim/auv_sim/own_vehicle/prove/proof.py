@@ -17,10 +17,11 @@ from auv_sim.flight.batch.scenarios import Courses
 from auv_sim.flight.scenario import Scenario
 from auv_sim.own_vehicle.prove.confidence import SHARE, largest_share, most_of
 from auv_sim.own_vehicle.prove.drawn_dives import with_depths
-from auv_sim.own_vehicle.tune.ensemble import Factors, drawn_hulls
+from auv_sim.own_vehicle.tune.ensemble import Factors, check_delay, drawn_hulls
 from auv_sim.own_vehicle.tune.gain_space import GainSet
 from auv_sim.own_vehicle.tune.objective import LIMIT_CYCLE
 from auv_sim.own_vehicle.tune.trial_flights import (
+    LATER,
     Conditions,
     Flight,
     draw_sea_flights,
@@ -48,6 +49,7 @@ class Proposition(NamedTuple):
         within: largest distance away from corners that is good enough, m.
         within_depth: largest error of depth that is good enough, m; for a vehicle that dives.
         seed: of all draws.
+        is_part: whether the vehicle is the horizontal part of one that dives.
     """
 
     vehicle: Vehicle
@@ -59,6 +61,7 @@ class Proposition(NamedTuple):
     within: float
     within_depth: float
     seed: int
+    is_part: bool = False
 
 
 class SeaProof(NamedTuple):
@@ -147,11 +150,15 @@ def draw_claim(claim: Proposition) -> list[Flight]:
 
     With a spread each flight along a course has a hull of its own, and so has each on a line: a bound over
     flights on few hulls would not hold for other hulls. All seas have the same courses, hulls and currents.
+
+    Raises:
+        ConfigurationError: no hull can be drawn, or the delay is too long for the simulator.
     """
     random = np.random.default_rng([claim.seed, _STREAM])
     hulls: Sequence[Vehicle] = [claim.vehicle] * claim.flights
     if claim.spread > 0.0 or claim.own:
         hulls = drawn_hulls(claim.vehicle, claim.flights, claim.spread, random, claim.own)
+    check_delay(hulls, claim.conditions.delay, LATER)
     along = draw_sea_flights(hulls, claim.conditions, random)
     lines = draw_starts(hulls, claim.conditions, random)
     if claim.vehicle.dives:

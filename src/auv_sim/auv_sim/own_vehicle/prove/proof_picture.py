@@ -91,7 +91,10 @@ def _spread(axes: Axes, name: str, along: Mapping[str, SeaProof], within: float 
 def _unrest(axes: Axes, proofs: Mapping[str, Proof]) -> None:
     style(axes, "starts (%)")
     edges = np.geomspace(1e-3, 30.0, 46)
-    for (label, proof), (colour, line) in zip(proofs.items(), _LINES, strict=False):
+    place = 0
+    for label, proof in proofs.items():
+        colour, line = _LINES[place % len(_LINES)]
+        place += len(proof.seas)  # the colour of its first sea in the other panels
         rates = np.clip(np.nan_to_num(proof.unrest, nan=edges[-1]), edges[0], edges[-1])
         counts, _ = np.histogram(rates, edges)
         text = f"{label}: {proof.cycles} of {len(rates)}, at most {100.0 * proof.cycle_bound:.1f} %"

@@ -22,6 +22,7 @@ from auv_sim.own_vehicle.prove.proof_page import Page, PageTable
 from auv_sim.own_vehicle.prove.proof_words import rows_of, table_of
 from auv_sim.own_vehicle.tune.gain_space import GainSet
 from auv_sim.own_vehicle.tune.trial_flights import Flight
+from auv_sim.own_vehicle.tune.tune_session import conditions_again
 from auv_sim.terminal import go_on, wrote
 
 _ALONG = "True distance in the sea: 99 % of the flights at 95 % confidence"
@@ -105,7 +106,8 @@ def conclude(
 def _draw(outputs: Outputs, result: Result, verdict: str, worst: int) -> None:
     """Draw the distributions and the worst flight."""
     claim, proof = result.claim, result.proof
-    others = {} if result.laws is None else dict(result.laws.alike)
+    # Laws beside a vehicle that dives fly its plane: their distances are not those in three dimensions.
+    others = {} if result.laws is None or claim.vehicle.dives else dict(result.laws.alike)
     shown = {result.label: proof} | {name: one for name, one in others.items() if name != result.label}
     depth = claim.within_depth if claim.vehicle.dives else None
     holds = proof.holds(claim.within, claim.within_depth)
@@ -133,8 +135,7 @@ def _next(console: Console, options: argparse.Namespace, holds: bool) -> None:
         rest = ["--params", options.params] if options.params else []
         go_on(console, "Fly them", to_type("mission.py", "--vehicle", options.vehicle, *map(str, rest)))
     else:
-        rest = ["--delay", f"{options.delay:g}"] if options.delay else []
-        rest += ["--spread", str(options.spread)] if options.spread else []
+        rest = conditions_again(options)
         rest += ["--overwrite"] if Path("tuned.yaml").exists() else []
         line = to_type("vehicle.py", "tune", options.vehicle, *rest)
         go_on(console, "Tune", line)

@@ -42,7 +42,7 @@ def sentence_of(claim: Proposition, label: str, proof: Proof) -> str:
     below = f", and within {metres(proof.deep_bound)} of its depth" if dives else ""
     starts = len(proof.unrest)
     return (
-        f"With the gains {label} on {claim.vehicle.name}, 99 % of the flights keep within "
+        f"With the gains {label} on {claim.vehicle.name}{_part(claim)}, 99 % of the flights keep within "
         f"{metres(proof.off_bound)} of the path away from corners, and within {metres(anywhere)} "
         f"anywhere{below}, at 95 % confidence: in {where}, in further currents of up to a quarter of the "
         f"speed, {_uncertain(claim)}, with {1e3 * late:.0f} ms of delay, on courses whose turns have at "
@@ -51,6 +51,10 @@ def sentence_of(claim: Proposition, label: str, proof: Proof) -> str:
         f"{proof.cycles} ended in a limit cycle: at most {100.0 * proof.cycle_bound:.1f} % do, at 95 % "
         "confidence."
     )
+
+
+def _part(claim: Proposition) -> str:
+    return " in its horizontal plane alone" if claim.is_part else ""
 
 
 def _uncertain(claim: Proposition) -> str:
@@ -78,8 +82,8 @@ def verdict_of(claim: Proposition, proof: Proof) -> str:
         asked += f" and {claim.within_depth:g} m of depth"
         found += f", {metres(proof.deep_bound)} of depth"
     return (
-        f"{'Proven' if is_proven else 'Not proven'}: 99 % within {asked}, limit cycles from at most 1 % of "
-        f"the starts (bounds: {found}, {100.0 * proof.cycle_bound:.2f} %)"
+        f"{'Proven' if is_proven else 'Not proven'}{_part(claim)}: 99 % within {asked}, limit cycles from at "
+        f"most 1 % of the starts (bounds: {found}, {100.0 * proof.cycle_bound:.2f} %)"
     )
 
 

@@ -81,7 +81,9 @@ def claim_of(options: argparse.Namespace, own: Vehicle) -> Proposition:
     conditions = Conditions(options.delay, 1.0 / options.rate, steps, seas[0])
     flown = planar(own) if options.in_plane else own
     limits = options.within, options.within_depth if flown.dives else math.inf
-    return Proposition(flown, conditions, seas, *spread_of(options), options.flights, *limits, options.seed)
+    is_part = own.dives and not flown.dives
+    spread = spread_of(options)
+    return Proposition(flown, conditions, seas, *spread, options.flights, *limits, options.seed, is_part)
 
 
 def _outputs(options: argparse.Namespace) -> Outputs:

@@ -75,5 +75,5 @@ def _changed(options: argparse.Namespace, usual: Mapping[str, object]) -> list[s
         word
         for name, value in values.items()
         if value != usual[name]
-        for word in (f"--{name.replace('_', '-')}", f"{value:g}" if isinstance(value, float) else str(value))
+        for word in (f"--{name.replace('_', '-')}", f"{value}".removesuffix(".0"))
     ]

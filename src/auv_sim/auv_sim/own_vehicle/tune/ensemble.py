@@ -5,13 +5,14 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from auv_msgs_py.values.errors import ConfigurationError
+from auv_path_following.abilities import LONGEST_DEAD_TIME
 from auv_path_following.control.pitch_plane import pitch_plane_of
 from auv_path_following.control.rule.fin_response import response_of
 from auv_path_following.vehicle import Hull, Rudder, Vehicle
@@ -32,6 +33,8 @@ PLANES = {name: f"sternplanes.{name}" for name in RUDDER}
 _UNKNOWN, _UNKNOWN_FACTOR = ("not known from these data", "stable and unstable hulls exist"), 2.0
 #: Draws in a row without a hull that can exist and turns steadily, after which a spread is refused.
 _MOST_DRAWS = 200
+#: Largest factor of a stated uncertainty, either way.
+_MOST_FACTOR = 10.0
 #: Smallest and largest factor of a number.
 Factors = tuple[float, float]
 
@@ -60,6 +63,25 @@ def check_simulated(vehicle: Vehicle) -> None:
         raise ConfigurationError(f"{vehicle.name}: hull", "nothing", expected)
 
 
+def check_delay(hulls: Iterable[Vehicle], delay: float, later: float) -> None:
+    """Check that the simulator can delay the fins of all hulls.
+
+    Args:
+        hulls: with the dead times of their fins.
+        delay: further delay of their commands, s.
+        later: share by which the sum of both may be longer.
+
+    Raises:
+        ConfigurationError: it cannot.
+    """
+    most = LONGEST_DEAD_TIME / (1.0 + later)
+    for hull in hulls:
+        for fin in (hull.rudder, hull.sternplanes):
+            if fin is not None and delay + fin.dead_time > most:
+                found = f"{delay:g} s, with a dead time of {fin.dead_time:.2g} s"
+                raise ConfigurationError("--delay", found, f"at most {most:.2f} s together")
+
+
 def factors_of(share: float) -> Factors:
     """Return the factors of an uncertainty with a half width (a share)."""
     return 1.0 / (1.0 + share), 1.0 + share
@@ -75,6 +97,9 @@ def spread_of_file(file: Path) -> dict[str, Factors]:
     Returns:
         Coefficients by name, the rudder's `max_rate_deg_s` and `dead_time`, and those of the planes as
         `sternplanes.max_rate_deg_s` and `sternplanes.dead_time`.
+
+    Raises:
+        ConfigurationError: a comment states an uncertainty within which no number can be drawn.
     """
     found: dict[str, Factors] = {}
     section = ""
@@ -86,10 +111,27 @@ def spread_of_file(file: Path) -> dict[str, Factors]:
             found |= dict.fromkeys(UNCERTAIN_DIVING, factors_of(float(all_of[1]) - 1.0))
         number = re.match(r"\s+(\w+): *([-+0-9.eE]+) +#(.*)", line)
         if number and number[1] in known.get(section, ()):
-            factors = _stated(float(number[2]), number[3])
+            factors = _checked(f"{file}: {section}.{number[1]}", number[2], number[3])
             if factors is not None:
                 found[PLANES[number[1]] if section == "sternplanes" else number[1]] = factors
     return found
+
+
+def _checked(where: str, value: str, comment: str) -> Factors | None:
+    """Return what a comment states, as `_stated`, if numbers can be drawn within it.
+
+    Raises:
+        ConfigurationError: they cannot.
+    """
+    try:
+        factors = _stated(float(value), comment)
+        is_possible = factors is None or 1.0 / _MOST_FACTOR <= factors[0] <= factors[1] <= _MOST_FACTOR
+    except (ValueError, ZeroDivisionError):
+        is_possible = False
+    if not is_possible:
+        expected = f"an uncertainty of a factor from 1 to {_MOST_FACTOR:g}, or a range of one sign"
+        raise ConfigurationError(where, f"the comment '{comment.strip()}'", expected)
+    return factors
 
 
 def _stated(value: float, comment: str) -> Factors | None:
@@ -98,8 +140,9 @@ def _stated(value: float, comment: str) -> Factors | None:
         return factors_of(float(match[1]) - 1.0 if match[1] else 0.01 * float(match[2]))
     if any(words in comment for words in _UNKNOWN):
         return factors_of(_UNKNOWN_FACTOR - 1.0)
-    if value and (match := re.search(r"assumed: ([0-9.]+) to ([0-9.]+)", comment)):
-        return float(match[1]) / value, float(match[2]) / value
+    if value and (match := re.search(r"assumed: (-?[0-9.]+) to (-?[0-9.]+)", comment)):
+        low, high = sorted(float(end) / value for end in match.groups())
+        return low, high
     if value and (match := re.search(r"\+- ([0-9.]+(?:e[-+]?[0-9]+)?)", comment)):
         return factors_of(float(match[1]) / abs(value))
     return None
@@ -156,12 +199,15 @@ def _drawn(
         return math.exp(random.uniform(low, high))
 
     changes: dict[str, Any] = {name: getattr(hull, name) * factor(name) for name in UNCERTAIN}
-    fins: dict[str, Any] = {"rudder": _other(vehicle.rudder, *map(factor, RUDDER))}
-    vertical: dict[str, float] = {}
+    rudder, vertical = list(map(factor, RUDDER)), dict[str, float]()
+    planes: list[float] = []
     if hull.vertical is not None and vehicle.sternplanes is not None:
         vertical = {name: getattr(hull.vertical, name) * factor(name) for name in UNCERTAIN_DIVING}
-        fins["sternplanes"] = _other(vehicle.sternplanes, *map(factor, PLANES.values()))
+        planes = list(map(factor, PLANES.values()))
     try:
+        fins: dict[str, Any] = {"rudder": _other(vehicle.rudder, *rudder)}
+        if planes and vehicle.sternplanes is not None:
+            fins["sternplanes"] = _other(vehicle.sternplanes, *planes)
         if vertical and hull.vertical is not None:
             changes["vertical"] = dataclasses.replace(hull.vertical, **vertical)
         other: Hull = dataclasses.replace(hull, **changes)

@@ -20,7 +20,14 @@ from auv_sim.command_line import EXIT_DONE, to_type
 from auv_sim.flight.batch.compiled import COMPILED
 from auv_sim.own_vehicle.output_files import check_outputs
 from auv_sim.own_vehicle.tune import tuned_file
-from auv_sim.own_vehicle.tune.ensemble import Factors, check_simulated, ensemble, planar, spread_of_file
+from auv_sim.own_vehicle.tune.ensemble import (
+    Factors,
+    check_delay,
+    check_simulated,
+    ensemble,
+    planar,
+    spread_of_file,
+)
 from auv_sim.own_vehicle.tune.gain_space import GainSet, GainSpace
 from auv_sim.own_vehicle.tune.gain_verdict import PRESENT, GainVerdict, judge
 from auv_sim.own_vehicle.tune.outcome.tuned_picture import draw_verdict
@@ -33,7 +40,7 @@ from auv_sim.own_vehicle.tune.pitch.pitch_plane_tuning import (
     can_be_tuned,
 )
 from auv_sim.own_vehicle.tune.search import Budget, Found, search
-from auv_sim.own_vehicle.tune.trial_flights import HELD_OUT, Amount, Conditions
+from auv_sim.own_vehicle.tune.trial_flights import HELD_OUT, LATER, Amount, Conditions
 from auv_sim.own_vehicle.tune.tuning_problem import Problem
 from auv_sim.own_vehicle.verbs.gain_options import FROM_FILE
 from auv_sim.sim_parameters import SUITE
@@ -58,9 +65,9 @@ def run(options: argparse.Namespace) -> int:
         ConfigurationError: vehicle, sea or --out do not fit.
     """
     check_compiled("tune")
-    options, console = settled(options), terminal(options.quiet)
     own = vehicle.load(options.vehicle)
     check_simulated(own)
+    options, console = settled(options), terminal(options.quiet)
     picture = options.out.with_suffix(".png")
     if options.out.suffix.lower() == ".png":
         raise ConfigurationError("--out", f"{options.out}", "a parameter file; the picture stands beside it")
@@ -82,13 +89,9 @@ def run(options: argparse.Namespace) -> int:
     draw_verdict(picture, own, problem, written, verdict, found.history)
     wrote(console, options.out, "gains: `mission.py --params` flies them")
     wrote(console, picture, "a held-out course, before and after")
-    rest = ["--delay", f"{options.delay:g}"] if options.delay else []
-    rest += ["--spread", str(options.spread)] if options.spread else []
+    rest = ["--params", str(options.out), "--sea", options.sea, *conditions_again(options)]
     rest += ["--overwrite"] if Path("proof/proof.html").exists() else []
-    line = to_type(
-        "vehicle.py", "prove", options.vehicle, "--params", str(options.out), "--sea", options.sea, *rest
-    )
-    go_on(console, "Prove them", line)
+    go_on(console, "Prove them", to_type("vehicle.py", "prove", options.vehicle, *rest))
     return EXIT_DONE
 
 
@@ -139,6 +142,13 @@ def pitch_problem(own: Vehicle, heading: Problem, gains: GainSet) -> Problem:
     return Problem(space, [own], c, heading.seed, present, PITCH, SEARCHED_DIVES)
 
 
+def conditions_again(options: argparse.Namespace) -> list[str]:
+    """Return the options of delay, rates and uncertainty as typed, where they are not the usual ones."""
+    usual = {"delay": 0.0, "rate": 20.0, "slowest": 10.0, "spread": 0.0}
+    given = {name: getattr(options, name) for name in usual if getattr(options, name) != usual[name]}
+    return [word for name, value in given.items() for word in (f"--{name}", f"{value}")]
+
+
 def check_compiled(verb: str) -> None:
     """Check that flights are compiled: without, a search takes hours.
 
@@ -162,6 +172,7 @@ def problem_of(options: argparse.Namespace, own: Vehicle, base: dict[str, Any]) 
     random = np.random.default_rng([options.seed, 2])
     spread, own_widths = spread_of(options)
     hulls = ensemble(flown, options.members, spread, random, own_widths)
+    check_delay([own, *hulls], options.delay, LATER)
     steps = steps_of(options.rate, options.slowest)
     conditions = Conditions(options.delay, step, steps, sea.load(options.sea))
     _, settings = present_of(own)

@@ -7,18 +7,37 @@ import os
 from collections.abc import Sequence
 
 from auv_path_following import config_files
-from auv_sim.command_line import at_least_one, not_negative, positive, whole
+from auv_sim.command_line import at_least_one, finite, whole
 
 #: Word for `--spread` where the vehicle file's comments state the uncertainty.
 FROM_FILE = "file"
+#: Largest spread, per cent: a factor of 4. Largest delay, s, and rates of odometry, 1/s.
+_WIDEST, _LATEST, _RATES = 300.0, 1.0, (0.5, 200.0)
 
 
 def spread(text: str) -> float | str:
     """Parse a spread: per cent, or `file`."""
-    return text if text == FROM_FILE else not_negative(text)
+    return text if text == FROM_FILE else _within(text, 0.0, _WIDEST, f" per cent, or `{FROM_FILE}`")
 
 
-spread.__name__ = "number"
+def delay(text: str) -> float:
+    """Parse a delay, s."""
+    return _within(text, 0.0, _LATEST, " s")
+
+
+def rate(text: str) -> float:
+    """Parse a rate of odometry, 1/s."""
+    return _within(text, *_RATES, " a second")
+
+
+def _within(text: str, low: float, high: float, unit: str) -> float:
+    value = finite(text)
+    if not low <= value <= high:
+        raise argparse.ArgumentTypeError(f"found {text}, expected {low:g} to {high:g}{unit}")
+    return value
+
+
+spread.__name__ = delay.__name__ = rate.__name__ = "number"
 
 
 def add_conditions(p: argparse.ArgumentParser, several: Sequence[str] = ()) -> None:
@@ -30,14 +49,12 @@ def add_conditions(p: argparse.ArgumentParser, several: Sequence[str] = ()) -> N
     """
     seas = ", ".join(config_files.shipped("seas"))
     p.add_argument(
-        "--delay", type=not_negative, default=0.0, metavar="S",
+        "--delay", type=delay, default=0.0, metavar="S",
         help="further delay from a measurement to its command's arrival, besides the file's dead_time (0 s)",
     )  # fmt: skip
+    p.add_argument("--rate", type=rate, default=20.0, metavar="HZ", help="odometries a second (default: 20)")
     p.add_argument(
-        "--rate", type=positive, default=20.0, metavar="HZ", help="odometries a second (default: 20)"
-    )
-    p.add_argument(
-        "--slowest", type=positive, default=10.0, metavar="HZ",
+        "--slowest", type=rate, default=10.0, metavar="HZ",
         help="slowest rate of the flights on lines (default: 10)",
     )  # fmt: skip
     if several:

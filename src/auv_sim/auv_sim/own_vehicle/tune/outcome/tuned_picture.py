@@ -16,6 +16,7 @@ from auv_sim.flight.batch import engine
 from auv_sim.flight.figures.flown_rows import FlownRows
 from auv_sim.flight.loops import followed_path
 from auv_sim.flight.metrics import under_way
+from auv_sim.flight.run_record import SpatialRun
 from auv_sim.flight.scenario import Scenario
 from auv_sim.own_vehicle.tune.gain_space import GainSet
 from auv_sim.own_vehicle.tune.gain_verdict import FOUND, PRESENT, RULE, GainVerdict
@@ -53,19 +54,23 @@ def draw(
     """
     figure = Figure(figsize=(13.0, 7.2), dpi=90, facecolor="white")
     FigureCanvasAgg(figure)
-    grid = figure.add_gridspec(3, 2, width_ratios=(1.0, 1.35))
+    dives = any(scenario.spatial is not None for _, scenario in flights)
+    labels = ["distance to the path (m)", "rudder (°)", "rudder travel so far (°)", *["depth (m)"] * dives]
+    grid = figure.add_gridspec(len(labels), 2, width_ratios=(1.0, 1.35))
     over = figure.add_subplot(grid[:, 0] if not history else grid[:2, 0])
-    away, rudder, spent = (figure.add_subplot(grid[k, 1]) for k in range(3))
-    labels = ("north x (m)", "distance to the path (m)", "rudder (°)", "rudder travel so far (°)")
-    for axes, text in zip((over, away, rudder, spent), labels, strict=True):
+    away, _, spent, *deep = panels = [figure.add_subplot(grid[k, 1]) for k in range(len(labels))]
+    for axes, text in zip((over, *panels), ("north x (m)", *labels), strict=True):
         style(axes, text)
     x, y, _ = path.polyline(1.0)
     over.plot(y, x, color=PATH, linewidth=5.0, solid_capstyle="round", label="path")
     for (label, scenario), colour in zip(flights, _COLOURS, strict=False):
-        _add(label, scenario, colour, (over, away, rudder, spent))
+        _add(label, scenario, colour, (over, *panels))
     over.set_aspect("equal", adjustable="datalim")
     over.set_xlabel("east y (m)", color=INK)
-    spent.set_xlabel("time (s)", color=INK)
+    panels[-1].set_xlabel("time (s)", color=INK)
+    for axes in deep:
+        axes.invert_yaxis()
+        axes.legend(frameon=False, fontsize=9)
     for axes in (away, spent):
         axes.set_ylim(bottom=0.0)
     for axes in (over, away):
@@ -112,18 +117,24 @@ def draw_verdict(
 
 
 def _add(label: str, scenario: Scenario, colour: str, panels: Sequence[Axes]) -> None:
-    """Add one flight to the panels of track, distance, rudder and travel."""
-    over, away, rudder, spent = panels
+    """Add one flight to the panels of track, distance, rudder and travel; of depth if it dives."""
+    over, away, rudder, spent, *deep = panels
     followed = followed_path(scenario)
     run = under_way(engine.track(scenario), followed.n)
     t, (x, y) = run.t - run.t[0], run.track
-    distance = FlownRows(run, followed).distance
+    rows = FlownRows(run, followed)
+    distance = rows.distance
     text = f"{label}: rms {np.sqrt(np.mean(distance**2)):.2f} m, largest {distance.max():.2f} m"
     over.plot(y, x, color=colour, linewidth=1.4, label=label)
     away.plot(t, distance, color=colour, linewidth=1.2, label=text)
     rudder.plot(t, np.degrees(run.rudder), color=colour, linewidth=0.9)
     moved = np.degrees(np.abs(np.diff(run.rudder, prepend=run.rudder[:1])))
     spent.plot(t, np.cumsum(moved), color=colour, linewidth=1.4)
+    if deep and isinstance(run, SpatialRun):
+        error = rows.depth_error
+        deep[0].plot(t, run.depth - error, color=PATH, linewidth=4.0, label="path")
+        text = f"{label}: error rms {np.sqrt(np.mean(error**2)):.2f} m, largest {np.abs(error).max():.2f} m"
+        deep[0].plot(t, run.depth, color=colour, linewidth=1.2, label=text)
 
 
 def _add_search(axes: Axes, history: Sequence[float]) -> None:
