@@ -28,6 +28,7 @@ from auv_sim.views.plot_style import BLUE, INK, MUTED, ORANGE, PATH, save, style
 _COLOURS = (ORANGE, BLUE)
 #: Stream of the draw of the picture's course.
 _PICTURE = 3
+_PANELS, _DEPTH = ("distance to the path (m)", "rudder (°)", "rudder travel so far (°)"), "depth (m)"
 #: Of each source of gains: label of its track, state in the picture's title.
 _STATES = {
     FOUND: ("tuned", "tuned"),
@@ -54,8 +55,7 @@ def draw(
     """
     figure = Figure(figsize=(13.0, 7.2), dpi=90, facecolor="white")
     FigureCanvasAgg(figure)
-    dives = any(scenario.spatial is not None for _, scenario in flights)
-    labels = ["distance to the path (m)", "rudder (°)", "rudder travel so far (°)", *["depth (m)"] * dives]
+    labels = [*_PANELS, *[_DEPTH] * any(scenario.spatial is not None for _, scenario in flights)]
     grid = figure.add_gridspec(len(labels), 2, width_ratios=(1.0, 1.35))
     over = figure.add_subplot(grid[:, 0] if not history else grid[:2, 0])
     away, _, spent, *deep = panels = [figure.add_subplot(grid[k, 1]) for k in range(len(labels))]
@@ -68,12 +68,9 @@ def draw(
     over.set_aspect("equal", adjustable="datalim")
     over.set_xlabel("east y (m)", color=INK)
     panels[-1].set_xlabel("time (s)", color=INK)
-    for axes in deep:
-        axes.invert_yaxis()
-        axes.legend(frameon=False, fontsize=9)
     for axes in (away, spent):
         axes.set_ylim(bottom=0.0)
-    for axes in (over, away):
+    for axes in (over, away, *deep):
         axes.legend(frameon=False, fontsize=9)
     if history:
         _add_search(figure.add_subplot(grid[2, 0]), history)
@@ -131,6 +128,7 @@ def _add(label: str, scenario: Scenario, colour: str, panels: Sequence[Axes]) ->
     moved = np.degrees(np.abs(np.diff(run.rudder, prepend=run.rudder[:1])))
     spent.plot(t, np.cumsum(moved), color=colour, linewidth=1.4)
     if deep and isinstance(run, SpatialRun):
+        deep[0].yaxis.set_inverted(True)
         error = rows.depth_error
         deep[0].plot(t, run.depth - error, color=PATH, linewidth=4.0, label="path")
         text = f"{label}: error rms {np.sqrt(np.mean(error**2)):.2f} m, largest {np.abs(error).max():.2f} m"
