@@ -53,7 +53,7 @@ from auv_sim.vehicle.simulated import SimulatedVehicle
 
 #: Flights of one compiled call.
 _CHUNK = 64
-#: Odometries of one compiled call, about: a call ends within seconds of Ctrl-C.
+#: Odometries of one compiled call, about: Ctrl-C waits for the end of a call.
 _ODOMETRIES = 100_000
 
 Done = Callable[[int], None]

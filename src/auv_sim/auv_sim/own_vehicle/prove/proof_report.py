@@ -26,7 +26,7 @@ from auv_sim.own_vehicle.tune.tune_session import conditions_again
 from auv_sim.terminal import go_on, wrote
 
 _ALONG = "True distance in the sea: 99 % of the flights at 95 % confidence"
-_LAWS = "All laws in the sea {sea}, each tuned by one search with {generations} generations"
+_LAWS = "All laws in the sea {sea}, each tuned by one search (generations: {generations})"
 _STRAIGHT = "The same laws on courses of straight legs, with that of MSS"
 _NO_OTHERS = (
     "The law of MSS is for straight legs alone and was tuned on them; the others were tuned on the courses "

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
@@ -137,8 +136,3 @@ def hulls_of(problem: Problem, generation: int) -> list[Vehicle]:
     n = min(DRAWN_HULLS, len(others))
     begin = generation * n % len(others)
     return [first, *[others[(begin + k) % len(others)] for k in range(n)]]
-
-
-def is_better(total: float) -> bool:
-    """Return whether an objective is below that of the rule."""
-    return math.isfinite(total) and total < 0.0

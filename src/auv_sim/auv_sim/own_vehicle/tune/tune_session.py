@@ -241,8 +241,8 @@ def _explain(console: Console, problem: Problem, present: str) -> None:
     for notice in space.ruled.notices:
         console.print(f"notice {notice}", markup=False)
     others = "the rule" if problem.present is None else f"the rule and {present}"
+    hulls = f"{len(problem.hulls)} hulls, the worst counts" if len(problem.hulls) > 1 else "one hull"
     console.print(
-        f"crossover by the rule {heading.crossover:.2f} 1/s, p τ {heading.product:.2f}; {len(problem.hulls)} "
-        "hulls, the worst counts\n"
+        f"crossover by the rule {heading.crossover:.2f} 1/s, p τ {heading.product:.2f}; {hulls}\n"
         f"objective: distance and rudder travel against {others}, no limit cycle, margins (docs/tuning.md)"
     )
