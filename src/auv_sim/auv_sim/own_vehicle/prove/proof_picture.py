@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,6 +18,8 @@ from auv_sim.views.plot_style import BLUE, GREEN, INK, MUTED, ORANGE, PATH, RED,
 
 #: Line of each set of gains and sea, in the order drawn.
 _LINES = [(colour, line) for line in ("-", "--", ":") for colour in (BLUE, ORANGE, GREEN, RED, MUTED, INK)]
+#: A legend covers the lines under it.
+_UNDER: dict[str, Any] = {"framealpha": 1.0, "edgecolor": "none"}
 _WIDTH = 115
 
 
@@ -74,10 +77,11 @@ def _spread(axes: Axes, name: str, along: Mapping[str, SeaProof], within: float 
         values = np.sort(getattr(proof, name))
         share = 100.0 * np.arange(1, len(values) + 1) / len(values)
         is_known = np.isfinite(values)
-        axes.step(values[is_known], share[is_known], line, where="post", color=colour, linewidth=1.5)
         bound = getattr(proof, f"{name}_bound")
         text = f"{label}: 99 % within {bound:.2f} m" if np.isfinite(bound) else f"{label}: no bound"
-        axes.plot([bound], [99.0], "o", color=colour, markersize=5, label=text)
+        look: dict[str, Any] = {"color": colour, "linewidth": 1.5, "linestyle": line, "label": text}
+        axes.step(values[is_known], share[is_known], where="post", **look)
+        axes.plot([bound], [99.0], "o", color=colour, markersize=5)
         # A few flights that are far away must not squeeze the others.
         farthest.append(1.3 * float(np.quantile(values[is_known], 0.97)) if is_known.any() else 0.0)
         farthest.append(1.1 * bound if np.isfinite(bound) and len(along) < 3 else 0.0)
@@ -85,7 +89,7 @@ def _spread(axes: Axes, name: str, along: Mapping[str, SeaProof], within: float 
         axes.axvline(within, color=INK, linewidth=1.0, linestyle=":", label=f"asked for: {within:g} m")
     axes.set_ylim(0.0, 101.0)
     axes.set_xlim(0.0, 1.05 * max(*farthest, 1e-3))
-    axes.legend(frameon=False, fontsize=8, loc="lower right")
+    axes.legend(fontsize=8, loc="lower right", **_UNDER)
 
 
 def _unrest(axes: Axes, proofs: Mapping[str, Proof]) -> None:
@@ -103,15 +107,15 @@ def _unrest(axes: Axes, proofs: Mapping[str, Proof]) -> None:
     axes.axvline(LIMIT_CYCLE, color=INK, linewidth=1.0, linestyle=":")
     axes.set_xscale("log")
     axes.set_xlabel("rms yaw rate late on a straight line (°/s); right of the line: limit cycles", color=INK)
-    axes.legend(frameon=False, fontsize=8)
+    axes.legend(fontsize=8, **_UNDER)
 
 
 def _activity(axes: Axes, along: Mapping[str, SeaProof]) -> None:
     style(axes, "")
     places = np.arange(len(along))[::-1]
-    colours = [_LINES[k % len(_LINES)][0] for k in range(len(along))]
-    travel = [proof.travel for proof in along.values()]
-    axes.barh(places, travel, height=0.5, color=colours)
+    for place, proof, (colour, line) in zip(places, along.values(), _LINES, strict=False):
+        hatch = None if line == "-" else "///"  # as the dashed lines of the other panels
+        axes.barh(place, proof.travel, height=0.5, color=colour, hatch=hatch, edgecolor="white")
     for place, (label, proof) in zip(places, along.items(), strict=True):
         known = proof.rms[np.isfinite(proof.rms)]
         rms = float(np.median(known)) if known.size else np.nan
