@@ -10,13 +10,13 @@ import pytest
 from auv_msgs_py.contract import topics
 from auv_msgs_py.settings import params_file
 from auv_path_following import config_files
+from auv_sim.own_vehicle.tune import sampled_loop, tuned_file
 from auv_sim.own_vehicle.tune import search as searching
-from auv_sim.own_vehicle.tune import tuned_file
 from auv_sim.own_vehicle.tune.gain_space import VARIABLES, GainSpace
 from auv_sim.own_vehicle.tune.gain_verdict import PRESENT, RULE, judge
 from auv_sim.own_vehicle.tune.search import Budget, Found, beginning, hulls_of, search
 from auv_sim.own_vehicle.tune.trial_flights import Amount, Conditions, draw_flights
-from auv_sim.own_vehicle.tune.tuning_problem import Problem
+from auv_sim.own_vehicle.tune.tuning_problem import Problem, margins_asked
 from auv_sim.sim_parameters import SUITE
 from hulls import REMUS, STABLE
 
@@ -105,6 +105,20 @@ def test_generations_fly_other_starts_and_courses() -> None:
     assert first[0].scenario.initial != other[0].scenario.initial
     assert first[4].scenario.path.length != other[4].scenario.path.length
     assert all(flight.scenario.command_delay >= 0.05 for flight in first)
+
+
+def test_margins_of_the_rule_are_found_once_for_all_generations(monkeypatch) -> None:
+    found, margins = [], sampled_loop.margins
+    monkeypatch.setattr(sampled_loop, "margins", lambda *given: found.append(given) or margins(*given))
+    space = GainSpace(STABLE, BASE[topics.GUIDANCE].guidance, 0.05, 0.05)
+    problem = PROBLEM._replace(space=space)
+    first = margins_asked(problem, STABLE)[3:]  # up, down, later
+    assert margins_asked(problem._replace(seed=5), STABLE)[3:] == first
+    assert len(found) == 1
+    later = problem._replace(conditions=CONDITIONS._replace(delay=0.3))
+    assert margins_asked(later, STABLE)[3:] != first
+    assert margins_asked(problem, REMUS)[3:] != first
+    assert len(found) == 3
 
 
 def test_all_hulls_of_an_ensemble_have_their_turn(monkeypatch) -> None:

@@ -10,12 +10,7 @@ import numpy as np
 from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.batch.scenarios import Courses
 from auv_sim.own_vehicle.tune.gain_space import GainSet, Vector
-from auv_sim.own_vehicle.tune.objective import (
-    CostTerms,
-    reference_of,
-    terms_of,
-    worst,
-)
+from auv_sim.own_vehicle.tune.objective import CostTerms, reference_of, terms_of, worst
 from auv_sim.own_vehicle.tune.trial_flights import Amount
 from auv_sim.own_vehicle.tune.tuning_problem import Problem, lacking, margins_asked
 

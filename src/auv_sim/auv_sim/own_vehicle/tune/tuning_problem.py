@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
@@ -94,20 +95,31 @@ class MarginsAsked(NamedTuple):
 
 def margins_of(problem: Problem, flown: GainSet, hull: Vehicle) -> Margins:
     """Return the margins of gains on a hull, at the slowest rate."""
-    step, side = max(problem.conditions.steps), problem.plane.side(hull)
-    delay = problem.conditions.delay + side.rudder.dead_time
-    return sampled_loop.margins(sampled_loop.yaw_plane(side), _loop(problem, flown, step), step, delay)
+    return _margins(problem.space, problem.plane, problem.conditions, flown, hull)
 
 
-def _loop(problem: Problem, flown: GainSet, step: float) -> sampled_loop.SampledLoop:
-    plane = problem.plane
-    return sampled_loop.loop_of(plane.steering(flown), plane.side(problem.space.model), step)
+def _margins(
+    space: GainSpace, plane: TunedPlane, conditions: Conditions, flown: GainSet, hull: Vehicle
+) -> Margins:
+    step, side = max(conditions.steps), plane.side(hull)
+    delay = conditions.delay + side.rudder.dead_time
+    return sampled_loop.margins(sampled_loop.yaw_plane(side), _loop(space, plane, flown, step), step, delay)
+
+
+@functools.lru_cache(maxsize=64)
+def _ruled_margins(space: GainSpace, plane: TunedPlane, conditions: Conditions, hull: Vehicle) -> Margins:
+    """Return the margins of the rule's gains: a search asks for them in every generation."""
+    return _margins(space, plane, conditions, space.rule(), hull)
+
+
+def _loop(space: GainSpace, plane: TunedPlane, flown: GainSet, step: float) -> sampled_loop.SampledLoop:
+    return sampled_loop.loop_of(plane.steering(flown), plane.side(space.model), step)
 
 
 def margins_asked(problem: Problem, hull: Vehicle) -> MarginsAsked:
     """Return the margins to ask for: `LEAST_GAIN` and `LEAST_DELAY`, less where the rule has less."""
     step, side = max(problem.conditions.steps), problem.plane.side(hull)
-    has = margins_of(problem, problem.space.rule(), hull)
+    has = _ruled_margins(problem.space, problem.plane, problem.conditions, hull)
     delay = problem.conditions.delay + side.rudder.dead_time
     return MarginsAsked(
         sampled_loop.yaw_plane(side), delay, step,
@@ -118,7 +130,7 @@ def margins_asked(problem: Problem, hull: Vehicle) -> MarginsAsked:
 
 def lacking(problem: Problem, asked: MarginsAsked, flown: GainSet) -> float:
     """Return the share of three margins (up, down, delay) that a candidate lacks."""
-    loop = _loop(problem, flown, asked.step)
+    loop = _loop(problem.space, problem.plane, flown, asked.step)
     cases = (
         (asked.delay, asked.up),
         (asked.delay, 1.0 / asked.down),
