@@ -15,6 +15,7 @@ from auv_msgs_py.settings.schema import setting, settings
 from auv_msgs_py.values.elementary import functions_of
 from auv_msgs_py.values.errors import MessageRefused
 from auv_msgs_py.values.pure import pure
+from auv_msgs_py.values.types import Navigation
 
 
 def swap_axes(x: Any, y: Any) -> tuple[Any, Any]:
@@ -46,6 +47,13 @@ def heading_over_the_wire(psi: float) -> float:
     # As `yaw_of_quaternion`, which serves arrays too and therefore does not compile.
     yaw: float = flip_yaw(math.atan2(2.0 * (w * z), 1.0 - 2.0 * (z * z)))
     return yaw
+
+
+@pure
+def navigation_over_the_wire(navigation: Navigation) -> Navigation:
+    """Return a navigation as an odometry carries it; see `heading_over_the_wire`."""
+    x, y, psi, r = navigation
+    return Navigation(x, y, heading_over_the_wire(psi), r)
 
 
 #: Signs of (x, y, z, roll, pitch, yaw) of a pose, and of a twist in the body, between NED/FRD and ENU/FLU.

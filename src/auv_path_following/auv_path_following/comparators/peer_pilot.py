@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from auv_msgs_py.contract.frames import heading_over_the_wire
+from auv_msgs_py.contract.frames import navigation_over_the_wire
 from auv_msgs_py.values.angles import wrap
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.pure import bounded, pure
@@ -136,8 +136,7 @@ def peer_reply(
     """Answer what the simulated vehicle measured, as `planar_answer`; the law estimates no current."""
     navigation = seen.navigation
     if config.by_wire:
-        x, y, psi, r = navigation
-        navigation = Navigation(x, y, heading_over_the_wire(psi), r)
+        navigation = navigation_over_the_wire(navigation)
     state, guided, command = peer_step(config, path, state, navigation, dt)
     return state, navigation, NO_CURRENT, guided, command
 

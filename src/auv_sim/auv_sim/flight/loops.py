@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from auv_msgs_py.contract.frames import heading_over_the_wire
+from auv_msgs_py.contract.frames import navigation_over_the_wire
 from auv_msgs_py.values.attitude import attitude_over_the_wire
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_msgs_py.values.types import SpatialCurrent, SpatialNavigation
@@ -139,7 +139,7 @@ def answer(
     """Answer one measurement of a planar vehicle; see `Loop`."""
     navigation, water, _, _, _, motion, rudder, current = seen
     if at_sea:
-        navigation = navigation._replace(psi=heading_over_the_wire(navigation.psi))
+        navigation = navigation_over_the_wire(navigation)
     measured = Measured(navigation, water, True, False, 0.0, now)
     state, (estimate, g, _, command) = pilot(config, path, state, measured, dt)
     # g begins with psi_d, r_d, xe, ye, psi_e, s: see `GuidanceOutput`.

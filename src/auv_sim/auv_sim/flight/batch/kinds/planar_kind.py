@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from auv_msgs_py.contract.frames import heading_over_the_wire
+from auv_msgs_py.contract.frames import navigation_over_the_wire
 from auv_msgs_py.values.pure import pure
 from auv_msgs_py.values.types import Command, Current, Navigation
 from auv_path_following.curves.rows import CORNER, JOINT, JOINT_X, JOINT_Y, PathRows
@@ -44,8 +44,7 @@ def planar_answer(
     """Answer one measurement; return the pilot's state, what it measured and estimated, and its outputs."""
     navigation = seen.navigation
     if config.by_wire:
-        x, y, psi, r = navigation
-        navigation = Navigation(x, y, heading_over_the_wire(psi), r)
+        navigation = navigation_over_the_wire(navigation)
     measured = Measured(navigation, seen.water, True, False, 0.0, now)
     state, (estimate, guided, _, command) = pilot(config, path, state, measured, dt)
     return state, navigation, estimate, guided, command
