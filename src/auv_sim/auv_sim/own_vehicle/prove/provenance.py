@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import platform
-from collections.abc import Mapping
 from importlib import metadata
 from pathlib import Path
 
@@ -12,6 +11,7 @@ from auv_path_following import config_files
 from auv_path_following.vehicle import Vehicle
 from auv_sim.command_line import to_type
 from auv_sim.flight.batch.compiled import digest_of
+from auv_sim.own_vehicle.verbs.gain_options import CLAIM, CONDITIONS, changed
 
 #: Packages whose versions may change a figure.
 _PACKAGES = ("auv_sim", "numpy", "numba", "scipy", "cma")
@@ -61,19 +61,12 @@ def command_of(options: argparse.Namespace, **others: object) -> str:
     if options.params:
         words += ["--params", str(options.params)]
     words += [word for name in options.sea for word in ("--sea", str(name))]
-    words += _changed(options, {"delay": 0.0, "rate": 20.0, "slowest": 10.0, "spread": 0.0})
-    words += _changed(options, {"flights": 1000, "within": 2.5, "within_depth": 1.0, "seed": 0})
+    words += [
+        word
+        for name, value in changed(options, {**CONDITIONS, **CLAIM}).items()
+        for word in (f"--{name.replace('_', '-')}", f"{value}".removesuffix(".0"))
+    ]
     words += ["--in-plane"] if options.in_plane else []
     words += ["--laws", "--generations", f"{options.generations}"] if options.laws and not others else []
     words += [word for name, value in others.items() for word in (f"--{name}", f"{value}")]
     return to_type("vehicle.py", *words)
-
-
-def _changed(options: argparse.Namespace, usual: Mapping[str, object]) -> list[str]:
-    values = {name: getattr(options, name) for name in usual}
-    return [
-        word
-        for name, value in values.items()
-        if value != usual[name]
-        for word in (f"--{name.replace('_', '-')}", f"{value}".removesuffix(".0"))
-    ]

@@ -42,7 +42,7 @@ from auv_sim.own_vehicle.tune.pitch.pitch_plane_tuning import (
 from auv_sim.own_vehicle.tune.search import Budget, Found, search
 from auv_sim.own_vehicle.tune.trial_flights import HELD_OUT, LATER, Amount, Conditions
 from auv_sim.own_vehicle.tune.tuning_problem import Problem
-from auv_sim.own_vehicle.verbs.gain_options import FROM_FILE
+from auv_sim.own_vehicle.verbs.gain_options import CONDITIONS, FROM_FILE, changed
 from auv_sim.sim_parameters import SUITE
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, progress_bar, wrote
@@ -144,8 +144,7 @@ def pitch_problem(own: Vehicle, heading: Problem, gains: GainSet) -> Problem:
 
 def conditions_again(options: argparse.Namespace) -> list[str]:
     """Return the options of delay, rates and uncertainty as typed, where they are not the usual ones."""
-    usual = {"delay": 0.0, "rate": 20.0, "slowest": 10.0, "spread": 0.0}
-    given = {name: getattr(options, name) for name in usual if getattr(options, name) != usual[name]}
+    given = changed(options, CONDITIONS)
     return [word for name, value in given.items() for word in (f"--{name}", f"{value}")]
 
 

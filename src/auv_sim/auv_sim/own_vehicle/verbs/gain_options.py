@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from auv_path_following import config_files
 from auv_sim.command_line import at_least_one, finite, whole
@@ -13,6 +13,17 @@ from auv_sim.command_line import at_least_one, finite, whole
 FROM_FILE = "file"
 #: Largest spread, per cent: a factor of 4. Largest delay, s, and rates of odometry, 1/s.
 _WIDEST, _LATEST, _RATES = 300.0, 1.0, (0.5, 200.0)
+
+#: Values of the conditions that are not given.
+CONDITIONS = {"delay": 0.0, "rate": 20.0, "slowest": 10.0, "spread": 0.0}
+#: Values of what `prove` claims that are not given.
+CLAIM = {"flights": 1000, "within": 2.5, "within_depth": 1.0, "seed": 0}
+
+
+def changed(options: argparse.Namespace, usual: Mapping[str, object]) -> dict[str, object]:
+    """Return the options that differ from their usual values, by name."""
+    values = {name: getattr(options, name) for name in usual}
+    return {name: value for name, value in values.items() if value != usual[name]}
 
 
 def spread(text: str) -> float | str:
@@ -49,13 +60,16 @@ def add_conditions(p: argparse.ArgumentParser, several: Sequence[str] = ()) -> N
     """
     seas = ", ".join(config_files.shipped("seas"))
     p.add_argument(
-        "--delay", type=delay, default=0.0, metavar="S",
+        "--delay", type=delay, default=CONDITIONS["delay"], metavar="S",
         help="further delay from a measurement to its command's arrival, besides the file's dead_time (0 s)",
     )  # fmt: skip
-    p.add_argument("--rate", type=rate, default=20.0, metavar="HZ", help="odometries a second (default: 20)")
     p.add_argument(
-        "--slowest", type=rate, default=10.0, metavar="HZ",
-        help="slowest rate of the flights on lines (default: 10)",
+        "--rate", type=rate, default=CONDITIONS["rate"], metavar="HZ",
+        help="odometries a second (default: %(default)g)",
+    )  # fmt: skip
+    p.add_argument(
+        "--slowest", type=rate, default=CONDITIONS["slowest"], metavar="HZ",
+        help="slowest rate of the flights on lines (default: %(default)g)",
     )  # fmt: skip
     if several:
         text = f"file or one of: {seas}; once for each sea (default: {' and '.join(several)})"
@@ -64,11 +78,11 @@ def add_conditions(p: argparse.ArgumentParser, several: Sequence[str] = ()) -> N
         text = f"file or one of: {seas} (default: moderate)"
         p.add_argument("--sea", default="moderate", metavar="FILE", help=text)
     p.add_argument(
-        "--spread", type=spread, default=0.0, metavar="PERCENT",
+        "--spread", type=spread, default=CONDITIONS["spread"], metavar="PERCENT",
         help="uncertainty of coefficients, fin rates and dead times, half width (0); or `file`: of "
         "each as the comments of the vehicle file state it",
     )  # fmt: skip
-    p.add_argument("--seed", type=whole, default=0, metavar="N", help="of all draws (default: 0)")
+    p.add_argument("--seed", type=whole, default=CLAIM["seed"], metavar="N", help="of all draws (default: 0)")
     p.add_argument(
         "--threads", type=at_least_one, default=os.cpu_count() or 1, metavar="N",
         help="flights at the same time (default: all cores)",

@@ -13,7 +13,7 @@ import time
 from pathlib import Path
 
 from auv_sim.command_line import at_least_one, positive, whole
-from auv_sim.own_vehicle.verbs.gain_options import add_conditions
+from auv_sim.own_vehicle.verbs.gain_options import CLAIM, add_conditions
 
 #: Seas if none is named.
 SEAS = ("calm", "moderate")
@@ -27,16 +27,16 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
         help="gains: a file, the name of a shipped one, or rule (default: what the vehicle's file names)",
     )  # fmt: skip
     p.add_argument(
-        "--within", type=positive, default=2.5, metavar="M",
-        help="true distance away from corners that 99 %% must keep (default: 2.5 m)",
+        "--within", type=positive, default=CLAIM["within"], metavar="M",
+        help="true distance away from corners that 99 %% must keep (default: %(default)g m)",
     )  # fmt: skip
     p.add_argument(
-        "--within-depth", type=positive, default=1.0, metavar="M",
-        help="true error of depth that 99 %% must keep, of a vehicle that dives (default: 1 m)",
+        "--within-depth", type=positive, default=CLAIM["within_depth"], metavar="M",
+        help="true error of depth that 99 %% must keep, of a vehicle that dives (default: %(default)g m)",
     )  # fmt: skip
     p.add_argument(
-        "--flights", type=at_least_one, default=1000, metavar="N",
-        help="in each sea, and as many starts on lines (default: 1000; fewer than 299 bound nothing)",
+        "--flights", type=at_least_one, default=CLAIM["flights"], metavar="N",
+        help="in each sea, and as many starts on lines (default: %(default)d; fewer than 299 bound nothing)",
     )  # fmt: skip
     p.add_argument(
         "--laws", action="store_true",
