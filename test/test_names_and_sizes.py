@@ -1,4 +1,4 @@
-"""Names that mean one thing, functions that fit on a page, files that tell one story."""
+"""Names that mean one thing, functions that fit on a page, files with one subject each."""
 
 from __future__ import annotations
 
