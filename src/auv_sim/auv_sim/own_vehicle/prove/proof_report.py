@@ -78,7 +78,8 @@ def conclude(
     notice = ""
     if claim.flights < flights_needed():
         notice = f"{claim.flights} flights bound nothing: 99 % at 95 % need {flights_needed()}"
-    for table in _tables(options, result):
+    tables = _tables(options, result)
+    for table in tables:
         console.print(table_of(table.title, table.head, table.rows))
     console.print(sentence, soft_wrap=False)
     console.print(verdict, style="bold green" if holds else "bold red")
@@ -89,7 +90,7 @@ def conclude(
     _draw(outputs, result, verdict, worst)
     page = Page(
         f"{own.name}: proof of the gains {result.label}", holds, verdict, sentence, notice,
-        _tables(options, result), outputs.picture, outputs.flight,
+        tables, outputs.picture, outputs.flight,
         flight_words(claim, result.flights, worst), refly,
         provenance.facts_of(options, provenance.gains_name(options, own)),
     )  # fmt: skip
