@@ -5,9 +5,10 @@ from __future__ import annotations
 import pytest
 
 from auv_path_following.control.rule.fin_response import response_of
+from auv_sim.studies.gains import gain_study, new_study
 from auv_sim.studies.gains.gain_flights import Figures
 from auv_sim.studies.gains.gain_study import compared, parser
-from auv_sim.studies.gains.study_hulls import DELAYS, drawn_hull, stable_hull, study_hulls
+from auv_sim.studies.gains.study_hulls import DELAYS, chosen, drawn_hull, stable_hull, study_hulls
 from hulls import STABLE
 
 
@@ -37,3 +38,21 @@ def test_millimetres_count_as_alike_and_sums_count_together() -> None:
 
 def test_the_command_line() -> None:
     assert parser().parse_args(["--hulls", "drawn 0", "--rule-only"]).rule_only
+
+
+@pytest.mark.parametrize("study", [gain_study, new_study])
+def test_an_unknown_hull_is_refused_before_any_flight(study, tmp_path, capsys) -> None:
+    out = tmp_path / "found.json"
+    assert study.main(["--drawn", "1", "--hulls", "remus100", "drawn 1", "--out", str(out)]) == 2
+    said = capsys.readouterr().err.strip().splitlines()
+    assert len(said) == 1
+    assert "--hulls: found drawn 1, expected" in said[0]
+    assert "remus100_table2" in said[0]
+    assert "drawn 0" in said[0]
+    assert not out.exists()
+
+
+def test_hulls_are_chosen_by_name() -> None:
+    hulls = {name: stable_hull() for name in ("a", "b", "c")}
+    assert list(chosen(hulls, ["c", "a"])) == ["a", "c"]
+    assert list(chosen(hulls, None)) == ["a", "b", "c"]

@@ -26,7 +26,7 @@ from auv_sim.own_vehicle.tune.trial_flights import Conditions
 from auv_sim.own_vehicle.tune.tuning_problem import Problem
 from auv_sim.sim_parameters import SUITE
 from auv_sim.studies.gains.gain_flights import STEPS, Figures, fly_courses, unrest
-from auv_sim.studies.gains.study_hulls import study_hulls
+from auv_sim.studies.gains.study_hulls import chosen, study_hulls
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import headed_table
 from auv_sim.vehicle import sea
@@ -64,11 +64,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     base = params_file.load(config_files.find("params", "robust"), SUITE)
     robust = tuned_file.flown_of(base)
     rows: list[Row] = []
-    for name, hull in study_hulls(options.drawn).items():
-        if options.hulls is None or name in options.hulls:
-            rows.append(_measured(options, name, hull, robust))
-            _print(console, rows[-1])
-            write_text(options.out, json.dumps(rows, indent=2) + "\n")
+    for name, hull in chosen(study_hulls(options.drawn), options.hulls).items():
+        rows.append(_measured(options, name, hull, robust))
+        _print(console, rows[-1])
+        write_text(options.out, json.dumps(rows, indent=2) + "\n")
     return EXIT_DONE
 
 

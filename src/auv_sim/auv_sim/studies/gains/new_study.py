@@ -31,7 +31,7 @@ from auv_sim.own_vehicle.tune.gain_space import GainSet
 from auv_sim.own_vehicle.tune.trial_flights import LINE, PATIENCE, Flight, start_at, with_laws
 from auv_sim.studies.gains.gain_flights import STARTS, STEPS
 from auv_sim.studies.gains.new_hulls import assumed, new_hulls
-from auv_sim.studies.gains.study_hulls import USUAL_DELAY, late
+from auv_sim.studies.gains.study_hulls import USUAL_DELAY, chosen, late
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import headed_table
 from auv_sim.vehicle import sea
@@ -98,8 +98,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     console = terminal()
     found = [
         known(name, hull, options.seeds)
-        for name, hull in new_hulls(options.drawn).items()
-        if options.hulls is None or name in options.hulls
+        for name, hull in chosen(new_hulls(options.drawn), options.hulls).items()
     ]
     write_text(options.out, json.dumps([one._asdict() for one in found], indent=2) + "\n")
     _print(console, found)

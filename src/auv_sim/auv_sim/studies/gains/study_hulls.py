@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -77,3 +78,17 @@ def study_hulls(drawn: int) -> dict[str, Vehicle]:
     return {**shipped(), "stable in yaw": stable_hull()} | {
         f"drawn {number}": drawn_hull(number) for number in range(drawn)
     }
+
+
+def chosen(hulls: Mapping[str, Vehicle], names: Sequence[str] | None) -> dict[str, Vehicle]:
+    """Return the hulls with the given names, in the order of the study; all without names.
+
+    Raises:
+        ConfigurationError: a name that none of the hulls has.
+    """
+    if names is None:
+        return dict(hulls)
+    unknown = [name for name in names if name not in hulls]
+    if unknown:
+        raise ConfigurationError("--hulls", ", ".join(unknown), f"some of: {', '.join(hulls)}")
+    return {name: hull for name, hull in hulls.items() if name in names}
