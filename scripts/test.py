@@ -27,12 +27,18 @@ CHECKS = {
 def main(arguments: list[str]) -> int:
     from auv_sim.launch.processes.domains import free_domain  # not before there is an environment
 
+    with free_domain() as domain:
+        return run(arguments, domain)
+
+
+def run(arguments: list[str], domain: int) -> int:
+    """Run all checks, or pytest alone with arguments, in a ROS domain; return the exit code."""
     checks = {"tests": ("pytest", *arguments)} if arguments else CHECKS
     environment = {
         **os.environ,
         # Nothing of a test leaves this machine, nor meets another run on it.
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-        "ROS_DOMAIN_ID": str(free_domain()),
+        "ROS_DOMAIN_ID": str(domain),
         # A sourced ROS brings plug-ins for another pytest.
         "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",
     }

@@ -25,9 +25,6 @@ os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
 # xdist sets the width of the terminal in its workers; the commands under test write into pipes.
 os.environ.pop("COLUMNS", None)
 _ASKED = itertools.count()
-#: Domains of the other workers of this run are far from one worker's own.
-_FIRST = 33 * int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
-
 
 # A test that takes longer on a loaded machine has not failed.
 settings.register_profile("suite", deadline=None)
@@ -46,11 +43,11 @@ def short_mission() -> Path:
 
 
 @pytest.fixture
-def domain(monkeypatch: pytest.MonkeyPatch) -> int:
-    """A ROS domain that is not in use, and that no other test has just left."""
-    number = free_domain(skip=_FIRST + next(_ASKED) % 10)
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
-    return number
+def domain(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
+    """A ROS domain of this test alone, and that no other test has just left."""
+    with free_domain(skip=next(_ASKED)) as number:
+        monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
+        yield number
 
 
 @pytest.fixture

@@ -49,8 +49,7 @@ def install(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def domain() -> Iterator[int]:
     """A ROS domain of this test's own, on this machine only."""
-    with pytest.MonkeyPatch.context() as patch:
-        number = free_domain()
+    with pytest.MonkeyPatch.context() as patch, free_domain() as number:
         patch.setenv("ROS_DOMAIN_ID", str(number))
         patch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
         yield number

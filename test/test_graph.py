@@ -42,8 +42,15 @@ def messages(bag: Path) -> dict[str, list[bytes]]:
 @pytest.fixture(scope="module")
 def paper_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The paper's whole mission in a current, over separate processes; a second launcher changes nothing."""
-    run, domain = tmp_path_factory.mktemp("paper") / "run", str(free_domain())
-    asked = ["--quiet", "--domain", domain, "--out"]
+    run = tmp_path_factory.mktemp("paper") / "run"
+    with free_domain() as domain:
+        fly_beside_another(run, domain)
+    return run
+
+
+def fly_beside_another(run: Path, domain: int) -> None:
+    """Fly the paper's mission while a second launcher is refused."""
+    asked = ["--quiet", "--domain", str(domain), "--out"]
     second: list[subprocess.CompletedProcess[str]] = []
 
     def intrude() -> None:
@@ -58,7 +65,6 @@ def paper_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     assert main(["--params", "paper", "--current", "0.1", "0.2", *asked, str(run)]) == 0
     intruder.join(120.0)
     assert [(one.returncode, "/clock" in one.stderr) for one in second] == [(2, True)]
-    return run
 
 
 def test_the_papers_mission_over_the_graph_equals_closed_loop(paper_run: Path, tmp_path: Path) -> None:

@@ -207,7 +207,8 @@ def test_a_vehicles_ros_domain_is_the_shells(
     monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)
     if named is not None:
         monkeypatch.setenv("ROS_DOMAIN_ID", named)
-    assert domain_of(mission_plan.make(Options(no_sim=True), tmp_path)) == number
+    with domain_of(mission_plan.make(Options(no_sim=True), tmp_path)) as found:
+        assert found == number
 
 
 def test_a_plan_is_flown_and_leaves_a_mission_file_that_flies_the_same(

@@ -19,7 +19,6 @@ from pathlib import Path
 
 import pytest
 
-from auv_sim.launch.processes.domains import free_domain
 from test_graph import messages
 
 #: How a launcher may fly -> its arguments.
@@ -61,7 +60,7 @@ def alone(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[Path],
 
             out = tmp_path_factory.mktemp("alone") / "run"
             asked = ["--quiet", "--flown", "0", "--mission", str(mission), "--out", str(out)]
-            assert main([*asked, "--domain", str(free_domain())]) == 0
+            assert main(asked) == 0
             found[mission] = messages(out / "bag")
         return found[mission]
 

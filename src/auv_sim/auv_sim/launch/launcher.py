@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 
 from auv_msgs_py.contract import topics
@@ -26,15 +27,17 @@ from auv_sim.launch.vehicle_driver import EMULATOR, EMULATOR_MODULE
 _COMPOSED = "composed"
 
 
-def domain_of(plan: Plan) -> int:
+def domain_of(plan: Plan) -> AbstractContextManager[int]:
     """Return the ROS domain: of the command line; for a foreign vehicle, the environment; else a free one.
+
+    A free one is claimed until the context ends.
 
     Raises:
         ConfigurationError: ROS_DOMAIN_ID is not a domain.
     """
     if plan.options.domain is not None:
-        return plan.options.domain
-    return domain_of_environment() if plan.options.no_sim else free_domain()
+        return nullcontext(plan.options.domain)
+    return nullcontext(domain_of_environment()) if plan.options.no_sim else free_domain()
 
 
 def domain_of_environment() -> int:

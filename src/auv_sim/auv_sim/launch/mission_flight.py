@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import time
+from contextlib import nullcontext
 from pathlib import Path
 
 from rich.console import Console
@@ -42,7 +43,13 @@ def fly(options: Options, loader: Starter, domain: int | None = None) -> int:
     """
     directory = run_directory(options)
     resolved = prepare(options, directory)
-    domain = launcher.domain_of(resolved) if domain is None else domain
+    with launcher.domain_of(resolved) if domain is None else nullcontext(domain) as chosen:
+        return _flown(resolved, directory, chosen, loader)
+
+
+def _flown(resolved: Plan, directory: Path, domain: int, loader: Starter) -> int:
+    """Fly a plan, conclude its run directory; return the exit code."""
+    options = resolved.options
     console = terminal(options.quiet)
     make_directory(directory, new=True)
     announce(resolved, domain, console)

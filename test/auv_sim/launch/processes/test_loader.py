@@ -15,7 +15,6 @@ from auv_sim.launch.composed import NODES
 from auv_sim.launch.outcome import MissionFailed
 from auv_sim.launch.processes import discovery
 from auv_sim.launch.processes.adopted import Adopted, Loader
-from auv_sim.launch.processes.domains import free_domain
 
 #: What takes long to import, none of it for a node.
 NEVER = {"matplotlib", "scipy", "rich", "numba", "pyarrow", "pymavlink", "pandas"}
@@ -88,8 +87,7 @@ def test_an_exit_code_is_kept_and_patience_ends() -> None:
     process.send_signal(signal.SIGINT)  # it has ended: nothing is sent
 
 
-def test_the_look_is_short_where_nothing_else_can_be(monkeypatch: pytest.MonkeyPatch) -> None:
-    domain = free_domain(skip=20)
+def test_the_look_is_short_where_nothing_else_can_be(domain: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("ROS_STATIC_PEERS", raising=False)
     assert discovery.look_for(domain) == discovery.LOOK_ALONE
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as participant:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
 import math
 import os
@@ -49,8 +50,14 @@ def run(arguments: argparse.Namespace, not_default: Mapping[str, Any]) -> int:
     rows = _rows(arguments)
     if arguments.out is not None:
         make_directory(arguments.out, new=True)
-    os.environ["ROS_DOMAIN_ID"] = str(arguments.domain if arguments.domain is not None else free_domain())
-    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    asked = arguments.domain
+    with free_domain() if asked is None else contextlib.nullcontext(asked) as domain:
+        os.environ |= {"ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+        return _spoil(rows, arguments, not_default)
+
+
+def _spoil(rows: list[Expectation], arguments: argparse.Namespace, not_default: Mapping[str, Any]) -> int:
+    """Fly the rows, or the siege, in the ROS domain of the environment; return the exit code."""
     console = terminal()
     with tempfile.TemporaryDirectory(prefix="auv-faults-") as scratch:
         if arguments.hostile is not None:

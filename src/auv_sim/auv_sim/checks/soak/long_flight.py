@@ -169,8 +169,8 @@ def _plan(directory: Path, minutes: float, name: str) -> Plan:
 
 def _flown(resolved: Plan, directory: Path, watch: Watch) -> Outcome:
     """Fly; return the outcome of a complete mission."""
-    with watch, Loader() as loader:
-        outcome = launcher.fly(resolved, directory, free_domain(), watch, loader)
+    with watch, Loader() as loader, free_domain() as domain:
+        outcome = launcher.fly(resolved, directory, domain, watch, loader)
     if outcome.state == "interrupted":
         raise KeyboardInterrupt(f"interrupted: {outcome.reason}")
     if outcome.state != "complete":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import shutil
+from contextlib import nullcontext
 from pathlib import Path
 
 from auv_msgs_py.node.graph_look import GraphTaken
@@ -40,15 +41,20 @@ def fly(fleet: str, options: Options, loader: Starter, domain: int | None = None
     """
     directory = run_directory(fleet, options)
     plan = fleet_plan.make(fleet, options, directory)
-    if domain is None:
-        domain = launcher.domain_of(next(iter(plan.members.values())))
-    console = terminal(options.quiet)
+    one = next(iter(plan.members.values()))
+    with launcher.domain_of(one) if domain is None else nullcontext(domain) as chosen:
+        return _fly(plan, directory, chosen, options.quiet, loader)
+
+
+def _fly(plan: FleetPlan, directory: Path, domain: int, is_quiet: bool, loader: Starter) -> int:
+    """Fly a plan and conclude each mission's run directory; return the exit code."""
+    console = terminal(is_quiet)
     make_directory(directory, new=True)
     for member in plan.members.values():
         mission_flight.announce(member, domain, console)
     paths = {label: member.mission.path for label, member in plan.members.items()}
     try:
-        with FleetProgress(paths, console, options.quiet) as progress:
+        with FleetProgress(paths, console, is_quiet) as progress:
             outcomes = fleet_launcher.fly(plan, domain, progress, loader)
     except GraphTaken:
         shutil.rmtree(directory)  # nothing was flown: the same command must work again

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import os
 import socket
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from auv_msgs_py.values.errors import ConfigurationError
 
 #: Higher domains use ports that Linux assigns to others; 0 is the default of every program.
 LAST = 101
@@ -11,21 +15,54 @@ LAST = 101
 _PARTICIPANTS = 120
 
 
-def free_domain(skip: int = 0) -> int:
-    """Return a ROS domain in which no participant of this machine is found.
+@contextmanager
+def free_domain(skip: int = 0) -> Iterator[int]:
+    """Claim a ROS domain without participants on this machine; the claim ends with the block or the process.
+
+    A domain has no participants until the caller's first node is up: looking alone could give two callers the
+    same one. The claim excludes every other caller of this function from the start.
 
     Args:
-        skip: number of domains to leave out, for a caller that needs several before it uses any.
+        skip: number of domains to pass over. Successive callers of one process that use different numbers do
+            not meet participants that are still leaving.
+
+    Yields:
+        The number of the domain.
+
+    Raises:
+        ConfigurationError: every domain is in use.
     """
-    # The first candidate depends on the process, so that two simultaneous callers get different domains.
     begin = os.getpid() + skip
-    numbers = [1 + (begin + k) % LAST for k in range(LAST)]
-    return next((number for number in numbers if not _is_taken(number, 0)), numbers[0])
+    for number in (1 + (begin + k) % LAST for k in range(LAST)):
+        claim = _claim(number)
+        if claim is None:
+            continue
+        with claim:
+            if has_participants(number):
+                continue
+            yield number
+            return
+    raise ConfigurationError("ROS domain", f"1 to {LAST} all in use", "a free one, or --domain with a number")
 
 
 def has_participants(domain: int) -> bool:
     """Return whether any participant of this machine is in a ROS domain."""
     return any(_is_taken(domain, participant) for participant in range(_PARTICIPANTS))
+
+
+def _claim(domain: int) -> socket.socket | None:
+    """Return what holds a claim until it is closed, None if another caller holds it.
+
+    It is a name of Linux's abstract namespace. Like the ports of the participants it belongs to the network
+    namespace, and the kernel releases it however the process ends.
+    """
+    claim = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+    try:
+        claim.bind(f"\0auv_path_following/ros_domain/{domain}")
+    except OSError:
+        claim.close()
+        return None
+    return claim
 
 
 def _is_taken(domain: int, participant: int) -> bool:

@@ -27,6 +27,7 @@ from auv_sim.nodes.manoeuvres.manoeuvres_node import INTERRUPTED, ManoeuvresNode
 from auv_sim.own_vehicle.manoeuvres import program_file
 from auv_sim.own_vehicle.manoeuvres.legs import fin_shares
 from auv_sim.own_vehicle.manoeuvres.manoeuvre_run import ManoeuvreBounds, ManoeuvreRun
+from auv_sim.own_vehicle.manoeuvres.program_file import Program
 from auv_sim.terminal import console, go_on, progress_bar, wrote
 from auv_sim.vehicle import sea
 
@@ -48,11 +49,16 @@ def fly(options: argparse.Namespace) -> int:
         sea.load(options.sea)
     if options.no_sim:
         _ask(options, hull, rehearsal.duration)
-    elif options.consent:
+        return _fly(options, hull, program)
+    if options.consent:
         raise ConfigurationError(CONSENT, "no --no-sim", "both: on the simulator no vehicle moves")
-    else:
-        # A rehearsal meets no other graph.
-        os.environ |= {"ROS_DOMAIN_ID": str(free_domain()), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    with free_domain() as domain:  # a rehearsal meets no other graph
+        os.environ |= {"ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+        return _fly(options, hull, program)
+
+
+def _fly(options: argparse.Namespace, hull: Vehicle, program: Program) -> int:
+    """Fly a program in the ROS domain of the environment; return the exit code."""
     directory = options.out or Path("runs") / time.strftime("manoeuvres-%Y%m%d-%H%M%S")
     make_directory(directory, new=True)
     _keep(options, directory)

@@ -24,11 +24,12 @@ class MeasuredProcesses(Children):
 
     Args:
         directory: their logs go below it.
+        domain: ROS domain.
         stop: set by a signal.
     """
 
-    def __init__(self, directory: Path, stop: StopRequest) -> None:
-        environment = {"ROS_DOMAIN_ID": str(free_domain()), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    def __init__(self, directory: Path, domain: int, stop: StopRequest) -> None:
+        environment = {"ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
         os.environ.update(environment)  # for nodes of this process that observe them
         super().__init__(directory / "log", environment)
         self._stop = stop
@@ -71,8 +72,8 @@ def interruptible() -> Iterator[StopRequest]:
 @contextmanager
 def processes(directory: Path) -> Iterator[MeasuredProcesses]:
     """Yield processes that are stopped at the end, whatever happens."""
-    with interruptible() as stop:
-        children = MeasuredProcesses(directory, stop)
+    with interruptible() as stop, free_domain() as domain:
+        children = MeasuredProcesses(directory, domain, stop)
         try:
             yield children
         finally:
