@@ -78,7 +78,7 @@ class Bench:
         keep = self.received[topic.name].append
         self.node.create_subscription(kind, topic.name, keep, qos.requested(topic, reliable=True, depth=100))
 
-    def until(self, condition: Callable[[], Any], patience: float = 20.0) -> None:
+    def until(self, condition: Callable[[], Any], patience: float = 180.0) -> None:
         deadline = time.monotonic() + patience
         while not condition():
             assert time.monotonic() < deadline, "the node did not do what was waited for"

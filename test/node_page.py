@@ -23,7 +23,7 @@ def evaluate(code: str) -> Any:
         code = code.replace(f"'{name}'", f"'file://{PAGE.joinpath(f'{name}.js')}'")
     done = subprocess.run(
         [NODE, "--input-type=module", "-e", f"let out;\n{code}\n{_END}"],
-        capture_output=True, text=True, check=False, timeout=60,
+        capture_output=True, text=True, check=False, timeout=180,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout)

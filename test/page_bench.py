@@ -89,7 +89,7 @@ async def page_bench(**options: Any) -> AsyncIterator[PageBench]:
 async def heard(socket: ClientWebSocketResponse, kind: str, **fields: Any) -> dict[str, Any]:
     """Return the next text message of a kind with these fields."""
     while True:
-        message = await socket.receive(timeout=10.0)
+        message = await socket.receive(timeout=180.0)
         assert message.type in (aiohttp.WSMsgType.TEXT, aiohttp.WSMsgType.BINARY), message
         if message.type is aiohttp.WSMsgType.TEXT:
             found: dict[str, Any] = json.loads(message.data)

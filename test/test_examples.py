@@ -113,5 +113,5 @@ def test_the_minimal_driver_turns_to_port_by_a_positive_rudder(
     assert seen[-1].pose.pose.position.x > 0.0 and seen[-1].twist.twist.linear.x > 0.0
     bench.until(lambda: seen[-1].twist.twist.linear.x == 0.0)  # no command for 1 s
     driver.terminate()
-    _, error = driver.communicate(timeout=20)
+    _, error = driver.communicate(timeout=180)
     assert (driver.returncode, error) == (0, "")

@@ -177,7 +177,7 @@ def fly(habits: Habits, mission: Path = MISSION) -> np.ndarray:
     for node in (torpedo.node, *nodes):
         executor.add_node(node)
 
-    def until(condition: Callable[[], bool], patience: float = 30.0) -> bool:
+    def until(condition: Callable[[], bool], patience: float = 180.0) -> bool:
         deadline = time.monotonic() + patience
         while not condition() and time.monotonic() < deadline:
             executor.spin_once(timeout_sec=0.02)

@@ -45,7 +45,7 @@ class Operator:
     def _on_status(self, message: DiagnosticStatus) -> None:
         self.status = {pair.key: pair.value for pair in message.values}
 
-    def until(self, condition: Callable[[], object], patience: float = 20.0) -> None:
+    def until(self, condition: Callable[[], object], patience: float = 180.0) -> None:
         deadline = time.monotonic() + patience
         while not condition():
             assert time.monotonic() < deadline, self.status
@@ -78,7 +78,7 @@ def operator(domain: int) -> Iterator[Operator]:
     rclpy.try_shutdown()
 
 
-def answer_with(browser: ConsoleBrowser, field: str, request: str, patience: float = 60.0) -> Any:
+def answer_with(browser: ConsoleBrowser, field: str, request: str, patience: float = 180.0) -> Any:
     """Ask until every node has answered the console: on a loaded machine one may take too long."""
     deadline = time.monotonic() + patience
     while field not in (answer := browser.ask(request)):
@@ -141,7 +141,7 @@ def test_missions_follow_each_other_until_ctrl_c(
     operator.until(lambda: operator.is_it("short", "complete") and operator.status["begun at [s]"])
     assert launcher.poll() is None
     launcher.send_signal(signal.SIGINT)
-    out, err = launcher.communicate(timeout=60)
+    out, err = launcher.communicate(timeout=180)
     assert (launcher.returncode, err) == (0, ""), out
     flown = [line for line in out.splitlines() if ": complete, flown " in line]
     assert [line.split(":")[0] for line in flown] == ["other", "short"], out

@@ -140,7 +140,7 @@ def test_ctrl_c_while_a_script_is_still_loading_says_so_in_a_line(tmp_path: Path
     assert process.stdout is not None
     assert process.stdout.readline() == "loading\n"
     process.send_signal(signal.SIGINT)
-    _, err = process.communicate(timeout=60)
+    _, err = process.communicate(timeout=180)
     assert process.returncode == -signal.SIGINT  # which a shell calls 130
     assert err == "interrupted\n"
 

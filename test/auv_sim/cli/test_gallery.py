@@ -151,7 +151,7 @@ def test_ctrl_c_ends_the_flight_as_well(
     (mission,) = children_of(process.pid)
     nodes = children_of(mission)
     process.send_signal(signal.SIGINT)
-    _, error = process.communicate(timeout=60)
+    _, error = process.communicate(timeout=180)
     assert process.returncode == 130
     assert error.splitlines()[-1].startswith("interrupted")
     assert not any(Path(f"/proc/{pid}").exists() for pid in (mission, *nodes))

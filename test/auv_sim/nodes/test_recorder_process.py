@@ -114,7 +114,7 @@ def talk(publisher: Any, until: Callable[[], bool]) -> float:
 
 def stop(process: subprocess.Popen[str]) -> str:
     process.send_signal(signal.SIGINT)
-    output, _ = process.communicate(timeout=20)
+    output, _ = process.communicate(timeout=180)
     return output
 
 
@@ -205,7 +205,7 @@ def test_replay_repeats_messages_and_qos(tmp_path: Path, node: Node) -> None:
     code = "import sys; from auv_sim.cli.bag import main; sys.exit(main(sys.argv[1:]))"
     replay = [sys.executable, "-c", code, "replay", str(tmp_path / "first"), "--topics", "true_current"]
     done = subprocess.run(
-        [*replay, "--rate", "2", "--delay", "3"], env=dict(os.environ), timeout=60, check=False
+        [*replay, "--rate", "2", "--delay", "3"], env=dict(os.environ), timeout=180, check=False
     )
     assert done.returncode == 0
     time.sleep(0.2)

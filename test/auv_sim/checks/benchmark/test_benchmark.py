@@ -294,7 +294,7 @@ def test_ctrl_c_leaves_nothing_behind(
     while not (nodes := children_of(process.pid)) and process.poll() is None:
         pass
     process.send_signal(signal.SIGINT)
-    _, error = process.communicate(timeout=60)
+    _, error = process.communicate(timeout=180)
     assert process.returncode == 130
     assert error.strip() == "interrupted; nothing was written"
     assert not any(Path(f"/proc/{pid}").exists() for pid in nodes)

@@ -35,7 +35,7 @@ def test_ctrl_c_ends_the_flight_and_its_nodes(
         time.sleep(0.05)
     nodes = children_of(process.pid)
     process.send_signal(signal.SIGINT)
-    _, err = process.communicate(timeout=60)
+    _, err = process.communicate(timeout=180)
     assert process.returncode == 130
     assert err.splitlines()[-1] == "interrupted" and "Traceback" not in err
     assert len(nodes) == 4 and not any(Path(f"/proc/{pid}").exists() for pid in nodes)

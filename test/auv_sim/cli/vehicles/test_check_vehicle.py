@@ -133,7 +133,7 @@ def test_it_does_not_take_the_rudder_from_another_node(
 ) -> None:
     spawn(command_line("auv_path_following.nodes.heading_autopilot_node", "--ros-args", "-r", "__ns:=/auv"))
     # In another process: a second participant of one process is discovered up to 3 s later than the first.
-    subprocess.run([sys.executable, "-c", _UNTIL_COMMANDED, str(domain)], check=True, timeout=60.0)
+    subprocess.run([sys.executable, "-c", _UNTIL_COMMANDED, str(domain)], check=True, timeout=180)
     assert main([*CONSENT, "--wait", "2"]) == 2
     assert "heading_autopilot sending commands" in capsys.readouterr().err
 

@@ -43,7 +43,7 @@ def test_it_flies_a_mission_whose_nodes_another_process_starts(
         said += line
     assert f"ROS domain {domain}, namespace /auv" in said  # that of the environment, not one of its own
     nodes = launched(Path(said.rpartition(READY)[2].strip()), spawn)
-    table, errors = supervisor.communicate(timeout=60.0)
+    table, errors = supervisor.communicate(timeout=180)
     assert supervisor.returncode == 0, errors
     assert "short: complete" in table
     assert nodes.wait(10.0) == 0  # stopped by the supervisor, after the recorder has closed the bag
@@ -57,7 +57,7 @@ def test_it_refuses_as_the_command_does(
 ) -> None:
     module = "auv_sim.launch.ros_launch.supervisor"
     supervisor = spawn(command_line(module, "no_such", "--nodes-only", "--out", tmp_path / "run"))
-    output, errors = supervisor.communicate(timeout=30.0)
+    output, errors = supervisor.communicate(timeout=180)
     assert (supervisor.returncode, output, errors.count("\n")) == (2, "", 1)
     assert errors.startswith("no_such: found no such mission file")
     assert not (tmp_path / "run").exists()
@@ -68,7 +68,7 @@ def test_it_refuses_for_a_fleet_what_its_file_holds(
 ) -> None:
     module = "auv_sim.launch.ros_launch.supervisor"
     supervisor = spawn(command_line(module, "--fleet", "two", "--depth", "3", "--out", tmp_path / "run"))
-    output, errors = supervisor.communicate(timeout=30.0)
+    output, errors = supervisor.communicate(timeout=180)
     assert (supervisor.returncode, output) == (2, "")
     assert errors.startswith("--depth: found together with --fleet, expected it in the fleet's file")
     assert not (tmp_path / "run").exists()

@@ -30,7 +30,7 @@ async def rows_of(browser: aiohttp.ClientWebSocketResponse, count: int) -> list[
     """Return the first column of the next rows."""
     found: list[float] = []
     while len(found) < count:
-        message = await browser.receive(timeout=10.0)
+        message = await browser.receive(timeout=180.0)
         assert message.type in (aiohttp.WSMsgType.TEXT, aiohttp.WSMsgType.BINARY), message
         if message.type is aiohttp.WSMsgType.BINARY:
             values = memoryview(message.data[ROWS_HEADER.size :]).cast("f")
@@ -147,7 +147,7 @@ def test_a_browser_that_floods_is_cut_and_others_stay() -> None:
         quiet, flood = await bench.browser(), await bench.browser()
         for _ in range(3 * viewer.MOST_REQUESTS):
             await flood.send_str('{"id": 1, "do": "nothing"}')
-        while (await flood.receive(timeout=10.0)).type is aiohttp.WSMsgType.TEXT:
+        while (await flood.receive(timeout=180.0)).type is aiohttp.WSMsgType.TEXT:
             pass
         assert flood.closed
         assert (await asked(quiet, id=2, do="abort", vehicle=0))["ok"]
@@ -160,7 +160,7 @@ def test_a_request_that_is_too_long_ends_its_browser_alone() -> None:
     async def check(bench: PageBench) -> None:
         quiet, loud = await bench.browser(), await bench.browser()
         await loud.send_str(json.dumps({"id": 1, "do": "start", "text": "x" * 600_000}))
-        while (await loud.receive(timeout=10.0)).type is aiohttp.WSMsgType.TEXT:
+        while (await loud.receive(timeout=180.0)).type is aiohttp.WSMsgType.TEXT:
             pass
         assert (await asked(quiet, id=2, do="abort", vehicle=0))["ok"]
 
@@ -210,7 +210,7 @@ def test_a_browser_that_answers_no_ping_is_cut(monkeypatch: pytest.MonkeyPatch) 
     async def check(bench: PageBench) -> None:
         deaf, reader = await deaf_browser(bench), await bench.browser()
         while bench.server.viewers != 1:
-            await reader.receive(timeout=10.0)
+            await reader.receive(timeout=180.0)
         assert (await asked(reader, id=1, do="abort", vehicle=0))["ok"]
         deaf.close()
 
