@@ -231,6 +231,23 @@ def test_a_printed_command_is_the_same_after_the_shell_has_read_it() -> None:
     ]  # fmt: skip
 
 
+@pytest.mark.parametrize(
+    ("running", "printed"),
+    [
+        (str(ROOT / "scripts" / "vehicle.py"), str(ROOT / "scripts" / "bag.py")),
+        ("../scripts/vehicle.py", "../scripts/bag.py"),
+        ("vehicle.py", "scripts/bag.py"),  # no script of that name here
+        ("/usr/bin/ros2", "scripts/bag.py"),
+    ],
+)
+def test_a_printed_command_starts_the_script_where_the_shell_finds_it(
+    running: str, printed: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(ROOT / "docs")
+    monkeypatch.setattr(sys, "argv", [running, "identify"])
+    assert shlex.split(command_line.to_type("bag.py")) == ["python3", printed]
+
+
 def test_only_options_that_differ_from_their_defaults_are_repeated() -> None:
     parser = plan.parser()
     options = parser.parse_args(["box", "--current", "0", "0", "--params", "robust", "--vehicle", "remus100"])

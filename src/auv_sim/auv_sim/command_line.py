@@ -164,19 +164,27 @@ def ros_domain(text: str) -> int:
 
 
 def to_type(script: str, *words: object, **options: object) -> str:
-    """Return a command of `scripts/`, quoted for the shell.
+    """Return a command of `scripts/`, quoted for the shell that started the present one.
 
     Args:
         script: its file.
         words: positional arguments.
         options: name -> value, or several; True stands for the option alone, None for none.
     """
-    line = ["python3", f"scripts/{script}", *map(str, words)]
+    line = ["python3", _beside(script), *map(str, words)]
     for name, value in options.items():
         if value is not None:
             values = value if isinstance(value, (tuple, list)) else () if value is True else (value,)
             line += [f"--{name.replace('_', '-')}", *map(str, values)]
     return shlex.join(line)
+
+
+def _beside(script: str) -> str:
+    """Return the path of a script, written as that of the running one: the shell may be in any directory."""
+    running = Path(sys.argv[0])
+    if running.resolve().parent.name == "scripts" and running.with_name(script).is_file():
+        return str(running.with_name(script))
+    return f"scripts/{script}"
 
 
 def not_default(parser: argparse.ArgumentParser, options: argparse.Namespace) -> dict[str, Any]:

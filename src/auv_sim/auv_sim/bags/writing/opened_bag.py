@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 import re
-import shlex
 from collections.abc import Mapping
 from pathlib import Path
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.writing.bag_writer import BagWriter
 from auv_sim.bags.writing.disk_room import room_lacking
+from auv_sim.command_line import to_type
 from auv_sim.sim_parameters import RecorderParameters
 
 
@@ -64,6 +64,6 @@ def closed(writer: BagWriter, lost: Mapping[str, int]) -> list[str]:
     lines = [f"{place}: {sum(counts.values())} messages of {len(counts)} topics, {missing} dropped"]
     lines += [f"{place}: {number} messages of {name} never came" for name, number in lost.items()]
     if not whole:
-        advice = f"python3 scripts/bag.py repair {shlex.quote(str(place))} makes it whole"
+        advice = f"{to_type('bag.py', 'repair', place)} makes it whole"
         lines.append(f"{place}: left unfinished ({writer.trouble}); {advice}")
     return lines
