@@ -55,6 +55,14 @@ def test_so_does_the_command(path, tmp_path):
     assert _says(path) in done.stderr
 
 
+def test_the_joints_of_a_long_survey_are_counted_and_leave_the_verdict_in_sight(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert plan_command.main(["survey_wgs84"]) == 0
+    out = capsys.readouterr().out
+    assert "  joints    36 G1, largest gap 0.000 mm" in out and "no fault found" in out
+    assert out.count("\n") < 15
+
+
 @pytest.mark.parametrize("name", config_files.shipped("missions"))
 def test_every_shipped_mission_is_flyable(name):
     vehicle = "remus100" if mission_file.load(name).spatial is None else "remus100_6dof"

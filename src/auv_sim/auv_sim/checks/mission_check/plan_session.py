@@ -37,9 +37,8 @@ from auv_sim.sim_parameters import SUITE
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, wrote
 
-_ROWS = 40
-
-
+#: More joints than this are counted, not listed: verdict and summary stay on one screen.
+_ROWS = 12
 _ALL_THE_SAME = "scripts/mission.py --force would fly it all the same"
 #: Options of this command that `scripts/mission.py` has as well.
 _FLOWN_WITH = ("mission", "vehicle", "params", "current", "upwelling", "switching")
@@ -153,7 +152,7 @@ def _joints(mission: Mission) -> Table | str:
         counts = Counter(joint.geometric for joint in joints)
         listed = ", ".join(f"{counts[name]} {name}" for name in ("G0", "G1", "G2") if counts[name])
         worst = max(joints, key=lambda joint: joint.gap)
-        return f"  joints    {listed}, largest gap {worst.gap * 1e3:.2g} mm at joint {worst.index}"
+        return f"  joints    {listed}, largest gap {worst.gap * 1e3:.3f} mm at joint {worst.index}"
     table = Table(title="joints", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
     for heading in ("", "between"):
         table.add_column(heading, no_wrap=True)
