@@ -55,7 +55,9 @@ def test_so_does_the_command(path, tmp_path):
     assert _says(path) in done.stderr
 
 
-def test_the_joints_of_a_long_survey_are_counted_and_leave_the_verdict_in_sight(tmp_path, capsys, monkeypatch):
+def test_the_joints_of_a_long_survey_are_counted_and_leave_the_verdict_in_sight(
+    tmp_path, capsys, monkeypatch
+):
     monkeypatch.chdir(tmp_path)
     assert plan_command.main(["survey_wgs84"]) == 0
     out = capsys.readouterr().out

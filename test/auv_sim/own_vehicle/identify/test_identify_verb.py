@@ -57,6 +57,7 @@ def test_a_recording_of_another_maker_becomes_a_vehicle_file_that_flies(
     assert pole_of(c, 2.0) > 0.5
     assert radius_of(c, REMUS, 1.0) == pytest.approx(radius_of(true, REMUS, 1.0), rel=0.2)
     assert "# assumed" in out.read_text() and "+-" in out.read_text()
+    assert f"# Identified from {bag}.\n" in out.read_text()  # the name alone is `bag` in every run
 
 
 def test_both_frames_and_repeated_samples_are_read_alike(flown: Manoeuvred, tmp_path: Path) -> None:
@@ -201,3 +202,11 @@ def _first(flown: Manoeuvred, rows: int) -> Manoeuvred:
         if isinstance(column, np.ndarray) and column.shape[0] == n
     }
     return flown._replace(**kept)
+
+
+@pytest.mark.parametrize("verb", ["manoeuvres", "identify", "tune", "prove"])
+def test_every_verb_that_works_for_long_can_be_quiet(verb: str) -> None:
+    known = {"manoeuvres": ["--vehicle", "remus100"], "identify": ["bag"]}
+    words = [verb, *known.get(verb, ["remus100"])]
+    parse = vehicle_command.parser().parse_args
+    assert parse([*words, "--quiet"]).quiet and not parse(words).quiet

@@ -20,6 +20,7 @@ from auv_sim.own_vehicle.identify.minimise import Minimised, minimise
 from auv_sim.own_vehicle.identify.refine.model_errors import with_model_errors
 from auv_sim.own_vehicle.identify.refine.own_trims import own_trim_columns, with_own_trims
 from auv_sim.own_vehicle.identify.refine.servo_search import search_servo
+from auv_sim.own_vehicle.identify.refine.vertical_loads import load_columns, with_vertical_loads
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
 from auv_sim.own_vehicle.identify.unknowns import ALL, LATENCY, DataSheet, Scaling
 
@@ -136,18 +137,39 @@ def best_of(
     progress(total - 3, total, "starts with the servo found")
     scaling, estimate = _anew(channels, scaling, estimate, [prior for prior, _ in starts])
     progress(total - 2, total, "errors of the model")
-    channels, estimate = with_model_errors(channels, scaling, estimate)
-    channels, estimate = _with_own_trims(recordings, channels, scaling, estimate)
-    channels, estimate = search_servo(channels, scaling, estimate, dead_band is not None)
-    channels, estimate = with_model_errors(channels, scaling, estimate)
-    scaling, estimate = _widened(channels, scaling, estimate)
+    channels, scaling, estimate = _refined(recordings, channels, scaling, estimate, dead_band is not None)
     progress(total - 1, total, "intervals")
-    spread = spread_of(channels, scaling, estimate, own_trim_columns(channels, scaling, estimate))
+    spread = _spread(channels, scaling, estimate)
     progress(total, total, "done")
     return Identified(
         scaling.physical(estimate.z), spread, channels.dead_band, channels, scaling, estimate,
         tuple(misfit - min(misfits) for misfit in misfits),
     )  # fmt: skip
+
+
+def _refined(
+    recordings: Sequence[Recording],
+    channels: Channels,
+    scaling: Scaling,
+    estimate: Minimised,
+    is_band_known: bool,
+) -> tuple[Channels, Scaling, Minimised]:
+    """Return an estimate with its model's errors, trims, vertical loads, best servo near it and prior."""
+    channels, estimate = with_model_errors(channels, scaling, estimate)
+    channels, estimate = _with_own_trims(recordings, channels, scaling, estimate)
+    channels, estimate = with_vertical_loads(channels, scaling, estimate)
+    channels, estimate = search_servo(channels, scaling, estimate, is_band_known)
+    channels, estimate = with_model_errors(channels, scaling, estimate)
+    scaling, estimate = _widened(channels, scaling, estimate)
+    channels, estimate = with_vertical_loads(channels, scaling, estimate)
+    return channels, scaling, estimate
+
+
+def _spread(channels: Channels, scaling: Scaling, estimate: Minimised) -> Covariances:
+    """Return the uncertainty of an estimate; trims and vertical loads were estimated beside it."""
+    parts = channels, scaling, estimate
+    further = np.hstack((own_trim_columns(*parts), load_columns(*parts)))
+    return spread_of(*parts, further, channels.loads_off.size)
 
 
 def _from_starts(

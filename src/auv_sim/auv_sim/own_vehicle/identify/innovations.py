@@ -92,6 +92,16 @@ class Channels(NamedTuple):
         passages = zip(self.passages, more, strict=True)
         return self._replace(passages=tuple(p._replace(trim=p.trim + float(m)) for p, m in passages))
 
+    @property
+    def loads_off(self) -> Numbers:
+        """`VerticalLoads.off` of all passages; empty where heave, roll and pitch are not known."""
+        return next((p.loads.off for p in self.passages if p.loads is not None), np.zeros(0))
+
+    def with_loads_off(self, off: Numbers) -> Channels:
+        """Return the channels with other `VerticalLoads.off`."""
+        found = (p if p.loads is None else p.with_loads(p.loads._replace(off=off)) for p in self.passages)
+        return self._replace(passages=tuple(found))
+
 
 #: Places in `Channels.noise`: growth of the first state's variance, variance of the fin's error.
 FIRST_GROWTH, FIN_VARIANCE = 3, 8

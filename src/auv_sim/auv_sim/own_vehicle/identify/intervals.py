@@ -53,18 +53,22 @@ class Covariances(NamedTuple):
         return np.array([self.total(row) for row in np.eye(ALL)])
 
 
-def spread_of(channels: Channels, scaling: Scaling, estimate: Minimised, further: Numbers) -> Covariances:
+def spread_of(
+    channels: Channels, scaling: Scaling, estimate: Minimised, further: Numbers, bounded: int = 0
+) -> Covariances:
     """Return the uncertainty of an estimate.
 
     Args:
         channels, scaling, estimate: the estimate.
         further: derivatives of the weighed innovations by numbers that were estimated beside the unknowns,
             (m, numbers).
+        bounded: how many of them, the last ones, have unit variance before any data.
     """
     free = free_unknowns(scaling)
     weights = weights_of(channels, scaling, estimate)
     J = np.hstack((_slopes(channels, scaling, estimate, free, weights), further))
-    before = np.diag(np.arange(J.shape[1]) < free.size).astype(float)
+    places = np.arange(J.shape[1])
+    before = np.diag((places < free.size) | (places >= J.shape[1] - bounded)).astype(float)
     bread = np.linalg.inv(J.T @ J + before)
     scores = np.zeros((int(channels.blocks.max()) + 1, J.shape[1]))
     np.add.at(scores, channels.blocks, J * estimate.residuals[:, None])

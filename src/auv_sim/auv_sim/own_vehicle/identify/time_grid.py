@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from auv_sim.own_vehicle.identify.combinations import Numbers
+from auv_sim.own_vehicle.identify.dive.vertical_motion import VerticalLoads, VerticalMotion, vertical_loads
 
 #: Longest step of the filter, s.
 LONGEST_STEP = 0.06
@@ -31,6 +32,7 @@ class PlanarData(NamedTuple):
         psi: heading at `t`.
         over_u, over_v: velocity over ground at `t`, m/s; NaN where there is none.
         leg: number of the manoeuvre at `t`; zeros where it is not recorded.
+        vertical: heave, roll and pitch beside it; None where they are not known.
     """
 
     name: str
@@ -47,6 +49,7 @@ class PlanarData(NamedTuple):
     over_u: Numbers
     over_v: Numbers
     leg: Numbers
+    vertical: VerticalMotion | None = None
 
     def between(self, begin: float, end: float) -> PlanarData:
         """Return the measurements of an interval (s), with the commands since shortly before it."""
@@ -57,6 +60,7 @@ class PlanarData(NamedTuple):
             self.name, self.t[rows], self.r[rows], self.water_t[water], self.u[water], self.v[water],
             self.rudder_t[rudder], self.rudder[rudder], self.thrust_t[thrust], self.thrust[thrust],
             self.psi[rows], self.over_u[rows], self.over_v[rows], self.leg[rows],
+            self.vertical,
         )  # fmt: skip
 
 
@@ -76,7 +80,16 @@ def shared_time(data: PlanarData) -> float:
 
 
 class Grid(NamedTuple):
-    """The arrays that `planar_filter.planar_innovations` reads, one entry for each node."""
+    """The arrays that `planar_filter.planar_innovations` reads, one entry for each node.
+
+    Attributes:
+        step: to the next node, s.
+        begins: whether a node begins a passage.
+        thrust: of the step, N.
+        rate_row, rate: row of r among the innovations or -1, and r, rad/s.
+        u_row, v_row, u, v: rows of u and v among them or -1, and these, m/s.
+        given: further accelerations of u, v (m/s^2) and r (rad/s^2), (n, 3).
+    """
 
     step: Numbers
     begins: NDArray[np.bool_]
@@ -87,6 +100,7 @@ class Grid(NamedTuple):
     v_row: NDArray[np.int64]
     u: Numbers
     v: Numbers
+    given: Numbers
 
 
 class Passage(NamedTuple):
@@ -99,6 +113,7 @@ class Passage(NamedTuple):
         rows: time of each row of the innovations, s: channel after channel.
         counts: rows of each channel.
         trim: of the fin, in addition to that of all recordings, rad.
+        loads: by heave, roll and pitch; None where they are not known.
     """
 
     grid: Grid
@@ -108,6 +123,13 @@ class Passage(NamedTuple):
     rows: Numbers
     counts: tuple[int, int, int]
     trim: float = 0.0
+    loads: VerticalLoads | None = None
+
+    def with_loads(self, loads: VerticalLoads | None) -> Passage:
+        """Return the passage with other loads, if there are any."""
+        if loads is None:
+            return self
+        return self._replace(grid=self.grid._replace(given=loads.accelerations()), loads=loads)
 
 
 def passage_of(data: PlanarData, latency: float) -> Passage:
@@ -136,10 +158,12 @@ def passage_of(data: PlanarData, latency: float) -> Passage:
     step = np.append(np.diff(times), SAME)
     last = np.searchsorted(data.thrust_t, times + SAME, side="right") - 1
     thrust = data.thrust[np.maximum(last, 0)]
-    grid = Grid(step, begins, thrust, rate_row, rate, u_row, v_row, u, v)
+    grid = Grid(step, begins, thrust, rate_row, rate, u_row, v_row, u, v, np.zeros((n, 3)))
     every = np.concatenate((t, at, at))
     ends = np.append(times, times[-1] + SAME)
-    return Passage(grid, ends, data.rudder_t, data.rudder, every, (t.size, at.size, at.size))
+    loads = None if data.vertical is None else vertical_loads(data.vertical, latency, times, rate)
+    counts = (t.size, at.size, at.size)
+    return Passage(grid, ends, data.rudder_t, data.rudder, every, counts).with_loads(loads)
 
 
 def _snapped(at: Numbers, t: Numbers) -> Numbers:

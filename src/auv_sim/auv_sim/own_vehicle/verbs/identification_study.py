@@ -63,7 +63,10 @@ def add_study_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--page", type=Path, metavar="FILE", help="page with the study's figures, to renew")
 
 
-def study(count: int, first: int, program: str, sea: str, workers: int, out: Path, page: Path | None) -> int:
+def study(
+    count: int, first: int, program: str, sea: str, workers: int, out: Path, page: Path | None,
+    quiet: bool = False,
+) -> int:  # fmt: skip
     """Identify vehicles of seeds `first` on, every second one stable in yaw; print and write the figures.
 
     Args:
@@ -74,10 +77,12 @@ def study(count: int, first: int, program: str, sea: str, workers: int, out: Pat
         workers: processes.
         out: JSON file with every outcome.
         page: Markdown page whose part named by the program is renewed.
+        quiet: whether nothing is printed.
     """
+    console = terminal(quiet)
     cases = [Case(seed, seed % 2 == 1, program, sea) for seed in range(first, first + count)]
     found: list[Timed] = []
-    with progress_bar(terminal()) as bar:
+    with progress_bar(console, quiet) as bar:
         task = bar.add_task("vehicles", total=count)
         for _, timed in each(_timed, cases, min(workers, count), lambda: bar.advance(task)):
             found.append(timed)
@@ -86,11 +91,9 @@ def study(count: int, first: int, program: str, sea: str, workers: int, out: Pat
     rows = figures([one.outcome for one in found], program)
     seconds = [one.seconds for one in found]
     title = f"{count} vehicles of seeds {first} to {first + count - 1}, {program} in {sea}"
-    terminal().print(_table(title, rows))
-    terminal().print(
-        f"{np.median(seconds):.1f} s each (median), {max(seconds):.1f} s at most", highlight=False
-    )
-    wrote(terminal(), out, "every outcome")
+    console.print(_table(title, rows))
+    console.print(f"{np.median(seconds):.1f} s each (median), {max(seconds):.1f} s at most", highlight=False)
+    wrote(console, out, "every outcome")
     if page is not None:
         heads = ("", "median", "worst", "target", "met")
         cells = [

@@ -97,6 +97,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"other name of a topic; NAME is one of {topics}",
     )  # fmt: skip
     parser.add_argument("--namespace", metavar="NAME", help="which vehicle, where there are several")
+    parser.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
 
 
 def _add_sheet(parser: argparse.ArgumentParser) -> None:
@@ -122,7 +123,8 @@ def run(arguments: argparse.Namespace) -> int:
     """
     if arguments.study is not None:
         o = arguments
-        return study(o.study, o.first, o.program, o.sea, o.workers, o.out.with_suffix(".json"), o.page)
+        out = o.out.with_suffix(".json")
+        return study(o.study, o.first, o.program, o.sea, o.workers, out, o.page, o.quiet)
     if not arguments.bag:
         raise ConfigurationError("BAG", "no recording", "at least one, or --study N")
     vehicle = vehicle_file.load(arguments.vehicle)
@@ -142,19 +144,20 @@ def run(arguments: argparse.Namespace) -> int:
         say(f"notice {remark}", error=True)
     sheet = _sheet(arguments, vehicle)
     band = None if arguments.dead_band is None else math.radians(arguments.dead_band)
-    with progress_bar(terminal()) as bar:
+    with progress_bar(terminal(arguments.quiet), arguments.quiet) as bar:
         found = identify(used, hull, sheet, band, _reporter(bar))
     check_sign(found, where)
     check_fit(found, where)
     for doubt in (*doubts(found, used, vehicle, -hull.Xuu), *latency_doubts(found)):
         say(f"notice {doubt}", error=True)
     dives = [one.dive for one in recorded if one.dive is not None]
-    report(arguments, vehicle, recordings, left_out, found, _dive(dives, vehicle, hull, sheet, found))
+    dive = _dive(dives, vehicle, hull, sheet, found, arguments.quiet)
+    report(arguments, vehicle, recordings, left_out, found, dive)
     return 0
 
 
 def _dive(
-    dives: list[DiveData], vehicle: Vehicle, hull: Hull, sheet: DataSheet, plane: Identified
+    dives: list[DiveData], vehicle: Vehicle, hull: Hull, sheet: DataSheet, plane: Identified, quiet: bool
 ) -> Identified | None:
     """Identify heave and pitch where stern planes moved; the log's latency is that found in the plane."""
     if not dives or hull.vertical is None or vehicle.sternplanes is None:
@@ -162,7 +165,7 @@ def _dive(
     own = sheet._replace(
         rate=vehicle.sternplanes.max_rate, latency=float(plane.physical[LATENCY]), latency_deviation=0.0
     )
-    with progress_bar(terminal()) as bar:
+    with progress_bar(terminal(quiet), quiet) as bar:
         return identify_dive(dives, hull, hull.vertical, own, None, _reporter(bar))
 
 
@@ -175,7 +178,7 @@ def report(
     dive: Identified | None,
 ) -> None:
     """Print tables; write the vehicle file and the picture."""
-    console, hull = terminal(), known_hull(vehicle)
+    console, hull = terminal(arguments.quiet), known_hull(vehicle)
     abilities = abilities_of(found.physical, found.spread, in_plane(vehicle, hull))
     kept, predictions = _predicted(left_out, found)
     console.print(coefficients_table(found))
@@ -194,7 +197,7 @@ def report(
         slowest, known = new.depth.minimum_speed, vehicle.depth.minimum_speed
         say(f"notice depth.minimum_speed: {slowest:g} m/s; below it the identified planes hold no depth, "
             f"{known:g} m/s before", error=True)  # fmt: skip
-    names = ", ".join(path.name for path in arguments.bag)
+    names = ", ".join(map(str, arguments.bag))
     write_text(arguments.out, identified_text(new, hull, found, names))
     picture = arguments.out.with_suffix(".png")
     draw_identification(found, abilities, kept, predictions, f"{vehicle.name}: {names}", picture)
@@ -233,6 +236,7 @@ def _predicted(left_out: PlanarData | None, found: Identified) -> tuple[Channels
         return None, []
     channels = channels_of([left_out], found.scaling.sheet, found.dead_band, found.channels.latency)
     channels = channels.with_trims([found.channels.passages[-1].trim])  # a part of the last recording
+    channels = channels.with_loads_off(found.channels.loads_off)
     return channels, predictions_of(channels, found.physical)
 
 

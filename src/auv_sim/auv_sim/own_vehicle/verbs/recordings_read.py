@@ -14,6 +14,7 @@ from auv_sim.bags.content.recorded_manoeuvres import READ, Manoeuvring, manoeuvr
 from auv_sim.flight.run_record import SpatialRun
 from auv_sim.own_vehicle.identify.combinations import Numbers
 from auv_sim.own_vehicle.identify.dive.dive_data import DiveData, coupling_of
+from auv_sim.own_vehicle.identify.dive.vertical_motion import VerticalMotion, vertical_loads_of
 from auv_sim.own_vehicle.identify.results.known_vehicle import forces
 from auv_sim.own_vehicle.identify.results.plausibility import check_commands
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
@@ -76,6 +77,22 @@ def planar(recorded: Manoeuvring, vehicle: Vehicle, hull: Hull, name: str) -> Pl
         rudder.t, np.clip(rudder.value, -largest, largest), recorded.thrust.t,
         forces(vehicle, hull, np.clip(recorded.thrust.value, 0.0, vehicle.thrust_max)), run.psi[known],
         recorded.over[known, 0], recorded.over[known, 1], np.zeros(int(known.sum())),
+        vertical_motion(recorded, hull),
+    )  # fmt: skip
+
+
+def vertical_motion(recorded: Manoeuvring, hull: Hull) -> VerticalMotion | None:
+    """Return heave, roll and pitch beside the motion in the plane; None without them, or a hull in space."""
+    run = recorded.run
+    if hull.vertical is None or not isinstance(run, SpatialRun):
+        return None
+    known = np.isfinite(run.phi) & np.isfinite(run.theta) & np.isfinite(run.q)
+    water = np.isfinite(recorded.water[:, 2])
+    if min(known.sum(), water.sum()) < _LEAST_SAMPLES:
+        return None
+    return VerticalMotion(
+        run.t[known], run.phi[known], run.theta[known], run.q[known],
+        recorded.water_t[water], recorded.water[water, 2], vertical_loads_of(hull, hull.vertical),
     )  # fmt: skip
 
 

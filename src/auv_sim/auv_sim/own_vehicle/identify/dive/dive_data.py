@@ -9,10 +9,11 @@ import numpy as np
 from auv_path_following.vehicle import GRAVITY, Hull
 from auv_path_following.vertical_hull import VerticalHull
 from auv_sim.own_vehicle.identify.combinations import Numbers
+from auv_sim.own_vehicle.identify.dive.vertical_motion import ROLL, smoothed
 from auv_sim.own_vehicle.identify.time_grid import Passage, PlanarData, passage_of
 
-#: Times over which measured surge and sway, the gain of surge, and roll are averaged, s: they change slowly.
-_SMOOTH, _GAIN, _ROLL = 1.0, 2.5, 0.3
+#: Times over which measured surge and sway, and the gain of surge, are averaged, s: they change slowly.
+_SMOOTH, _GAIN = 1.0, 2.5
 
 
 class DiveData(NamedTuple):
@@ -89,19 +90,11 @@ def dive_passage_of(data: DiveData, latency: float) -> Passage:
 def _given(data: DiveData, latency: float, nodes: Numbers) -> Numbers:
     """Return what `dive_advance` is given at each node, (n, 6)."""
     at = data.water_t - latency
-    surge = _smoothed(data.water_t, data.u)
-    roll = _smoothed(data.t, data.phi, _ROLL)
-    u, v = np.interp(nodes, at, surge), np.interp(nodes, at, _smoothed(data.water_t, data.v))
-    gain = np.interp(nodes, at, np.gradient(_smoothed(data.water_t, data.u, _GAIN), at))
+    surge = smoothed(data.water_t, data.u, _SMOOTH)
+    roll = smoothed(data.t, data.phi, ROLL)
+    u, v = np.interp(nodes, at, surge), np.interp(nodes, at, smoothed(data.water_t, data.v, _SMOOTH))
+    gain = np.interp(nodes, at, np.gradient(smoothed(data.water_t, data.u, _GAIN), at))
     phi, r = np.interp(nodes, data.t, roll), np.interp(nodes, data.t, data.r)
     p = np.interp(nodes, data.t, np.gradient(roll, data.t))
     heave, pitch = data.coupling @ np.array([v * p, r * p])
     return np.array([u, np.cos(phi), r * np.sin(phi), (gain - v * r) / GRAVITY, heave, pitch]).T
-
-
-def _smoothed(t: Numbers, u: Numbers, over: float = _SMOOTH) -> Numbers:
-    """Return u averaged over a time, s."""
-    period = max(float(np.median(np.diff(t))), 1e-3)
-    half = max(round(0.5 * over / period), 0)
-    padded = np.concatenate((np.repeat(u[:1], half), u, np.repeat(u[-1:], half)))
-    return np.convolve(padded, np.full(2 * half + 1, 1.0 / (2 * half + 1)), mode="valid")

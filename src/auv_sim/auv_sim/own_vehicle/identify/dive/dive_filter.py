@@ -110,7 +110,7 @@ def dive_innovations(c: Any, noise: Any, grid: Any, means: Any, changes: Any, ou
         out: written, (m,) or (m, sets).
         states: written if it has rows: theta, w, q and 0 at each node, (n, 4).
     """
-    step, begins, given, rate_row, rate, pitch_row, w_row, pitch, w_log = grid
+    step, begins, given, rate_row, rate, pitch_row, w_row, pitch, w_log, _ = grid
     noise_t, noise_w, noise_q, grow_t, grow_w, grow_q, _, _, fin, decay = noise
     gyro, bias, w_bias, lead, zero = c[14], c[15], c[16], c[17], 0.0 * c[0]
     begin = (zero + noise_t, zero, zero, zero + noise_w, zero, zero + noise_q)

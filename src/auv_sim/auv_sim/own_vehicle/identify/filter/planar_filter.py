@@ -72,7 +72,9 @@ def planar_advance(
 
 
 @pure
-def carried(c: Any, p: Any, a: Any, x: Any, thrust: Any, delta: Any, change: Any, h: Any, noise: Any) -> Any:
+def carried(
+    c: Any, p: Any, a: Any, x: Any, thrust: Any, delta: Any, change: Any, given: Any, h: Any, noise: Any
+) -> Any:
     """Return covariances and state `h` seconds later.
 
     Args:
@@ -80,6 +82,7 @@ def carried(c: Any, p: Any, a: Any, x: Any, thrust: Any, delta: Any, change: Any
         p, a, x: as for `corrected`.
         thrust: of the step, N.
         delta, change: mean angle of the rudder in the step, and its change, rad.
+        given: further accelerations, m/s^2, rad/s^2.
         h: s.
         noise: as for `planar_innovations`.
     """
@@ -92,6 +95,7 @@ def carried(c: Any, p: Any, a: Any, x: Any, thrust: Any, delta: Any, change: Any
     gains = h * c[0] * thrust, c[8] * square, c[13] * square
     p, a = carried_covariance(p, a, f, gains, kept, held, growth)
     u, v, r = planar_advance(c, u, v, r, c[0] * thrust * (1.0 + error), delta, change, h)
+    u, v, r = u + h * given[0], v + h * given[1], r + h * given[2]
     return p, a, (u, v, r, kept * error, held * off)
 
 
@@ -108,13 +112,12 @@ def planar_innovations(
             node to the moment at which it was measured, s.
         noise: variances of u, v, r as measured; their growth in a second; variance of the thrust's error, a
             share squared, and the inverse of its time constant, 1/s; the same of the rudder's, rad^2, 1/s.
-        grid: `time_grid.Grid` as its arrays: step to the next node (s), whether a node begins a passage,
-            thrust of the step, row of r in `out` or -1, r, rows of u and v in `out` or -1, u, v.
+        grid: `time_grid.Grid` as its arrays.
         means, changes: mean rudder angle of each step and its change in it, rad.
         out: written, (m,) or (m, sets).
         states: written if it has rows: u, v, r and the thrust's error at each node, (n, 4).
     """
-    step, begins, thrust, rate_row, rate, u_row, v_row, u_log, v_log = grid
+    step, begins, thrust, rate_row, rate, u_row, v_row, u_log, v_log, given = grid
     noise_u, noise_v, noise_r, _, _, _, drift, _, fin, _ = noise
     gyro, u_bias, v_bias, lead = c[14], c[15], c[16], c[17]
     zero = 0.0 * c[0]
@@ -133,6 +136,7 @@ def planar_innovations(
         if u_row[k] >= 0:
             push = c[0] * thrust[k] * (1.0 + x[3])
             du, dv, _ = planar_accelerations(c, x[0], x[1], x[2], push, means[k] + x[4])
+            du, dv = du + given[k][0], dv + given[k][1]
             at_u, at_v = u_log[k] - u_bias - lead * du, v_log[k] - v_bias - lead * dv
             out[u_row[k]] = at_u - x[0]
             out[v_row[k]] = at_v - x[1]
@@ -140,7 +144,7 @@ def planar_innovations(
             p, a, x = corrected(p, a, x, (p[1], p[3], p[4], a[1], a[5]), p[3] + noise_v, at_v - x[1])
         if len(states) > 0:
             states[k, 0], states[k, 1], states[k, 2], states[k, 3] = x[0], x[1], x[2], x[3]
-        p, a, x = carried(c, p, a, x, thrust[k], means[k], changes[k], step[k], noise)
+        p, a, x = carried(c, p, a, x, thrust[k], means[k], changes[k], given[k], step[k], noise)
 
 
 @pure
@@ -161,4 +165,6 @@ def planar_flight(
         push = c[0] * grid.thrust[first + k] * (1.0 + error)
         h, delta = grid.step[first + k], means[first + k]
         u, v, r = planar_advance(c, u, v, r, push, delta, changes[first + k], h)
+        more = grid.given[first + k]
+        u, v, r = u + h * more[0], v + h * more[1], r + h * more[2]
         out[k, 0], out[k, 1], out[k, 2] = u, v, r

@@ -26,19 +26,30 @@ class Shifts(NamedTuple):
     deviations: Numbers
 
 
-def shifts_of(channels: Channels, scaling: Scaling, estimate: Minimised, columns: Numbers) -> Shifts:
+def shifts_of(
+    channels: Channels,
+    scaling: Scaling,
+    estimate: Minimised,
+    columns: Numbers,
+    own: Numbers | None = None,
+) -> Shifts:
     """Return by how much the data would move numbers that an estimate holds.
 
     Args:
         channels, scaling, estimate: the estimate.
         columns: derivatives of the weighed innovations by those numbers, (m, numbers).
+        own: their values, where they have zero mean and unit variance before any data.
     """
     free, weights = free_unknowns(scaling), weights_of(channels, scaling, estimate)
     J = jacobian(channels, scaling, estimate.z, free, weights)
     bare = np.zeros((free.size, columns.shape[1]))
     A = np.block([[J, columns], [np.eye(free.size), bare]])
+    right = np.append(estimate.residuals, estimate.z[free])
+    if own is not None:
+        A = np.vstack((A, np.hstack((bare.T, np.eye(own.size)))))
+        right = np.append(right, own)
     covariance = np.linalg.pinv(A.T @ A)
-    values = -covariance @ (A.T @ np.append(estimate.residuals, estimate.z[free]))
+    values = -covariance @ (A.T @ right)
     return Shifts(values[free.size :], np.sqrt(np.maximum(np.diag(covariance)[free.size :], 0.0)))
 
 

@@ -62,14 +62,16 @@ def _intervals(axes: Axes, found: Identified) -> None:
     unseen = unseen / np.abs(found.physical[:COUNT])
     strong = share < 100.0 * REACH * IDENTIFIED
     places = np.arange(COUNT)
-    axes.bar(places, share, color=np.where(strong, BLUE, MUTED), width=0.7, label="95 % interval")
+    kinds = (strong, BLUE, "95 % interval"), (~strong, MUTED, "too wide: not identified")
+    for rows, colour, label in kinds:
+        axes.bar(places[rows], share[rows], color=colour, width=0.7, label=label)
     axes.bar(places, np.minimum(unseen, share), color=ORANGE, width=0.7, label="of it systematic")
     axes.set_yscale("log")
     axes.set_ylim(0.2, 400.0)
     axes.set_xticks(places, SYMBOLS, rotation=45, ha="right")
     axes.axhline(100.0 * REACH * IDENTIFIED, color=RED, linewidth=0.9, linestyle="--")
     style(axes, "± % of the value")
-    axes.legend(frameon=False, fontsize=9, loc="upper left", ncols=2)
+    axes.legend(frameon=False, fontsize=9, loc="upper left", ncols=3)
 
 
 def _facts(

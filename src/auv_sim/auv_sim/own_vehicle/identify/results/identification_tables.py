@@ -78,10 +78,10 @@ def dive_table(found: Identified) -> Table:
         verdict = "" if share < REACH * IDENTIFIED else "weak" if share < 1.0 else "as assumed"
         table.add_row(DIVE_SYMBOLS[k], f"{value:.4g}", DIVE_UNITS[k], f"{100.0 * share:.0f}", verdict)
     p, sd = found.physical, REACH * found.spread.deviations
-    table.add_row(
-        "rate of the planes", f"{math.degrees(p[RATE]):.4g}", "deg/s", f"{100.0 * sd[RATE] / p[RATE]:.1f}", ""
-    )
-    table.add_row("dead time of the planes", f"{p[DEAD_TIME]:.3f}", "s", "", "")
+    rate, late = p[RATE], max(p[DEAD_TIME], 1e-3)
+    shares = f"{100.0 * sd[RATE] / rate:.1f}", f"{100.0 * sd[DEAD_TIME] / late:.1f}"
+    table.add_row("rate of the planes", f"{math.degrees(rate):.4g}", "deg/s", shares[0], "")
+    table.add_row("dead time of the planes", f"{p[DEAD_TIME]:.3f}", "s", shares[1], "")
     return table
 
 

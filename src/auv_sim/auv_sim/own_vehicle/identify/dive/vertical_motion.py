@@ -1,0 +1,98 @@
+"""What heave, roll and pitch do to surge, sway and yaw: given to the filter in the plane, not identified."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from auv_path_following.vehicle import Hull
+from auv_path_following.vertical_hull import VerticalHull
+from auv_sim.own_vehicle.identify.combinations import Numbers
+
+#: Time over which measured roll is averaged, s: its derivative is the roll rate.
+ROLL = 0.3
+#: Standard deviation of an assumed acceleration before any data, a share of it.
+_SHARE = 0.5
+
+
+class VerticalMotion(NamedTuple):
+    """Heave, roll and pitch of a recording: NED and FRD, SI units, radians.
+
+    Attributes:
+        t, phi, theta, q: times (s), roll, pitch and pitch rate, as measured.
+        water_t, w: arrival of each new sample of the velocity through the water, and its component down.
+        loads: accelerations of surge, sway and yaw by them, as assumed: see `vertical_loads_of`.
+    """
+
+    t: Numbers
+    phi: Numbers
+    theta: Numbers
+    q: Numbers
+    water_t: Numbers
+    w: Numbers
+    loads: Numbers
+
+    def products(self, latency: float, nodes: Numbers, r: Numbers) -> Numbers:
+        """Return what `loads` is multiplied with at nodes, shape (n, 9).
+
+        Args:
+            latency: age of a velocity when it arrives, s.
+            nodes: times, s.
+            r: yaw rate there, rad/s.
+        """
+        roll = smoothed(self.t, self.phi, ROLL)
+        columns = (roll, self.theta, self.q, np.gradient(roll, self.t))
+        phi, theta, q, rolling = (np.interp(nodes, self.t, column) for column in columns)
+        w = np.interp(nodes, self.water_t - latency, self.w)
+        p = rolling - r * np.tan(theta)
+        aside, growing = np.cos(theta) * np.sin(phi), np.gradient(p, nodes)
+        return np.array([w * q, q * q, p * r, w * p, p * q, q * r, np.sin(theta), aside, growing]).T
+
+
+class VerticalLoads(NamedTuple):
+    """Accelerations of surge, sway and yaw by heave, roll and pitch, on the nodes of a passage.
+
+    Attributes:
+        products: see `VerticalMotion.products`.
+        assumed: accelerations by them before any data, (3, 9).
+        off: deviations of those that are not 0, in standard deviations.
+    """
+
+    products: Numbers
+    assumed: Numbers
+    off: Numbers
+
+    def accelerations(self) -> Numbers:
+        """Return the accelerations of surge, sway (m/s^2) and yaw (rad/s^2), shape (n, 3)."""
+        loads = self.assumed.copy()
+        loads[self.assumed != 0.0] *= 1.0 + _SHARE * self.off
+        return np.ascontiguousarray(self.products @ loads.T)
+
+
+def vertical_loads(motion: VerticalMotion, latency: float, nodes: Numbers, r: Numbers) -> VerticalLoads:
+    """Return the assumed loads at nodes; see `VerticalMotion.products`."""
+    off = np.zeros(int(np.count_nonzero(motion.loads)))
+    return VerticalLoads(motion.products(latency, nodes, r), motion.loads, off)
+
+
+def vertical_loads_of(hull: Hull, vertical: VerticalHull) -> Numbers:
+    """Return the accelerations of surge, sway and yaw by products of the other motions, Eq. (3D-4): (3, 9).
+
+    The products are w q, q q, p r, w p, p q, q r, sin(theta), cos(theta) sin(phi), p'.
+    """
+    h, c = hull, vertical
+    heavy, m_xg, m_zg = c.W - c.B, h.m * c.xg, h.m * c.zg
+    surge = [c.Xwq - h.m, c.Xqq + m_xg, -m_zg, 0.0, 0.0, 0.0, -heavy, 0.0, 0.0]
+    sway = [0.0, 0.0, 0.0, c.Ywp + h.m, c.Ypq - m_xg, -m_zg, 0.0, heavy, m_zg]
+    yaw = [0.0, 0.0, 0.0, c.Nwp + m_xg, c.Npq - (c.Iyy - c.Ixx), 0.0, 0.0, c.xg * c.W, 0.0]
+    masses = np.array([[h.m - h.Yvd, -h.Yrd], [-h.Nvd, h.Izz - h.Nrd]])
+    return np.vstack((np.array(surge) / (h.m - h.Xud), np.linalg.solve(masses, np.array([sway, yaw]))))
+
+
+def smoothed(t: Numbers, values: Numbers, over: float) -> Numbers:
+    """Return values averaged over a time, s."""
+    period = max(float(np.median(np.diff(t))), 1e-3)
+    half = max(round(0.5 * over / period), 0)
+    padded = np.concatenate((np.repeat(values[:1], half), values, np.repeat(values[-1:], half)))
+    return np.convolve(padded, np.full(2 * half + 1, 1.0 / (2 * half + 1)), mode="valid")

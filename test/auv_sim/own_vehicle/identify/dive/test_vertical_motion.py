@@ -1,0 +1,64 @@
+"""Heave, roll and pitch act on surge, sway and yaw: given to the filter in the plane, moved by the data."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from auv_path_following import vehicle as vehicle_file
+from auv_sim.own_vehicle.identify.combinations import combinations_of, prior_of
+from auv_sim.own_vehicle.identify.innovations import Channels, channels_of, innovations
+from auv_sim.own_vehicle.identify.minimise import minimise
+from auv_sim.own_vehicle.identify.refine.own_trims import shifts_of
+from auv_sim.own_vehicle.identify.refine.vertical_loads import load_columns
+from auv_sim.own_vehicle.identify.study.simulated_data import planar_data
+from auv_sim.own_vehicle.identify.unknowns import ALL, COUNT, RATE, DataSheet, Scaling
+from auv_sim.own_vehicle.manoeuvres import program_file
+from auv_sim.own_vehicle.manoeuvres.manoeuvre_flight import Manoeuvred, simulate
+
+REMUS = vehicle_file.load("remus100_6dof")
+HULL = REMUS.coefficients
+SHEET = DataSheet(latency=0.0, dead_time=0.0, half_play=0.0)
+
+
+@pytest.fixture(scope="module")
+def flown() -> Manoeuvred:
+    """Two minutes of dives with ideal instruments."""
+    return simulate(REMUS, None, program_file.load("two_minutes_dive"))
+
+
+def channels_with(flown: Manoeuvred, is_known: bool) -> Channels:
+    data = planar_data(flown, diving=HULL if is_known else None)
+    return channels_of([data.between(flown.t[flown.leg > 0][0], 1e9)], SHEET, 0.0)
+
+
+def truth() -> np.ndarray:  # type: ignore[type-arg]
+    physical = np.zeros(ALL)
+    physical[:COUNT], physical[RATE] = combinations_of(HULL), REMUS.rudder.max_rate
+    return physical
+
+
+def test_surge_and_sway_of_a_dive_are_predicted_with_the_motion_in_the_vertical(flown: Manoeuvred) -> None:
+    errors = {}
+    for is_known in (False, True):
+        channels = channels_with(flown, is_known)
+        off = innovations(channels, truth())
+        errors[is_known] = [float(np.std(off[channels.rows == row])) for row in (1, 2)]
+    assert errors[True][0] < 0.3 * errors[False][0]
+    assert errors[True][1] < 0.5 * errors[False][1]
+
+
+def test_the_data_correct_a_load_that_is_assumed_wrongly(flown: Manoeuvred) -> None:
+    channels = channels_with(flown, True)
+    wrong = channels.loads_off.copy()
+    wrong[0] = -0.8  # heave times pitch rate, on surge
+    channels, scaling = channels.with_loads_off(wrong), Scaling(prior_of(HULL), SHEET)
+    estimate = minimise(channels, scaling, scaling.scaled(truth()), rounds=1, steps=1)
+    shifts = shifts_of(channels, scaling, estimate, load_columns(channels, scaling, estimate), wrong)
+    assert shifts.values[0] == pytest.approx(0.8, abs=0.15)
+
+
+def test_without_motion_in_the_vertical_nothing_is_given(flown: Manoeuvred) -> None:
+    channels = channels_with(flown, False)
+    assert not channels.passages[0].grid.given.any()
+    assert channels.with_loads_off(np.zeros(0)).loads_off.size == 0
