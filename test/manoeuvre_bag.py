@@ -41,7 +41,7 @@ def _twist(u: float, v: float, r: float) -> Any:
     return _made("geometry_msgs/msg/TwistWithCovariance", twist, np.zeros(36))
 
 
-def _odometry(flown: Manoeuvred, k: int, at: int, ned: bool) -> Any:
+def _odometry(flown: Manoeuvred, k: int, at: int, ned: bool, body: str) -> Any:
     x, y, yaw = float(flown.x[k]), float(flown.y[k]), float(flown.psi[k])
     side = 1.0 if ned else -1.0
     if not ned:
@@ -54,13 +54,14 @@ def _odometry(flown: Manoeuvred, k: int, at: int, ned: bool) -> Any:
     )
     covered = _made("geometry_msgs/msg/PoseWithCovariance", pose, np.zeros(36))
     twist = _twist(float(flown.u[k]), side * float(flown.v[k]), side * float(flown.r[k]))
-    world, body = ("map_ned", "base_link_frd") if ned else ("map", "base_link")
+    world = "map_ned" if ned else "map"
     return _made("nav_msgs/msg/Odometry", _header(at, world), body, covered, twist)
 
 
 def write_manoeuvres(
     directory: Path, flown: Manoeuvred, names: Mapping[str, str] = NAMES, ned: bool = False,
-    repeated: bool = True, late: float = 0.0, set_back: float = 0.0,
+    repeated: bool = True, late: float = 0.0, set_back: float = 0.0, body: str = "",
+    command: str = "std_msgs/msg/Float64",
 ) -> Path:  # fmt: skip
     """Write a recording; return its directory.
 
@@ -72,25 +73,29 @@ def write_manoeuvres(
         repeated: whether every odometry comes with the last velocity through the water; else new ones alone.
         late: time by which every command is logged later, s.
         set_back: time by which the clock of the stamps is set back in the middle, s.
+        body: frame id of the body; by default as `ned` says.
+        command: type of the commands, which are rounded where it holds whole numbers.
     """
-    side, body = (1.0, "base_link_frd") if ned else (-1.0, "base_link")
+    side, body = 1.0 if ned else -1.0, body or ("base_link_frd" if ned else "base_link")
+    number = int if "Int" in command else float
+    types = _TYPES | {"rudder_cmd": command, "thrust_cmd": command}
     last = np.searchsorted(flown.water_t, flown.t + 1e-6) - 1
     with BagWriter(directory) as writer:
-        channels = {name: writer.add_topic(full, _TYPES[name], []) for name, full in names.items()}
+        channels = {name: writer.add_topic(full, types[name], []) for name, full in names.items()}
 
         def put(name: str, at: int, message: Any) -> None:
             if name in channels:
-                data = bytes(typestore().serialize_cdr(message, _TYPES[name]))
+                data = bytes(typestore().serialize_cdr(message, types[name]))
                 writer.write(channels[name], at, at, data)
 
         for k in range(flown.t.size):
             at, row = round(float(flown.t[k]) * 1e9), last[k]
             stamp = at - round(set_back * 1e9) * (2 * k > flown.t.size)
-            put("odom", at, _odometry(flown, k, stamp, ned))
+            put("odom", at, _odometry(flown, k, stamp, ned, body))
             if row >= 0 and (repeated or abs(flown.water_t[row] - flown.t[k]) < 1e-6):
                 twist = _twist(float(flown.water_u[row]), side * float(flown.water_v[row]), 0.0)
                 stamped = "geometry_msgs/msg/TwistWithCovarianceStamped"
                 put("velocity_through_water", at, _made(stamped, _header(stamp, body), twist))
             for name, column in (("rudder_cmd", flown.rudder), ("thrust_cmd", flown.thrust)):
-                put(name, at + 1_000_000 + round(late * 1e9), _made("std_msgs/msg/Float64", float(column[k])))
+                put(name, at + 1_000_000 + round(late * 1e9), _made(command, number(column[k])))
     return directory

@@ -71,6 +71,23 @@ def test_both_frames_and_repeated_samples_are_read_alike(flown: Manoeuvred, tmp_
     assert np.nanmax(np.abs(enu.over[:, 1] - flown.v)) < 1e-9
 
 
+def test_a_frame_id_of_another_maker_is_refused_until_its_axes_are_given(
+    flown: Manoeuvred, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    short, words = _first(flown, 200), ["--out", str(tmp_path / "x.yaml")]
+    bag = write_manoeuvres(tmp_path / "bag", short, body="base_footprint")
+    assert "or their axes by --frame ID=AXES" in _refused(["identify", str(bag), *words], capsys)
+    given = ["identify", str(bag), *words, "--frame", "base_footprint=flu"]
+    assert "10 s of manoeuvres" in _refused(given, capsys)  # read, and too short
+    assert "--frame: found flu" in _refused([*given, "--frame", "flu"], capsys)
+
+
+def test_commands_may_be_whole_numbers(flown: Manoeuvred, tmp_path: Path) -> None:
+    short = _first(flown, 200)
+    found = manoeuvres_in(write_manoeuvres(tmp_path / "bag", short, command="std_msgs/msg/Int16"))
+    assert found.thrust.value == pytest.approx(np.trunc(short.thrust))
+
+
 def test_the_current_is_found_with_its_sign(flown: Manoeuvred) -> None:
     found = mean_current(planar_data(flown))
     north, east, _ = flown.current.mean(axis=0)

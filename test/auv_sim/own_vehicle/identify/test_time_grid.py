@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from auv_sim.own_vehicle.identify.time_grid import LONGEST_STEP, PlanarData, passage_of
+from auv_sim.own_vehicle.identify.time_grid import FOLLOWED, LONGEST_STEP, PlanarData, passage_of
 
 
 def recording(t: np.ndarray, water_t: np.ndarray) -> PlanarData:  # type: ignore[type-arg]
@@ -43,13 +43,24 @@ def test_slow_odometry_gets_steps_short_enough_for_the_filter() -> None:
 
 
 def test_a_gap_begins_a_new_passage_and_uses_nothing_before_its_first_sample() -> None:
-    t = np.concatenate((np.arange(0.0, 5.0, 0.05), np.arange(8.0, 12.0, 0.05)))
-    water = np.concatenate((np.arange(0.2, 5.0, 0.2), np.arange(9.0, 12.0, 0.2)))
-    passage = passage_of(recording(t, water), 0.0)
+    t = np.concatenate((np.arange(0.0, 5.0, 0.05), np.arange(8.0, 20.0, 0.05)))
+    water = np.concatenate((np.arange(0.2, 5.0, 0.2), np.arange(9.0, 20.0, 0.2)))
+    commands = np.arange(0.0, 20.0, 0.05)
+    data = recording(t, water)._replace(rudder_t=commands, rudder=0.1 * np.sign(np.sin(commands)))
+    passage = passage_of(data, 0.0)
     starts = passage.times[:-1][passage.grid.begins]
     assert starts == pytest.approx([0.2, 9.0])
     unused = (passage.times[:-1] > 7.9) & (passage.times[:-1] < 8.99)
     assert (passage.grid.rate_row[unused] == -1).all()
+
+
+def test_after_a_gap_without_commands_a_passage_begins_when_the_fin_has_followed_the_next_ones() -> None:
+    """Its angle after the gap is not known: one wrong second moved b by a fifth."""
+    t = np.concatenate((np.arange(0.0, 5.0, 0.05), np.arange(8.0, 20.0, 0.05)))
+    water = np.concatenate((np.arange(0.2, 5.0, 0.2), np.arange(8.0, 20.0, 0.2)))
+    passage = passage_of(recording(t, water), 0.0)
+    starts = passage.times[:-1][passage.grid.begins]
+    assert starts == pytest.approx([0.2, 8.0 + FOLLOWED], abs=0.21)
 
 
 def test_a_part_keeps_the_commands_that_still_act() -> None:

@@ -27,8 +27,8 @@ READ = (
     topics.ODOM, topics.WATER_VELOCITY, topics.RUDDER_CMD, topics.THRUST_CMD, topics.STERNPLANE_CMD,
 )  # fmt: skip
 _COMMANDS = (topics.RUDDER_CMD, topics.THRUST_CMD, topics.STERNPLANE_CMD)
-#: Types of commands beside the contract's: one number named `data`.
-_NUMBERS = ("std_msgs/msg/Float64", "std_msgs/msg/Float32")
+#: Types of commands: one number named `data`. The contract's is the first.
+_NUMBERS = tuple(f"std_msgs/msg/{kind}" for kind in ("Float64", "Float32", "Int16", "Int32", "UInt16"))
 #: Stamps that go back by more, in the order of the log, come from a clock that was set, s.
 _SET_BACK = 1.0
 
@@ -62,7 +62,7 @@ class Manoeuvring(NamedTuple):
 
 def manoeuvres_in(
     path: Path, names: Mapping[str, str] | None = None, namespace: str | None = None,
-    odometry: str | None = None,
+    odometry: str | None = None, frames: FrameIds | None = None,
 ) -> Manoeuvring:  # fmt: skip
     """Read the manoeuvres of a recording.
 
@@ -71,6 +71,7 @@ def manoeuvres_in(
         names: name of the wire contract -> full topic name, where a recording has another.
         namespace: which vehicle, where there are several.
         odometry: full name of the odometry topic.
+        frames: accepted frame ids; the contract's if None.
 
     Raises:
         ConfigurationError: no readable recording, a missing topic, one of another type, unknown frames.
@@ -84,15 +85,16 @@ def manoeuvres_in(
     planes = found[topics.STERNPLANE_CMD]
     if planes is not None:  # makes a run in three dimensions
         motion[planes.name] = dataclasses.replace(planes, type=topics.STERNPLANE_CMD.type)
-    run = run_of(dataclasses.replace(bag, topics=motion), namespace)
+    frames = frames or FrameIds()
+    run = run_of(dataclasses.replace(bag, topics=motion), namespace, frames)
     odom = _columns(bag, found[topics.ODOM], topics.ODOM)
     _check_clock(path, odom)
-    water_t, water = _water(bag, found[topics.WATER_VELOCITY])
+    water_t, water = _water(bag, found[topics.WATER_VELOCITY], frames)
     rudder, thrust, sternplanes = (_commands(bag, found[topic], odom) for topic in _COMMANDS)
     if rudder is None or thrust is None:
         raise _missing(bag, topics.RUDDER_CMD if rudder is None else topics.THRUST_CMD)
     spatial = sternplanes if isinstance(run, SpatialRun) else None
-    return Manoeuvring(run, _over(run, odom), water_t, water, rudder, thrust, spatial)
+    return Manoeuvring(run, _over(run, odom, frames), water_t, water, rudder, thrust, spatial)
 
 
 def _missing(bag: Bag, topic: Topic) -> ConfigurationError:
@@ -140,7 +142,7 @@ class _Decoded(NamedTuple):
 def _columns(bag: Bag, topic: RecordedTopic | None, row: Topic) -> _Decoded:
     assert topic is not None
     if topic.type != row.type:
-        raise ConfigurationError(f"{bag.path}: {topic.name}", topic.type, row.type)
+        raise ConfigurationError(f"{bag.path}: {row.name}", topic.type, row.type)
     order = np.argsort(np.array(topic.log_ns, np.int64), kind="stable")
     kept = [k for k in order if topic.messages[k] is not None]
     try:
@@ -162,8 +164,8 @@ def _check_clock(path: Path, odom: _Decoded) -> None:
         raise ConfigurationError(f"{path}: {topics.ODOM.name}", found, "one clock: cut the recording there")
 
 
-def _convention(bag: Bag, topic: Topic, frames: tuple[tuple[str, ...], ...]) -> Convention:
-    table = FrameTable(FrameIds())
+def _convention(bag: Bag, topic: Topic, ids: FrameIds, frames: tuple[tuple[str, ...], ...]) -> Convention:
+    table = FrameTable(ids)
     try:
         (names,) = frames
         return table.of_pose(topic.name, *names) if len(names) == 2 else table.of_body(topic.name, *names)
@@ -176,10 +178,10 @@ def _convention(bag: Bag, topic: Topic, frames: tuple[tuple[str, ...], ...]) -> 
         ) from None
 
 
-def _water(bag: Bag, topic: RecordedTopic | None) -> tuple[Column, Column]:
+def _water(bag: Bag, topic: RecordedTopic | None, ids: FrameIds) -> tuple[Column, Column]:
     """Return stamps and values of new samples: a repeated one is no sample."""
     _, columns = _columns(bag, topic, topics.WATER_VELOCITY)
-    down = _convention(bag, topics.WATER_VELOCITY, columns.frames) is Convention.NED_FRD
+    down = _convention(bag, topics.WATER_VELOCITY, ids, columns.frames) is Convention.NED_FRD
     values = np.array([columns.column(f"twist.twist.linear.{axis}") for axis in "xyz"]).T
     values[:, 1:] *= 1.0 if down else -1.0
     t = columns.stamp_ns * 1e-9
@@ -195,20 +197,16 @@ def _water(bag: Bag, topic: RecordedTopic | None) -> tuple[Column, Column]:
     return t[new], values[new]
 
 
-def _over(run: Run, odom: _Decoded) -> Column:
+def _over(run: Run, odom: _Decoded, ids: FrameIds) -> Column:
     """Return the velocity over ground at the run's stamps, FRD, (n, 3), m/s."""
     over = np.array([odom.columns.column(f"twist.twist.linear.{axis}") for axis in "xyz"]).T
-    ned = _is_ned(odom.columns.frames)
+    ned = FrameTable(ids).of_pose(topics.ODOM.name, *odom.columns.frames[0]) is Convention.NED_FRD
     over[:, 1:] *= 1.0 if ned else -1.0
     stamps = odom.columns.stamp_ns * 1e-9
     order = np.argsort(stamps, kind="stable")
     rows = np.clip(np.searchsorted(stamps[order], run.t), 0, stamps.size - 1)
     found: Column = over[order][rows]
     return found
-
-
-def _is_ned(frames: tuple[tuple[str, ...], ...]) -> bool:
-    return FrameTable(FrameIds()).of_pose(topics.ODOM.name, *frames[0]) is Convention.NED_FRD
 
 
 def _commands(bag: Bag, topic: RecordedTopic | None, odom: _Decoded) -> TimedCommands | None:
@@ -220,7 +218,8 @@ def _commands(bag: Bag, topic: RecordedTopic | None, odom: _Decoded) -> TimedCom
     if topic is None or not topic.count:
         return None
     if topic.type not in _NUMBERS:
-        raise ConfigurationError(f"{bag.path}: {topic.name}", topic.type, " or ".join(_NUMBERS))
+        expected = f"one of {', '.join(_NUMBERS)}"
+        raise ConfigurationError(f"{bag.path}: {topic.name.rsplit('/', 1)[-1]}", topic.type, expected)
     decoder = deserializer(topic)
     log_ns, values = [], []
     for at in np.argsort(np.array(topic.log_ns, np.int64), kind="stable"):

@@ -14,6 +14,8 @@ from auv_sim.own_vehicle.identify.dive.vertical_motion import VerticalLoads, Ver
 LONGEST_STEP = 0.06
 #: A longer gap between measurements of the yaw rate begins a new passage, s.
 LONGEST_GAP = 1.0
+#: Time after a gap without commands in which a fin follows the next ones, s; until then its angle is unknown.
+FOLLOWED = 5.0
 #: Commands are kept from this time before an interval on, s.
 _BEFORE = 5.0
 #: Times nearer than this are one node, s.
@@ -152,7 +154,7 @@ def passage_of(data: PlanarData, latency: float) -> Passage:
     rate_row, u_row = np.full(n, -1), np.full(n, -1)
     u[of_water], v[of_water] = data.u[samples], data.v[samples]
     rate_row[of_rate], u_row[of_water] = np.arange(t.size), t.size + np.arange(at.size)
-    begins, unused = _begins(times, u_row >= 0)
+    begins, unused = _begins(times, u_row >= 0, data.rudder_t)
     rate_row[unused], u_row[unused] = -1, -1
     v_row = np.where(u_row >= 0, u_row + at.size, -1)
     step = np.append(np.diff(times), SAME)
@@ -183,13 +185,18 @@ def _filled(times: Numbers) -> Numbers:
     return np.append(np.concatenate(pieces), times[-1])
 
 
-def _begins(times: Numbers, has_water: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return the nodes at which a passage begins, and those before one: u and v are not known there."""
+def _begins(
+    times: Numbers, has_water: NDArray[np.bool_], commands: Numbers
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Return the nodes at which a passage begins, and those before one: fin, u and v are not known there."""
     begins, unused = np.zeros(times.size, bool), np.zeros(times.size, bool)
-    waiting = True
+    waiting, ready = True, times[0]
     for k in range(times.size):
-        waiting = waiting or (k > 0 and times[k] - times[k - 1] >= LONGEST_GAP)
-        if waiting and has_water[k]:
+        if k > 0 and times[k] - times[k - 1] >= LONGEST_GAP:
+            within = commands[(commands > times[k - 1]) & (commands < times[k])]
+            silent = np.diff(within, prepend=times[k - 1], append=times[k]).max() >= LONGEST_GAP
+            waiting, ready = True, times[k] + (FOLLOWED if silent else 0.0)
+        if waiting and has_water[k] and times[k] >= ready:
             begins[k], waiting = True, False
         unused[k] = waiting
     return begins, unused

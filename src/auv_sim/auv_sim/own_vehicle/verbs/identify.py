@@ -19,7 +19,6 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_path_following import vehicle as vehicle_file
 from auv_path_following.vehicle import Hull, Vehicle
-from auv_sim.bags.content.recorded_manoeuvres import READ
 from auv_sim.command_line import not_negative, positive, say, target, to_type
 from auv_sim.own_vehicle.identify.combinations import COUNT
 from auv_sim.own_vehicle.identify.dive.dive_combinations import DiveCombinations
@@ -55,7 +54,13 @@ from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, LATENCY, RATE, Data
 from auv_sim.own_vehicle.identify.water_current import mean_current
 from auv_sim.own_vehicle.verbs.identification_study import add_study_arguments, study
 from auv_sim.own_vehicle.verbs.identify_checks import check_options, check_target
-from auv_sim.own_vehicle.verbs.recordings_read import ENOUGH, LAST, divided, read
+from auv_sim.own_vehicle.verbs.recordings_read import (
+    ENOUGH,
+    LAST,
+    add_reading_arguments,
+    divided,
+    read,
+)
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, progress_bar, wrote
 
@@ -91,12 +96,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     _add_sheet(parser)
     add_study_arguments(parser)
-    topics = ", ".join(topic.name for topic in READ)
-    parser.add_argument(
-        "--topic", action="append", default=[], metavar="NAME=TOPIC",
-        help=f"other name of a topic; NAME is one of {topics}",
-    )  # fmt: skip
-    parser.add_argument("--namespace", metavar="NAME", help="which vehicle, where there are several")
+    add_reading_arguments(parser)
     parser.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
 
 
@@ -132,7 +132,7 @@ def run(arguments: argparse.Namespace) -> int:
     check_target(arguments.out, inputs, arguments.overwrite)
     check_options(arguments, vehicle)
     hull = known_hull(vehicle)
-    recorded = read(arguments.bag, arguments.topic, arguments.namespace, vehicle, hull)
+    recorded = read(arguments, vehicle, hull)
     recordings = [one.plane for one in recorded]
     where = ", ".join(map(str, arguments.bag))
     check_excitation(recordings, where)

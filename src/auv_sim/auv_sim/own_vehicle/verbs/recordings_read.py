@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import argparse
+import dataclasses
 from collections.abc import Sequence
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
+from auv_msgs_py.contract.frames import FrameIds
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.vehicle import Hull, Vehicle
 from auv_sim.bags.content.recorded_manoeuvres import READ, Manoeuvring, manoeuvres_in
@@ -24,6 +26,9 @@ ENOUGH, LAST, _STEP = 150.0, 45.0, 15.0
 #: Heave and pitch need at least so many odometries and samples, and planes that move (deviation, rad).
 _LEAST_ROWS, _LEAST_SAMPLES, _LEAST_ANGLE = 800, 100, 0.01
 
+#: Axes of a frame, and the frame ids that have them.
+_AXES = {"enu": "enu_world", "ned": "ned_world", "flu": "flu_body", "frd": "frd_body"}
+
 
 class Recorded(NamedTuple):
     """One recording: in the plane, and in the vertical where there are commands of stern planes."""
@@ -32,28 +37,44 @@ class Recorded(NamedTuple):
     dive: DiveData | None
 
 
-def read(
-    bags: Sequence[Path], topics: Sequence[str], namespace: str | None, vehicle: Vehicle, hull: Hull
-) -> list[Recorded]:
+def add_reading_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options that name what a recording of another make has."""
+    topics = ", ".join(topic.name for topic in READ)
+    parser.add_argument(
+        "--topic", action="append", default=[], metavar="NAME=TOPIC",
+        help=f"other name of a topic; NAME is one of {topics}",
+    )  # fmt: skip
+    parser.add_argument(
+        "--frame", action="append", default=[], metavar="ID=AXES",
+        help=f"axes of a further frame id, such as base_footprint=flu; AXES is one of {', '.join(_AXES)}",
+    )  # fmt: skip
+    parser.add_argument("--namespace", metavar="NAME", help="which vehicle, where there are several")
+
+
+def read(options: argparse.Namespace, vehicle: Vehicle, hull: Hull) -> list[Recorded]:
     """Read recordings.
 
     Args:
-        bags: the recordings.
-        topics: other names of topics, NAME=TOPIC.
-        namespace: which vehicle, where there are several.
+        options: those of `add_reading_arguments`, and `bag`: the recordings.
         vehicle, hull: limits, unit of the thrust, drag.
 
     Raises:
-        ConfigurationError: as `manoeuvres_in` and `check_commands`; also an unknown name in `topics`.
+        ConfigurationError: as `manoeuvres_in` and `check_commands`; also an unknown name or axes.
     """
     names: dict[str, str] = {}
-    for name, other in map(_renaming, topics):
+    for name, other in map(_renaming, options.topic):
         if name in names:
             raise ConfigurationError(f"--topic {name}", f"{names[name]} and {other}", "one topic")
         names[name] = other
-    found = []
-    for path in bags:
-        recorded = manoeuvres_in(path, names, namespace)
+    frames, found = _frames(options.frame), []
+    for path in options.bag:
+        try:
+            recorded = manoeuvres_in(path, names, options.namespace, frames=frames)
+        except ConfigurationError as error:
+            if "frame" not in error.found:
+                raise
+            expected = f"{error.expected}, or their axes by --frame ID=AXES"
+            raise ConfigurationError(error.where, error.found, expected) from None
         check_commands(recorded.rudder.value, recorded.thrust.value, vehicle, str(path))
         found.append(Recorded(planar(recorded, vehicle, hull, str(path)), diving(recorded, vehicle, hull)))
     return found
@@ -65,6 +86,18 @@ def _renaming(text: str) -> tuple[str, str]:
     if name not in allowed or not equals or not other:
         raise ConfigurationError("--topic", text, f"NAME=TOPIC with NAME one of {', '.join(allowed)}")
     return name, other
+
+
+def _frames(given: Sequence[str]) -> FrameIds:
+    """Return the accepted frame ids with those that are given, ID=AXES."""
+    ids = FrameIds()
+    for text in given:
+        name, equals, axes = text.rpartition("=")
+        if not equals or not name or axes not in _AXES:
+            raise ConfigurationError("--frame", text, f"ID=AXES with AXES one of {', '.join(_AXES)}")
+        accepted = getattr(ids, _AXES[axes])
+        ids = dataclasses.replace(ids, **{_AXES[axes]: [*accepted, name.strip("/").rsplit("/", 1)[-1]]})
+    return ids
 
 
 def planar(recorded: Manoeuvring, vehicle: Vehicle, hull: Hull, name: str) -> PlanarData:

@@ -10,7 +10,7 @@ import numpy as np
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.vehicle import Vehicle
 from auv_sim.own_vehicle.identify.combinations import Numbers
-from auv_sim.own_vehicle.identify.time_grid import PlanarData, shared_time
+from auv_sim.own_vehicle.identify.time_grid import FOLLOWED, LONGEST_GAP, PlanarData, shared_time
 
 #: Least duration (s), new samples of the log, deviation of the rudder (deg) and rms yaw rate (deg/s).
 _LEAST_TIME, _LEAST_SAMPLES, _LEAST_RUDDER, _LEAST_RATE = 40.0, 50, 1.0, 1.0
@@ -32,7 +32,8 @@ def check_excitation(recordings: Sequence[PlanarData], where: str) -> None:
             raise ConfigurationError(where, found, f"at least {_LEAST_TOGETHER:.0f} s in each recording")
     time = sum(_duration(data) for data in recordings)
     if time < _LEAST_TIME:
-        raise ConfigurationError(where, f"{time:.0f} s of manoeuvres", f"at least {_LEAST_TIME:.0f} s")
+        found = f"{time:.0f} s of manoeuvres without gaps in the odometry"
+        raise ConfigurationError(where, found, f"at least {_LEAST_TIME:.0f} s")
     samples = sum(data.u.size for data in recordings)
     if samples < _LEAST_SAMPLES:
         raise ConfigurationError(
@@ -72,4 +73,9 @@ def _all(recordings: Sequence[PlanarData], name: str) -> Numbers:
 
 
 def _duration(data: PlanarData) -> float:
-    return float(data.t[-1] - data.t[0]) if data.t.size else 0.0
+    """Return the time that is used: without gaps, and without that in which the fin is unknown after each."""
+    if not data.t.size:
+        return 0.0
+    gaps = np.diff(data.t)
+    gaps = gaps[gaps >= LONGEST_GAP]
+    return max(float(data.t[-1] - data.t[0] - gaps.sum() - FOLLOWED * gaps.size), 0.0)

@@ -46,7 +46,7 @@ def check_commands(rudder: Numbers, thrust: Numbers, vehicle: Vehicle, where: st
     """
     if rudder.size and np.mean(np.abs(rudder) > _LARGEST_ANGLE) > _EXCEEDING:
         found = f"angles up to {np.max(np.abs(rudder)):.3g}"
-        expected = f"rad, up to {vehicle.rudder.max_angle:.2g}: no degrees, no per cent"
+        expected = f"radians, {vehicle.rudder.max_angle:.2g} at most, neither degrees nor per cent"
         raise ConfigurationError(f"{where}: rudder_cmd", found, expected)
     if thrust.size and np.mean(thrust > _MORE_THRUST * vehicle.thrust_max) > _EXCEEDING:
         symbol = vehicle.thrust_symbol
