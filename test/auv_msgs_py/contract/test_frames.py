@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from auv_msgs_py.contract.frames import (
@@ -36,14 +36,12 @@ def test_compass_points(yaw_enu, psi):
     assert wrap(flip_yaw(yaw_enu) - psi) == pytest.approx(0.0, abs=1e-15)
 
 
-@settings(deadline=None)
 @given(_angle, _number, _number)
 def test_changing_frames_twice_changes_nothing(yaw, x, y):
     assert flip_yaw(flip_yaw(yaw)) == pytest.approx(yaw, abs=1e-14)
     assert swap_axes(*swap_axes(x, y)) == (x, y)
 
 
-@settings(deadline=None)
 @given(_angle, st.floats(0.1, 5.0))
 def test_a_velocity_along_the_bow_is_so_in_both_frames(psi, speed):
     """Turning the axes of a velocity and turning the yaw must agree."""
@@ -53,7 +51,6 @@ def test_a_velocity_along_the_bow_is_so_in_both_frames(psi, speed):
     assert vy == pytest.approx(speed * math.sin(psi), abs=1e-12)
 
 
-@settings(deadline=None)
 @given(_angle)
 def test_quaternion_and_yaw_are_inverse(yaw):
     z, w = quaternion_of_yaw(yaw)
@@ -62,7 +59,6 @@ def test_quaternion_and_yaw_are_inverse(yaw):
     assert wrap(yaw_of_quaternion(0.0, 0.0, -z, -w) - yaw) == pytest.approx(0.0, abs=1e-14)
 
 
-@settings(deadline=None)
 @given(st.floats(-3.0, 3.0), st.floats(-1.4, 1.4), st.floats(-3.0, 3.0))
 def test_roll_and_pitch_do_not_disturb_the_yaw(yaw, pitch, roll):
     cy, sy = math.cos(yaw / 2), math.sin(yaw / 2)

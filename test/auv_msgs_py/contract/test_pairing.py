@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from auv_msgs_py.contract.pairing import Pairing
@@ -12,7 +12,6 @@ from auv_msgs_py.values.errors import LockstepBroken
 TOPICS = ("odom", "water", "current")
 
 
-@settings(deadline=None)
 @given(st.lists(st.permutations(TOPICS), min_size=1, max_size=6))
 def test_any_order_within_a_step_gives_the_same_tuples(steps):
     pairing = Pairing(TOPICS, strict=True)

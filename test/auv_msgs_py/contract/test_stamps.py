@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from auv_msgs_py.contract.stamps import Punctuality, StampGuard, StampTiming, StampVerdict
@@ -18,7 +18,6 @@ def verdicts(stamps, ordered=False):
     return [guard.judge(stamp).verdict for stamp in stamps]
 
 
-@settings(deadline=None)
 @given(st.lists(st.integers(0, 2 * 10**18), min_size=1, max_size=20, unique=True), st.booleans())
 def test_rising_stamps_are_accepted_with_the_seconds_between_them(stamps, ordered):
     stamps.sort()

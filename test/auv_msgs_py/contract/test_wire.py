@@ -80,7 +80,7 @@ def test_bytes_and_values_are_those_of_rclpy(type_name: str) -> None:
     """One reader and one writer for all examples: frame ids change under them, as on a real topic."""
     reader, writer = wire.LIGHT[type_name](), wire.LIGHT[type_name]()
 
-    @settings(deadline=None, max_examples=60, suppress_health_check=[HealthCheck.too_slow])
+    @settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
     @given(filled(type_name))
     def check(message: Any) -> None:
         data = serialize_message(message)

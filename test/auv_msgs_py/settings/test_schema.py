@@ -7,7 +7,6 @@ from typing import Literal
 
 import pytest
 from hypothesis import given
-from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
 
 from auv_msgs_py.settings.explanations import key_path
@@ -160,7 +159,6 @@ def test_a_parameter_without_default_is_the_authors_mistake():
         leaves(Strict)
 
 
-@hypothesis_settings(deadline=None)
 @given(st.builds(Inner, gain=st.floats(0.01, 10.0), count=st.integers(1, 8)), st.booleans())
 def test_flattening_and_nesting_are_inverse(inner, flag):
     outer = Outer(inner=inner, flag=flag)

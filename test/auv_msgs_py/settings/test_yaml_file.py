@@ -6,7 +6,6 @@ import math
 
 import pytest
 from hypothesis import given
-from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
 
 from auv_msgs_py.settings import yaml_file
@@ -180,7 +179,6 @@ _looks_like_a_number = st.sampled_from(
 )
 
 
-@hypothesis_settings(deadline=None)
 @given(st.dictionaries(_text, _scalar | _looks_like_a_number | st.lists(_scalar, max_size=3), max_size=4))
 def test_what_is_dumped_is_read_back(tmp_path_factory, data):
     path = tmp_path_factory.mktemp("dump", numbered=True) / "f.yaml"

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from auv_msgs_py.values.angles import TWO_PI, wrap
@@ -28,7 +28,6 @@ def test_known_angles(angle, expected):
     assert wrap(angle) == pytest.approx(expected, abs=1e-14)
 
 
-@settings(deadline=None)
 @given(st.floats(-1e4, 1e4))
 def test_it_is_the_same_angle_within_one_turn(angle):
     wrapped = wrap(angle)
@@ -37,7 +36,6 @@ def test_it_is_the_same_angle_within_one_turn(angle):
     assert math.sin(wrapped) == pytest.approx(math.sin(angle), abs=1e-11)
 
 
-@settings(deadline=None)
 @given(st.floats(-3.1, 3.1), st.integers(-50, 50))
 def test_whole_turns_change_nothing(angle, turns):
     assert wrap(angle + turns * TWO_PI) == pytest.approx(angle, abs=1e-12)

@@ -134,7 +134,7 @@ def _good(command):
     return abs(command.rudder) <= LIMIT and 0.0 <= command.thrust <= REMUS.thrust_max
 
 
-@settings(deadline=None, max_examples=200)
+@settings(max_examples=200)
 @given(st.lists(st.tuples(_any, _any, _any, _any, _any, st.floats(0.0, 10.0)), min_size=1, max_size=6))
 def test_whatever_comes_in_the_command_is_finite_and_within_limits(steps):
     autopilot = HeadingAutopilot(REMUS, CONFIG)

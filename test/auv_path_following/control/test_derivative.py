@@ -23,7 +23,7 @@ def test_without_a_filter_it_is_the_difference() -> None:
     assert behind(0.0, [1.0, 1.5, 0.5], 0.5) == [0.0, 1.0, -2.0]
 
 
-@settings(deadline=None, max_examples=50)
+@settings(max_examples=50)
 @given(st.floats(0.5, 50.0), st.floats(0.01, 1.0), st.floats(-5.0, 5.0))
 def test_it_finds_the_slope_of_a_straight_line(bandwidth: float, dt: float, slope: float) -> None:
     steps = math.ceil(30.0 / (bandwidth * dt)) + 1
@@ -51,7 +51,7 @@ def test_it_multiplies_white_noise_as_the_page_says(bandwidth: float) -> None:
     assert 0.75 * rule < np.std(behind(bandwidth, noise, 0.05)) < rule
 
 
-@settings(deadline=None, max_examples=50)
+@settings(max_examples=50)
 @given(
     st.floats(0.01, 1000.0),
     st.lists(st.tuples(st.floats(-10.0, 10.0), st.floats(1e-4, 10.0)), min_size=1, max_size=50),

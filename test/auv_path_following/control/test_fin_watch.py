@@ -58,7 +58,7 @@ def test_a_servo_that_is_stuck_is_reported_and_one_that_is_slow_is_not() -> None
     assert reported(command, lambda t: math.nan) == {}
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(st.lists(st.floats(-MAX, MAX), min_size=1, max_size=60), st.floats(-0.04, 0.04))
 def test_a_sound_servo_with_an_offset_is_never_reported(commands: list[float], offset: float) -> None:
     watch, state, angle = prepare(FinWatchConfig(), PLANES), NEUTRAL, 0.0

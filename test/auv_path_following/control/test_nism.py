@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from auv_msgs_py.values.pure import numbers_of
@@ -45,7 +45,6 @@ def surfaces(gains, t):
     return out.sigma_1, out.sigma_2
 
 
-@settings(deadline=None)
 @given(_gains, st.floats(0.0, 20.0))
 def test_surfaces_are_eq_45_with_derivatives_along_the_signal(gains, t):
     h = 1e-5
@@ -82,7 +81,6 @@ def test_the_switching_part_rests_on_the_surface():
     assert law_with(gains).update(HeadingInputs(0.0, 0.0, 0.0, 0.0, 0.0), 1.0).rudder == 0.0
 
 
-@settings(deadline=None)
 @given(st.lists(_inputs, min_size=2, max_size=30), st.floats(0.0, 0.2), st.floats(0.001, 2.0))
 def test_rate_and_angle_stay_within_their_bounds(inputs, ks, dt):
     law = law_with(NismConfig(kp=0.1745, ks=ks), LIMIT)
@@ -104,14 +102,12 @@ def test_the_clamp_is_inside_the_integral_so_nothing_winds_up():
     assert law.update(back, 0.05).rudder == pytest.approx(LIMIT - 0.1745 * 0.05)
 
 
-@settings(deadline=None)
 @given(st.floats(0.05, 3.0))
 def test_a_heading_too_far_to_starboard_puts_the_rudder_to_port(psi_e):
     steady = HeadingInputs(psi_e, 0.0, 0.0, 0.0, 0.0)
     assert law_with(GAINS, LIMIT).update(steady, 0.05).rudder > 0.0  # positive turns to port
 
 
-@settings(deadline=None)
 @given(_inputs)
 def test_port_and_starboard_are_mirror_images(inputs):
     here = law_with(GAINS, LIMIT).update(inputs, 0.05)
@@ -119,7 +115,6 @@ def test_port_and_starboard_are_mirror_images(inputs):
     assert there == tuple(-value for value in here)
 
 
-@settings(deadline=None)
 @given(_inputs, _rate, _acceleration)
 def test_only_differences_from_the_reference_count(inputs, rate, acceleration):
     psi_e, r, r_dot, r_d, r_d_dot = inputs[:5]

@@ -35,7 +35,7 @@ def test_too_far_to_starboard_turns_to_port(sign):
     assert sign * settle(flown(pid_law.LAW, vehicle=REMUS), inputs(0.0, r=sign * 0.1), 2.0) > 0.0
 
 
-@settings(deadline=None, max_examples=50)
+@settings(max_examples=50)
 @given(st.lists(st.tuples(st.floats(-math.pi, math.pi), st.floats(-1.0, 1.0)), min_size=2, max_size=80))
 def test_angle_and_rate_never_exceed_the_rudders(seen):
     pid, last = flown(pid_law.LAW, vehicle=REMUS), 0.0

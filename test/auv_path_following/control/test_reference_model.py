@@ -36,7 +36,7 @@ def model(**changes):
     return Stepped(lambda c, state, inputs, dt: (shape(c, state, *inputs, dt),) * 2, config, ReferenceState())
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(
     st.lists(st.tuples(angles, st.floats(-0.1, 0.1)), min_size=5, max_size=60),
     st.sampled_from([0.02, 0.05, 0.1]),
@@ -57,7 +57,7 @@ def test_rate_acceleration_and_jerk_stay_within_their_limits(requests, dt):
         last = shaped
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(st.lists(angles, min_size=5, max_size=60))
 def test_what_is_fed_forward_are_the_exact_derivatives(requests):
     reference = model()

@@ -67,7 +67,6 @@ def test_at_holds_s_within_the_path():
     assert PATH.at(99.0) == PATH.at(7.0)
 
 
-@settings(deadline=None)
 @given(st.integers(0, 6), st.floats(0.0, 1.0))
 def test_distance_to_go_counts_the_rest_and_all_that_follows(i, t):
     expected = PATH.segments[i].length_to_go(t) + sum(segment.length for segment in PATH.segments[i + 1 :])
@@ -151,7 +150,7 @@ _single = st.sampled_from(
 )
 
 
-@settings(deadline=None, max_examples=150)
+@settings(max_examples=150)
 @given(_single, st.floats(-120.0, 120.0), st.floats(-120.0, 120.0))
 def test_distance_is_the_smallest_that_brute_force_finds(segment, x, y):
     (distance,) = CompositePath([segment]).distance(np.array([x]), np.array([y]), np.array([0]))
@@ -165,7 +164,6 @@ def test_distance_is_the_smallest_that_brute_force_finds(segment, x, y):
     assert distance == pytest.approx(math.sqrt(squared[best]), abs=1e-9)
 
 
-@settings(deadline=None)
 @given(st.integers(0, 6), st.floats(0.0, 1.0), st.floats(-20.0, 20.0))
 def test_distance_beside_a_subpath_is_the_offset(i, t, offset):
     point = PATH.evaluate(i, t)

@@ -62,7 +62,6 @@ def length_by_reference(segment, start, end):
     return float(np.sum(segment.evaluate(t).speed @ weights * np.diff(edges) / 2.0))
 
 
-@settings(deadline=None)
 @given(curves, inside)
 def test_derivatives_agree_with_finite_differences(segment, t):
     h = 1e-5
@@ -76,7 +75,6 @@ def test_derivatives_agree_with_finite_differences(segment, t):
         )
 
 
-@settings(deadline=None)
 @given(curves, inside)
 def test_length_agrees_with_quadrature(segment, t):
     assert segment.length == pytest.approx(length_by_reference(segment, 0.0, 1.0), rel=1e-8, abs=1e-9)
@@ -85,7 +83,6 @@ def test_length_agrees_with_quadrature(segment, t):
     assert segment.length_to_go(1.0) == pytest.approx(0.0, abs=1e-9 * segment.length)
 
 
-@settings(deadline=None)
 @given(curves)
 def test_numbers_and_arrays_give_the_same_points(segment):
     t = np.linspace(0.0, 1.0, 9)
@@ -96,7 +93,6 @@ def test_numbers_and_arrays_give_the_same_points(segment):
         assert [field[k] for field in together] == pytest.approx(list(alone), rel=1e-12, abs=1e-9)
 
 
-@settings(deadline=None)
 @given(clothoids, inside)
 def test_clothoid_bends_evenly(segment, t):
     start, end = segment.evaluate(0.0).kappa, segment.evaluate(1.0).kappa
@@ -162,7 +158,6 @@ def test_a_curve_without_a_course_is_refused(make, said):
         make()
 
 
-@settings(deadline=None)
 @given(segments, inside)
 def test_reversed_is_the_same_way_back(segment, t):
     back = Reversed(segment)
@@ -185,7 +180,7 @@ def test_tightest_finds_the_peak_inside_a_spiral():
     assert t == pytest.approx(math.sqrt(theta), abs=1e-4)
 
 
-@settings(deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(curves)
 def test_straight_pieces_stay_near_the_curve(segment):
     x, y = polygon(segment, 0.05)

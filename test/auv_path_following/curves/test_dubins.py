@@ -82,7 +82,7 @@ def _length(segments) -> float:
     return sum(segment.length for segment in segments)
 
 
-@settings(deadline=None, max_examples=30, phases=(Phase.explicit, Phase.generate))
+@settings(max_examples=30, phases=(Phase.explicit, Phase.generate))
 @given(poses, poses, radii)
 def test_it_is_as_short_as_the_best_that_a_search_finds(start, end, radius):
     assume(math.dist(start[:2], end[:2]) > 0.1)  # for the search no turn and a whole circle are alike
@@ -90,7 +90,6 @@ def test_it_is_as_short_as_the_best_that_a_search_finds(start, end, radius):
     assert found == pytest.approx(_searched(start, end, radius), rel=1e-6, abs=1e-4)
 
 
-@settings(deadline=None)
 @given(poses, poses, radii)
 def test_every_word_leads_from_pose_to_pose(start, end, radius):
     words = dubins.words(start, end, radius)
@@ -108,14 +107,12 @@ def test_every_word_leads_from_pose_to_pose(start, end, radius):
         assert wrap(last.chi - end.chi) == pytest.approx(0.0, abs=1e-6)
 
 
-@settings(deadline=None)
 @given(poses, poses, radii)
 def test_it_is_never_longer_than_any_word(start, end, radius):
     best = dubins.shortest(start, end, radius)
     assert all(best.size <= word.size for word in dubins.words(start, end, radius))
 
 
-@settings(deadline=None)
 @given(poses, poses, radii)
 def test_mirror_image_and_way_back_are_as_long(start, end, radius):
     def mirrored(pose: PlanarPose) -> PlanarPose:

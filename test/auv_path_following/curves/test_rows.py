@@ -54,7 +54,7 @@ def assert_same_point(path: CompositePath, i: int, t: float) -> None:
 
 
 @pytest.mark.parametrize("number", range(len(SEGMENTS)), ids=IDS)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(t=st.floats(0.0, 1.0))
 def test_points_and_derivatives(number: int, t: float) -> None:
     assert_same_point(PATHS[number], 0, t)

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from auv_path_following.curves.kinds.arc import Arc
@@ -38,7 +38,6 @@ def _length_by_reference(segment, start, end):
     return float(np.sum(weights * segment.evaluate(t).speed)) * (end - start) / 2.0
 
 
-@settings(deadline=None)
 @given(segments, inside)
 def test_first_derivative_is_that_of_the_position(segment, t):
     h = 1e-5
@@ -48,7 +47,6 @@ def test_first_derivative_is_that_of_the_position(segment, t):
     assert (after.y - before.y) / (2 * h) == pytest.approx(at.dy, abs=1e-6 * scale)
 
 
-@settings(deadline=None)
 @given(segments, inside)
 def test_second_derivative_is_that_of_the_first(segment, t):
     h = 1e-5
@@ -58,21 +56,18 @@ def test_second_derivative_is_that_of_the_first(segment, t):
     assert (after.dy - before.dy) / (2 * h) == pytest.approx(at.ddy, abs=1e-6 * scale)
 
 
-@settings(deadline=None)
 @given(segments, st.floats(0.0, 1.0))
 def test_length_to_go_is_the_integral_of_the_speed(segment, t):
     expected = _length_by_reference(segment, t, 1.0)
     assert segment.length_to_go(t) == pytest.approx(expected, rel=1e-12, abs=1e-12 * segment.length)
 
 
-@settings(deadline=None)
 @given(segments)
 def test_length_to_go_spans_the_whole_length_and_ends_at_zero(segment):
     assert segment.length_to_go(0.0) == pytest.approx(segment.length, rel=1e-15)
     assert segment.length_to_go(1.0) == 0.0
 
 
-@settings(deadline=None)
 @given(segments, st.lists(st.floats(0.0, 1.0), min_size=1, max_size=5))
 def test_an_array_gives_what_the_numbers_give(segment, parameters):
     many = segment.evaluate(np.array(parameters))
@@ -87,7 +82,6 @@ def test_an_array_gives_what_the_numbers_give(segment, parameters):
             assert isinstance(getattr(one, name), float)
 
 
-@settings(deadline=None)
 @given(segments, inside)
 def test_curvature_is_the_rate_of_the_course_along_the_path(segment, t):
     h = 1e-5
@@ -118,7 +112,6 @@ def test_arc_turns_to_starboard_when_its_bearing_grows(a1, sign):
     assert arc.length == pytest.approx(100.0 * math.pi)
 
 
-@settings(deadline=None)
 @given(_size, st.floats(0.01, 1.0), _angle, _turn, inside)
 def test_spiral_has_the_curvature_of_the_closed_formula(k, theta_end, chi0, rho, t):
     theta = theta_end * t * t
@@ -147,7 +140,6 @@ def test_spiral_turns_by_theta_and_the_angle_off_its_radius(rho):
     assert math.hypot(end.x, end.y) == pytest.approx(100.0 * math.sqrt(theta))
 
 
-@settings(deadline=None)
 @given(_size, _theta, _angle, st.floats(0.0, 1.0))
 def test_the_other_turn_is_the_mirror_image(k, theta_end, chi, t):
     for kind in (FermatSpiral, MirroredFermatSpiral):
@@ -159,7 +151,6 @@ def test_the_other_turn_is_the_mirror_image(k, theta_end, chi, t):
         assert port.length == starboard.length
 
 
-@settings(deadline=None)
 @given(_theta, _angle, st.floats(0.0, 1.0))
 def test_the_mirror_is_the_spiral_flown_backwards(theta_end, chi, t):
     # Turned round, the mirror starts where it ended, on the opposite course, and turns to the other side.

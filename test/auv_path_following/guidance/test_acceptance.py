@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from auv_msgs_py.contract import topics
@@ -60,7 +60,6 @@ def test_shallower_and_sharper_corners():
     assert radius(179.0) == radius(140.0) < 15.0
 
 
-@settings(deadline=None)
 @given(st.floats(1.0, 135.0), st.floats(0.0, 0.4), angles)
 def test_both_sides_are_alike(degrees, strength, direction):
     chi = 0.3
@@ -71,7 +70,6 @@ def test_both_sides_are_alike(degrees, strength, direction):
     assert radius(degrees, flow[0]) == pytest.approx(radius(-degrees, flow[1]))
 
 
-@settings(deadline=None)
 @given(angles, st.floats(0.0, 1.5), angles)
 def test_the_crab_angle_keeps_the_course(chi, strength, direction):
     current = Current(strength * math.cos(direction), strength * math.sin(direction))
@@ -92,7 +90,6 @@ def test_ground_speed_and_change_of_heading_count():
     assert east == pytest.approx(1.9365 + 3.8730 * 1.24247 - 0.85 * 0.25, abs=1e-3)
 
 
-@settings(deadline=None)
 @given(st.floats(-180.0, 180.0), st.floats(0.0, 3.0), angles, st.floats(0.0, 4.0), st.floats(0.0, 30.0))
 def test_no_corner_has_a_radius_beyond_the_reach(degrees, strength, direction, Ur, lookahead):
     current = Current(strength * math.cos(direction), strength * math.sin(direction))

@@ -38,7 +38,7 @@ def test_it_is_never_behind_and_never_beyond_reach():
     assert closest_ahead(NORTH_THEN_EAST.rows, 1, 0.99, 100.0, 500.0, 50.0) == (1, pytest.approx(1.0))
 
 
-@settings(deadline=None, max_examples=100)
+@settings(max_examples=100)
 @given(
     st.floats(0.0, 6.99), st.floats(-30.0, 30.0), st.floats(-30.0, 30.0), st.floats(0.0, 80.0)
 )  # fmt: skip

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from auv_msgs_py.settings.schema import validated
@@ -54,7 +54,6 @@ def test_the_last_subpath_has_no_joint_to_switch_at(mode):
     assert not is_reached(end.x, end.y, END, 1.0, mode=mode, radius=1000.0)
 
 
-@settings(deadline=None)
 @given(st.floats(0.0, 12.0), st.floats(-math.pi, math.pi), st.floats(0.5, 12.0), st.floats(0.0, 1.0))
 def test_on_the_last_half_it_is_a_circle_with_the_radius_that_was_asked_for(distance, bearing, radius, t):
     x, y = 40.0 + distance * math.cos(bearing), distance * math.sin(bearing)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from auv_msgs_py.values.types import NO_CURRENT, Current, Navigation, WaterVelocity
@@ -47,7 +47,6 @@ def test_errors_are_ahead_and_to_starboard(x, y, chi_p, xe, ye):
     assert found == pytest.approx((xe, ye), abs=1e-12)
 
 
-@settings(deadline=None)
 @given(_place, _place, _angle, _angle)
 def test_errors_are_the_offset_turned_into_the_paths_axes(x, y, chi_p, turn):
     at = path_errors(Navigation(x, y, 0.0, 0.0), 0.0, 0.0, chi_p)
@@ -58,7 +57,6 @@ def test_errors_are_the_offset_turned_into_the_paths_axes(x, y, chi_p, turn):
     assert turned == pytest.approx(at, abs=1e-9)
 
 
-@settings(deadline=None)
 @given(st.floats(-20.0, 20.0), _angle, st.floats(0.01, 3.0), _speed, _angle, _speed, _speed)
 def test_speed_of_p_is_eq_22(xe, psi, ur, vr, chi_p, Vx, Vy):
     Ur, beta_r = math.hypot(ur, vr), math.atan2(vr, ur)
@@ -67,7 +65,6 @@ def test_speed_of_p_is_eq_22(xe, psi, ur, vr, chi_p, Vx, Vy):
     assert found == pytest.approx(expected, abs=1e-12)
 
 
-@settings(deadline=None)
 @given(
     k=st.floats(0.1, 3.0),
     xe=st.floats(-10.0, 10.0),
@@ -109,7 +106,6 @@ def place_of(path, P):
     return evaluate(path, path.subpath[P.i], P.t)[:2]
 
 
-@settings(deadline=None)
 @given(st.floats(0.1, 3.0), st.floats(0.01, 1.0))
 def test_p_covers_metres_not_units_of_s(U_P, dt):
     path = two_legs()
@@ -179,7 +175,6 @@ def test_within_a_subpath_it_may_go_back_but_never_into_the_one_before():
     assert (P.i, P.t) == (1, 0.0)
 
 
-@settings(deadline=None)
 @given(st.lists(st.tuples(st.floats(-30.0, 60.0), st.floats(0.0, 2.0)), max_size=30))
 def test_whatever_happens_the_subpath_never_decreases_and_s_stays_on_the_path(course):
     path, P = two_legs(), VirtualPoint()

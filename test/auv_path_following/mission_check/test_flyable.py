@@ -65,7 +65,7 @@ def test_the_peak_inside_a_curve_is_found():
     assert "a turn of radius 40.00 m" in refusal.found
 
 
-@settings(deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(st.floats(-3.0, 3.0), st.floats(0.0, 1.2), st.floats(-3.0, 3.0), st.sampled_from([1.0, -1.0]))
 def test_in_a_current_the_turn_through_the_water_counts(chi, strength, towards, side):
     """Move along an arc over ground at one speed through the water; the water track's turn is measured."""
@@ -206,7 +206,7 @@ def _brute(points) -> set[tuple[int, int]]:
     }
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @example([(0, 0), (0, 3), (0, 1)])  # straight back on itself
 @given(st.lists(st.tuples(st.integers(0, 40), st.integers(0, 40)), min_size=3, max_size=14, unique=True))
 def test_crossings_are_those_of_a_search_of_all_pairs(points):
@@ -238,7 +238,7 @@ def test_a_path_that_leaves_its_geofence_is_refused(tmp_path, width, refused):
     assert [verdict.where for verdict in found.refusals] == (["geofence"] if refused else [])
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     st.lists(st.tuples(st.integers(-9, 9), st.integers(-9, 9)), min_size=3, max_size=7), st.integers(0, 999)
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from auv_path_following.missions.geodesy import Origin, to_geodetic, to_ned
@@ -16,7 +16,6 @@ origins = st.builds(
 )
 
 
-@settings(deadline=None)
 @given(origins, st.floats(-50e3, 50e3), st.floats(-50e3, 50e3))
 def test_metres_to_degrees_and_back(origin, north, east):
     latitude, longitude = to_geodetic(origin, [north], [east])
@@ -24,7 +23,6 @@ def test_metres_to_degrees_and_back(origin, north, east):
     assert (x[0], y[0]) == pytest.approx((north, east), abs=1e-6)
 
 
-@settings(deadline=None)
 @given(st.floats(-80.0, 80.0))
 def test_a_small_step_north_is_as_long_as_the_meridian_says(latitude):
     """Radii of curvature of the WGS 84 ellipsoid, from its textbook formulas."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from auv_msgs_py.values.types import Navigation
@@ -98,7 +98,6 @@ def test_geofence():
     assert "geofence" in limits.broken(at(50.0, 51.0), 0.0, 0.0, 0.0, DT)
 
 
-@settings(deadline=None)
 @given(st.floats(-20.0, 120.0), st.floats(-20.0, 70.0))
 def test_inside_a_rectangle(x, y):
     on_edge = min(abs(x), abs(x - 100.0), abs(y), abs(y - 50.0)) < 1e-9
@@ -168,7 +167,6 @@ def test_the_way_to_the_path_is_not_too_slow_along_it():
     assert first_broken(MissionRun(BEHIND), still, to_go=lambda t: 2000.0 - 1.9 * max(0.0, t - 200.0)) is None
 
 
-@settings(deadline=None)
 @given(st.floats(0.31, 5.0), st.floats(0.0, 20.0))
 def test_a_vehicle_that_keeps_its_speed_along_the_path_goes_on(speed, wait):
     """Also one that waits at a corner for less than the window allows."""

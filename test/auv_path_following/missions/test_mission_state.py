@@ -199,7 +199,7 @@ class AnyOrder(RuleBasedStateMachine):
 
 
 TestAnyOrder = AnyOrder.TestCase
-TestAnyOrder.settings = settings(max_examples=30, stateful_step_count=20, deadline=None)
+TestAnyOrder.settings = settings(max_examples=30, stateful_step_count=20)
 
 
 def test_the_first_reason_of_an_abort_stays(mission):

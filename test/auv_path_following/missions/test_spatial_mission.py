@@ -211,7 +211,7 @@ def test_each_leg_of_a_survey_has_its_depth(loaded, smoothing):
     assert not any(abs(joint.gamma_in - joint.gamma_out) > 1e-6 for joint in spatial.joints)
 
 
-@settings(max_examples=12, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=12, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     st.lists(st.floats(1.0, 60.0), min_size=4, max_size=4),
     st.sampled_from(["linear", "fermat", "dubins", "spline"]),

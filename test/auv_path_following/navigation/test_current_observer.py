@@ -34,7 +34,6 @@ def drifting(Vx, Vy, ur, vr, psi, x0=3.0, y0=-4.0):
     return lambda t: Navigation(x0 + u * t, y0 + v * t, psi, 0.0)
 
 
-@settings(deadline=None)
 @given(_gain, _gain, st.floats(0.001, 20.0))
 def test_transition_is_the_matrix_exponential(k_ob1, k_ob2, dt):
     # In the observer's own state (e, Vhat) the error of the current has the other sign.
@@ -58,7 +57,7 @@ def test_transition_bears_any_gap_between_measurements(k_ob1, k_ob2, dt):
     assert np.abs(found).max() <= 400.0 * math.exp(slow * dt) + 1e-300
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(
     _gain,
     _gain,

@@ -30,7 +30,7 @@ def passed(gate: Any, measurements: Any, under_way: bool = True) -> list[Passed]
     return [gate.judge(navigation, DT, under_way).passed for navigation in measurements]
 
 
-@settings(deadline=None, max_examples=50)
+@settings(max_examples=50)
 @given(st.lists(st.floats(-1.9, 1.9), min_size=2, max_size=40))
 def test_what_a_vehicle_can_do_is_always_accepted(rates: list[float]) -> None:
     gate, z = gate_with(), 50.0

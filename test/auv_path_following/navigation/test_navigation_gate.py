@@ -30,7 +30,7 @@ def fly(gate, measurements, under_way=True, dt=DT):
     return [gate.judge(navigation, dt, under_way).passed for navigation in measurements]
 
 
-@settings(deadline=None, max_examples=50)
+@settings(max_examples=50)
 @given(
     st.lists(
         st.tuples(st.floats(-4.4, 4.4), st.floats(-math.pi, math.pi), st.floats(-2.4, 2.4)),
@@ -108,7 +108,7 @@ def test_a_place_that_runs_away_in_small_steps_is_never_accepted(gate, step, nam
         max_size=200,
     )
 )
-@settings(deadline=None, max_examples=20)
+@settings(max_examples=20)
 def test_noise_within_the_margins_is_accepted_for_ever(noise):
     gate = NavigationGate(NavigationGateConfig(), TOP_SPEED)
     for k, (x, y, psi) in enumerate(noise):

@@ -230,7 +230,7 @@ def wandering(draw: st.DrawFn) -> tuple[CompositePath, Run]:
     return path, dataclasses.replace(run, x=run.x + sine, y=run.y - sine)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(wandering(), st.floats(-math.pi, math.pi), st.floats(-1e3, 1e3), st.floats(-1e3, 1e3))
 def test_the_share_does_not_depend_on_where_the_path_lies(
     given_, turn: float, north: float, east: float
@@ -251,7 +251,7 @@ def test_the_share_does_not_depend_on_where_the_path_lies(
     )  # rounding may flip an edge
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(wandering(), st.integers(2, 5))
 def test_more_rows_take_nothing_away_and_parts_make_the_whole(given_, every: int) -> None:
     path, run = given_

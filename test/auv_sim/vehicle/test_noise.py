@@ -105,7 +105,7 @@ def test_without_errors_there_is_no_error() -> None:
     assert set(errors(NoiseConfig(), [0.1] * 10)) == {0.0}
 
 
-@settings(deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(seed=st.integers(0, 2**31), steps=st.lists(st.floats(0.01, 1.0), min_size=1, max_size=20))
 def test_a_seed_is_a_run(seed: int, steps: list[float]) -> None:
     config = NoiseConfig(white=1.0, bias=1.0, drift=1.0, drift_time=2.0)

@@ -73,7 +73,6 @@ def slopes(name, state, delta, thrust, current=NO_CURRENT):
     return [x_dot + current.Vx, y_dot + current.Vy, state.r, *rest]
 
 
-@settings(deadline=None)
 @given(st.sampled_from(NAMES), states, rudders, st.floats(0.0, THRUST), currents)
 def test_derivative_is_eqs_14_18_19(name, state, delta, thrust, current):
     hull = VEHICLES[name].hull
@@ -102,7 +101,7 @@ def test_the_two_hulls_differ_where_they_should():
     assert not VEHICLES["remus100_table2"].hull.surge_coupling
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(st.sampled_from(NAMES), states, commands, currents)
 def test_port_and_starboard_are_mirror_images(name, state, course, current):
     other = [(Command(-command.rudder, command.thrust), dt) for command, dt in course]
@@ -112,7 +111,7 @@ def test_port_and_starboard_are_mirror_images(name, state, course, current):
     assert there.servo.angle == -here.servo.angle
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(states, commands, currents)
 def test_a_steady_current_carries_the_track_along_and_changes_nothing_else(state, course, current):
     still, moving = flown(state, course), flown(state, course, current=current)
@@ -122,7 +121,7 @@ def test_a_steady_current_carries_the_track_along_and_changes_nothing_else(state
     assert moving[2:] == still[2:]
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(states, commands, st.floats(-3.0, 3.0))
 def test_turning_the_world_changes_nothing(state, course, turn):
     c, s = math.cos(turn), math.sin(turn)
@@ -209,7 +208,6 @@ def test_the_shipped_step_is_fine_enough():
         assert end[:2] == pytest.approx(ends[2][:2], abs=1e-3)
 
 
-@settings(deadline=None)
 @given(states, currents)
 def test_velocity_over_ground_is_that_of_the_position(state, current):
     """Eqs. (15) and (16) with the signs that follow from Eq. (14): turned to the world they give (x', y')."""

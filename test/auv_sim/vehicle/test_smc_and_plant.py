@@ -29,7 +29,6 @@ def plant_yaw(hull, ur, vr, r, delta):
     return planar_slopes(planar_hull_of(hull), 0.0, ur, vr, r, delta, 6.48)[3:]
 
 
-@settings(deadline=None)
 @given(hulls, speeds, sways, rates, st.floats(-0.6, 0.6))
 def test_the_controllers_hull_is_the_plants(hull, ur, vr, r, delta):
     model = HullModel(hull).sway_yaw
@@ -38,7 +37,6 @@ def test_the_controllers_hull_is_the_plants(hull, ur, vr, r, delta):
     assert own == pytest.approx(plant_yaw(hull, ur, vr, r, delta), rel=1e-9, abs=1e-9)
 
 
-@settings(deadline=None)
 @given(hulls, sways, rates, st.floats(-0.3, 0.3), st.floats(-0.1, 0.1), st.floats(-0.1, 0.1))
 def test_the_equivalent_rudder_keeps_sigma(hull, vr, r, psi_e, r_d, r_d_dot):
     config = dataclasses.replace(SmcConfig(), largest_rate=5.0)
@@ -49,7 +47,7 @@ def test_the_equivalent_rudder_keeps_sigma(hull, vr, r, psi_e, r_d, r_d_dot):
     assert sigma_dot == pytest.approx(0.0, abs=1e-9)
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(st.lists(st.tuples(st.floats(-math.pi, math.pi), st.floats(-1.0, 1.0)), min_size=2, max_size=60))
 def test_angle_and_rate_never_exceed_the_rudders(seen):
     smc, last, rudder = flown(smc_law.LAW, vehicle=HULLS[0]), 0.0, HULLS[0].rudder

@@ -63,7 +63,7 @@ def test_lengths_are_those_of_the_curve(segment, kind) -> None:
 DEPTHS = st.floats(0.5, 40.0)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.lists(st.tuples(st.floats(5.0, 60.0), DEPTHS), min_size=2, max_size=6), DEPTHS)
 def test_at_a_knot_each_side_has_its_own_slope(steps, first: float) -> None:
     """t = 1 of the subpath before is the slope of its ramp, t = 0 of the next one that of the next."""
@@ -78,7 +78,7 @@ def test_at_a_knot_each_side_has_its_own_slope(steps, first: float) -> None:
             assert math.tan(tangent_of(path.evaluate(i, t)).gamma) == pytest.approx(-slope, abs=1e-9)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(st.integers(0, 2**31), st.sampled_from(["smooth", "linear"]))
 def test_the_distance_is_that_of_the_nearest_sample(seed: int, kind) -> None:
     draw = np.random.default_rng(seed)

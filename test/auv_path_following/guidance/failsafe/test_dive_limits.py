@@ -134,7 +134,7 @@ def test_a_rest_begins_the_watch_anew() -> None:
     assert (state.slow, state.has_been_fast, state.stalled, state.z) == (0.0, False, 0.0, 16.0)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(
     st.lists(
         st.tuples(*(st.floats(-limit, limit) for limit in (0.5, 0.5, 0.2, 0.2, 0.29))),

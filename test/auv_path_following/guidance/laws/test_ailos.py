@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from auv_msgs_py.values.types import NO_CURRENT, Current, Navigation, WaterVelocity
@@ -21,7 +21,6 @@ _angle = st.floats(-3.0, 3.0)
 _flow = st.floats(-0.6, 0.6)
 
 
-@settings(deadline=None)
 @given(st.floats(-500.0, 500.0), st.floats(-0.95, 0.95), st.floats(0.5, 50.0))
 def test_alpha_solves_its_defining_equation(ye, theta_n, Delta):
     """The heading takes up the push across the path: alpha / sqrt(Delta^2 + (ye + alpha)^2) = theta_n."""
@@ -29,14 +28,12 @@ def test_alpha_solves_its_defining_equation(ye, theta_n, Delta):
     assert alpha / math.hypot(Delta, ye + alpha) == pytest.approx(theta_n, abs=1e-9)
 
 
-@settings(deadline=None)
 @given(st.floats(-100.0, 100.0), st.floats(0.0, 0.95))
 def test_alpha_is_odd_and_vanishes_without_current(ye, theta_n):
     assert adaptive_offset(-ye, -theta_n, DELTA) == pytest.approx(-adaptive_offset(ye, theta_n, DELTA))
     assert adaptive_offset(ye, 0.0, DELTA) == 0.0
 
 
-@settings(deadline=None)
 @given(
     radius=st.floats(20.0, 300.0),
     turn=st.sampled_from([1.0, -1.0]),
@@ -79,7 +76,6 @@ def test_with_the_heading_reached_the_errors_obey_eq_32(radius, turn, t, ex, ey,
     assert (ye_after - ye_before) / (2.0 * h) == pytest.approx(expected, abs=1e-5)
 
 
-@settings(deadline=None)
 @given(st.floats(0.01, 200.0), _angle, st.floats(-0.3, 0.3))
 def test_starboard_of_the_path_it_steers_to_port_and_the_other_way_round(ye, chi_p, beta_r):
     law = flown(ailos.LAW)

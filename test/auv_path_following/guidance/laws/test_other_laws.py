@@ -24,7 +24,6 @@ def inputs(ye, beta_r=0.0, current=NO_CURRENT, Ur=2.0):
     return LawInputs(ye, 0.3, Ur, beta_r, current)
 
 
-@settings(deadline=None)
 @given(st.floats(-100.0, 100.0), st.floats(-0.3, 0.3))
 def test_los_is_ailos_without_a_current(ye, beta_r):
     sailed = flown(los.LAW, LosConfig(lookahead=5.0)).update(inputs(ye, beta_r, Current(0.3, -0.2)), DT)
@@ -39,7 +38,7 @@ def test_it_turns_towards_the_path(law, ye):
     assert (law.update(inputs(ye), DT).psi_d - 0.3) * ye < 0.0
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(st.lists(st.floats(-50.0, 50.0), min_size=1, max_size=200))
 def test_the_course_never_leaves_the_half_plane_ahead(errors):
     law = flown(ilos.LAW)
@@ -73,7 +72,6 @@ def test_far_away_the_integral_grows_slowly():
     assert far.update(inputs(0.0), DT).alpha == 0.0
 
 
-@settings(deadline=None)
 @given(st.floats(-1000.0, 1000.0), st.floats(0.0, 10.0))
 def test_the_adaptive_look_ahead_keeps_to_its_bounds(ye, Ur):
     config = AdaptiveLookaheadConfig(enabled=True)

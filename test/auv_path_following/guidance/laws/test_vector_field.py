@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from auv_msgs_py.values.types import NO_CURRENT, Current
@@ -22,7 +22,6 @@ def answer(ye, chi_p=0.3, Ur=2.0, beta_r=0.0, current=NO_CURRENT, **gains):
     return law.update(LawInputs(ye, chi_p, Ur, beta_r, current), 0.05)
 
 
-@settings(deadline=None)
 @given(st.floats(0.01, 1000.0), _angle, st.floats(-0.3, 0.3))
 def test_starboard_of_the_path_it_steers_to_port_and_the_other_way_round(ye, chi_p, beta_r):
     starboard, port = answer(ye, chi_p, beta_r=beta_r), answer(-ye, chi_p, beta_r=beta_r)
@@ -41,7 +40,6 @@ def test_on_the_path_its_slope_is_that_of_its_look_ahead_distance(entry, gain):
     assert slope / (2.0 * h) == pytest.approx(-1.0 / lookahead, rel=1e-6)
 
 
-@settings(deadline=None)
 @given(st.floats(-50.0, 50.0), _angle, st.floats(-0.3, 0.3), _flow, _flow)
 def test_in_a_current_the_course_over_ground_is_that_of_the_field(ye, chi_p, beta_r, Vx, Vy):
     out, Ur = answer(ye, chi_p, 2.0, beta_r, Current(Vx, Vy)), 2.0

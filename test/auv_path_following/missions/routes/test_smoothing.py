@@ -49,7 +49,7 @@ def courses(draw: st.DrawFn) -> list[tuple[float, float]]:
     return points
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(courses(), st.sampled_from(KINDS))
 def test_ends_and_joints_meet_and_the_claimed_continuity_holds(points, kind):
     path = CompositePath(smooth(points, smoothing(kind)), TOLERANCE)
@@ -66,7 +66,7 @@ def test_ends_and_joints_meet_and_the_claimed_continuity_holds(points, kind):
         assert {joint.geometric for joint in path.joints} <= {"G0"}
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(courses(), st.sampled_from(ROUNDED))
 def test_no_corner_is_tighter_than_asked_for_and_the_tightest_is_just_that(points, kind):
     for segment in smooth(points, smoothing(kind)):
@@ -77,7 +77,7 @@ def test_no_corner_is_tighter_than_asked_for_and_the_tightest_is_just_that(point
             assert abs(kappa) == pytest.approx(1.0 / RADIUS, rel=1e-6)
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(courses(), st.sampled_from(ROUNDED), st.floats(0.5, 1.0))
 def test_a_distance_is_where_the_legs_are_left(points, kind, share):
     legs = [math.dist(a, b) for a, b in itertools.pairwise(points)]
@@ -93,7 +93,7 @@ def _moved(points, angle, mirror):
     return [(x * cos - side * y * sin, x * sin + side * y * cos) for x, y in points]
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(courses(), st.sampled_from(KINDS), st.floats(-3.0, 3.0), st.booleans())
 def test_turned_or_mirrored_waypoints_give_the_turned_or_mirrored_path(points, kind, angle, mirror):
     path = CompositePath(smooth(points, smoothing(kind)), TOLERANCE)
@@ -108,7 +108,7 @@ def test_turned_or_mirrored_waypoints_give_the_turned_or_mirrored_path(points, k
         assert (there.x, there.y) == pytest.approx((x, y), abs=1e-6)
 
 
-@settings(deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(courses())
 def test_dubins_passes_every_waypoint_half_way_round_its_corner(points):
     path = CompositePath(smooth(points, smoothing("dubins")), TOLERANCE)

@@ -27,7 +27,7 @@ def polygons(draw: st.DrawFn) -> list[tuple[float, float]]:
     return [(x + r * math.cos(b), y + r * math.sin(b)) for r, b in zip(radii, bearings, strict=True)]
 
 
-@settings(deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(polygons(), st.floats(5.0, 60.0), st.floats(-4.0, 4.0), st.randoms(use_true_random=False))
 def test_all_of_the_polygon_is_seen(polygon, spacing, chi, random):
     legs = np.array(survey.legs(polygon, spacing, chi))

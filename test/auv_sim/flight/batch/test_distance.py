@@ -19,7 +19,7 @@ KNOWN = [(rows_of(path), outlines_of(path)) for path in PATHS]
 
 
 @pytest.mark.parametrize("number", range(len(SEGMENTS)), ids=IDS)
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(t=st.floats(0.0, 1.0), away=st.floats(-60.0, 60.0), bearing=st.floats(0.0, 6.3))
 def test_distances(number: int, t: float, away: float, bearing: float) -> None:
     segment = SEGMENTS[number]

@@ -35,7 +35,7 @@ def test_the_defaults_are_those_of_the_command() -> None:
     assert options_of() == Options()
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(
     st.tuples(*[st.integers(-50, 50).map(lambda tenths: tenths / 10)] * 2),
     st.floats(0.1, 50.0),

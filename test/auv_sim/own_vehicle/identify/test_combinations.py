@@ -30,7 +30,7 @@ fins = st.floats(-0.6, 0.6)
 
 
 @given(seed=st.integers(0, 50), stable=st.booleans(), motion=speeds, delta=fins, thrust=st.floats(0.0, 7.0))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 def test_a_hull_written_back_with_other_masses_moves_the_same(
     seed: int, stable: bool, motion: tuple[float, float, float], delta: float, thrust: float
 ) -> None:
@@ -44,7 +44,7 @@ def test_a_hull_written_back_with_other_masses_moves_the_same(
 
 
 @given(motion=speeds, delta=fins, scale=st.floats(0.9, 1.1))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_a_log_that_reads_too_much_multiplies_the_combinations_by_its_powers(
     motion: tuple[float, float, float], delta: float, scale: float
 ) -> None:

@@ -132,7 +132,7 @@ def test_a_plane_step_ends_at_its_pitch(side: float) -> None:
     assert manoeuvre(config, state, at(theta=-side * math.radians(11.0)), 0.05)[1] == SPATIAL_STOP
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
 @given(angles, angles, rates, rates, st.floats(-50.0, 50.0), st.integers(0, 28))
 def test_commands_stay_within_the_limits(
     psi: float, theta: float, q: float, r: float, z: float, number: int

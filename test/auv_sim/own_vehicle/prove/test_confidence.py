@@ -6,14 +6,13 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import binom, binomtest
 
 from auv_sim.own_vehicle.prove.confidence import flights_needed, largest_share, most_of
 
 
-@settings(deadline=None)
 @given(st.integers(1, 3000), st.data(), st.sampled_from([0.9, 0.95, 0.99]))
 def test_the_share_is_that_of_clopper_and_pearson(flights: int, data, confidence: float) -> None:
     events = data.draw(st.integers(0, flights))
@@ -21,7 +20,6 @@ def test_the_share_is_that_of_clopper_and_pearson(flights: int, data, confidence
     assert largest_share(events, flights, confidence) == pytest.approx(exact, abs=1e-9)
 
 
-@settings(deadline=None)
 @given(st.integers(1, 2000), st.sampled_from([0.9, 0.99]), st.sampled_from([0.9, 0.95]))
 def test_the_order_statistic_is_the_first_that_is_sure_enough(
     n: int, share: float, confidence: float

@@ -23,7 +23,7 @@ from auv_sim.own_vehicle.tune.ensemble import (
 from hulls import DIVER, REMUS
 
 
-@settings(deadline=None, max_examples=20)
+@settings(max_examples=20)
 @given(st.integers(0, 10**6), st.floats(2.0, 40.0), st.sampled_from(["sharp", "rounded", "survey"]))
 def test_a_course_can_be_flown(seed: int, radius: float, kind) -> None:
     path, again = (drawn_course(kind, radius, 5, np.random.default_rng(seed)) for _ in range(2))

@@ -43,7 +43,7 @@ def test_gains_lead_back_to_their_point(space: GainSpace) -> None:
     assert space.point_of(space.gains(point)) == pytest.approx(np.clip(point, *bounds()), abs=1e-3)
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(
     st.lists(st.floats(-6.0, 6.0), min_size=len(VARIABLES), max_size=len(VARIABLES)), st.sampled_from(SPACES)
 )

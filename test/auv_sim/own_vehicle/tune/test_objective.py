@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from auv_sim.flight.batch.flight_figures import Flights
@@ -40,7 +40,6 @@ def test_the_rule_has_zero() -> None:
     assert total(flights()) == pytest.approx(0.0)
 
 
-@settings(deadline=None)
 @given(
     st.sampled_from(
         ["rms_distance", "off_corners_rms_distance", "rudder_travel_per_metre", "late_rms_yaw_rate"]
@@ -86,7 +85,6 @@ def test_margins_that_are_missing_cost() -> None:
     assert terms_of(flights(), flights(), IS_LINE, 2 / 3).total > 1.0
 
 
-@settings(deadline=None)
 @given(
     st.lists(st.floats(0.01, 5.0), min_size=5, max_size=5), st.lists(st.booleans(), min_size=5, max_size=5)
 )

@@ -44,7 +44,7 @@ def test_a_sampled_integrator(delay: float, largest: float) -> None:
     assert not is_stable(TURNS, on_rate(1.02 * largest), 1.0, delay)
 
 
-@settings(deadline=None, max_examples=6)
+@settings(max_examples=6)
 @given(st.floats(1.5, 5.0), st.floats(0.05, 0.15))
 def test_margins_of_an_integrator_with_delay(gain: float, delay: float) -> None:
     """Sampled fast it is the continuous loop K exp(-s tau)/s: stable for K tau < pi/2."""
@@ -56,7 +56,7 @@ def test_margins_of_an_integrator_with_delay(gain: float, delay: float) -> None:
 
 
 @given(st.floats(0.0, 0.6), st.floats(0.02, 0.1))
-@settings(deadline=None, max_examples=30)
+@settings(max_examples=30)
 def test_more_delay_never_helps_an_integrator(delay: float, step: float) -> None:
     radii = [spectral_radius(TURNS, on_rate(3.0), step, late) for late in (delay, delay + 0.03)]
     assert radii[0] <= radii[1] + 1e-9

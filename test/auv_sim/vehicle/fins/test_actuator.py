@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from auv_path_following import vehicle
@@ -60,7 +60,6 @@ def test_it_does_not_go_past_the_stops(asked, stop):
     assert rudder.angle == stop
 
 
-@settings(deadline=None)
 @given(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0), st.lists(st.floats(0.0, 1.0), max_size=10))
 def test_many_small_steps_are_one_large_step(first, second, steps):
     small, large = Driven(), Driven()
@@ -144,7 +143,6 @@ def test_commands_faster_than_the_ring_was_made_for_are_an_error():
             rudder.command(0.1, 0.001)
 
 
-@settings(deadline=None)
 @given(
     st.lists(st.floats(-1.0, 1.0), max_size=40),
     st.floats(0.0, 5.0),

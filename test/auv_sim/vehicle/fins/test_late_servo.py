@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from auv_msgs_py.values.types import Command
@@ -42,7 +42,6 @@ def vehicle_with(dead_time: float) -> Vehicle:
     return dataclasses.replace(REMUS, rudder=late(dead_time))
 
 
-@settings(deadline=None)  # a loaded machine takes longer for the steps of 1 ms
 @given(
     st.integers(1, 400),
     st.sampled_from([20, 50, 100]),
@@ -65,7 +64,6 @@ def test_its_angle_is_that_of_an_ideal_one_some_time_ago(delay, period, commands
         assert deflection[1] == pytest.approx(fine[k * period + period // 2 - 1], abs=1e-9)
 
 
-@settings(deadline=None)
 @given(
     st.floats(0.001, 0.4),
     st.sampled_from([0.02, 0.05, 0.1]),

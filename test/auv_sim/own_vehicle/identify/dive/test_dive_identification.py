@@ -37,7 +37,7 @@ C = dive_combinations_of(HULL.m, VERTICAL)
     q=st.floats(-0.3, 0.3).filter(lambda q: abs(q) > 0.01),
     theta=st.floats(-0.5, 0.5),
 )
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_the_jacobian_is_that_of_finite_differences(u: float, w: float, q: float, theta: float) -> None:
     given_, x, h = (u, 0.98, 0.01, 0.0, 0.0, 0.0), np.array([theta, w, q]), 1e-6
 
@@ -57,7 +57,7 @@ def test_planes_down_push_the_bow_down_and_gravity_rights_the_hull() -> None:
 
 
 @given(factor=st.floats(0.7, 1.4), ahead=st.floats(-0.01, 0.01))
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 def test_a_hull_written_back_with_other_masses_has_the_same_combinations(factor: float, ahead: float) -> None:
     true = dataclasses.replace(VERTICAL, Zuw=factor * VERTICAL.Zuw, Muq=factor * VERTICAL.Muq, xg=ahead)
     assumed = dataclasses.replace(VERTICAL, Zwd=1.2 * VERTICAL.Zwd, Mqd=0.8 * VERTICAL.Mqd)

@@ -52,7 +52,7 @@ def stepped(
     play=st.sampled_from([0.0, 0.002, 0.01]),
 )
 @example(seed=73, rate=0.25, steps=0, band=0.0035, play=0.0)  # back at rest just as a command comes
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 def test_means_are_those_of_the_simulated_servo_in_fine_steps(
     seed: int, rate: float, steps: int, band: float, play: float
 ) -> None:

@@ -37,7 +37,7 @@ TRUE = np.array([*C, REMUS.rudder.max_rate, *[0.0] * 7])
     r=st.floats(-0.5, 0.5).filter(lambda r: abs(r) > 0.01),
     delta=st.floats(-0.6, 0.6),
 )
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_the_jacobian_is_that_of_finite_differences(u: float, v: float, r: float, delta: float) -> None:
     x, h = np.array([u, v, r]), 1e-6
 

@@ -58,7 +58,7 @@ def found_with(c: Combinations, share: float) -> Identified:
     factors=st.lists(st.floats(0.9, 1.1), min_size=len(C), max_size=len(C)),
     share=st.sampled_from([0.05, 3.0]),
 )
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 def test_what_is_written_loads_and_is_the_same_vehicle(
     known: Vehicle, factors: list[float], share: float
 ) -> None:
