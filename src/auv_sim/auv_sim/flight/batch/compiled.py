@@ -22,6 +22,8 @@ os.environ.setdefault("NUMBA_OPT", "1")
 numba: Any
 try:
     import numba
+    from numba.core.codegen import JITCodeLibrary
+    from numba.core.compiler import CompilerBase, DefaultPassBuilder
     from numba.extending import overload, register_jitable
 except ImportError:
     numba = None
@@ -50,12 +52,57 @@ _OPTIONS: Any = {
     "no_cfunc_wrapper": True,
 }
 
+if numba is not None:
+
+    class _LinkedOnly(JITCodeLibrary):
+        """Code of an inlined function, for its callers to link.
+
+        Numba would optimise and load each of them with all that it inlines, although only their callers
+        run: LLVM takes twice as long.
+        """
+
+        def finalize(self) -> None:
+            for library in dict.fromkeys(self._linking_libraries):
+                self._reload_init.update(library._reload_init)
+                self._final_module.link_in(library._get_module_for_linking(), preserve=True)
+            self._finalized = True
+
+        def get_pointer_to_function(self, name: str) -> int:
+            return 0  # as of a function that is not in the library
+
+        @property
+        def codegen(self) -> _LinkedOnly:
+            return self
+
+        def set_env(self, name: str, environment: object) -> None:
+            """Do nothing: a function that is not loaded has no place for its environment."""
+
+    class _Inlined(CompilerBase):
+        """Numba's compiler for functions that are inlined into every caller."""
+
+        def define_pipelines(self) -> list[Any]:
+            name = self.state.func_id.func_qualname
+            library: Any = _LinkedOnly
+            builder: Any = DefaultPassBuilder
+            self.state.library = library(self.state.targetctx.codegen(), name)
+            return [builder.define_nopython_pipeline(self.state)]
+
+    _OPTIONS["pipeline_class"] = _Inlined
+
 
 def compiled(function: F) -> F:
     """Compile a function to machine code that releases the interpreter's lock, cached from run to run."""
     if numba is None:
         return function
-    return numba.njit(nogil=True, cache=True, error_model="numpy")(function)  # type: ignore[no-any-return]
+    options = {"nogil": True, "cache": True, "no_cfunc_wrapper": True, "error_model": "numpy"}
+    return numba.njit(**options)(function)  # type: ignore[no-any-return]
+
+
+def inlined(function: F) -> F:
+    """Make a function callable from compiled code, which inlines it."""
+    if numba is not None:
+        register_jitable(**_OPTIONS)(function)
+    return function
 
 
 def overloads(function: Callable[..., Any]) -> Callable[[F], F]:
@@ -79,7 +126,7 @@ def take_over_pure() -> None:
     for function in PURE:
         if id(function) not in _taken_over:
             _taken_over.add(id(function))
-            register_jitable(**_OPTIONS)(function)
+            inlined(function)
     for step, steps in DISPATCHED:
         if id(step) not in _taken_over:
             _taken_over.add(id(step))

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from auv_path_following.guidance.approach import empty_approach
 from auv_sim.flight.batch import same_bits, tally  # noqa: F401 - before anything is compiled
-from auv_sim.flight.batch.compiled import compiled, take_over_pure
+from auv_sim.flight.batch.compiled import compiled, inlined, take_over_pure
 from auv_sim.flight.batch.config_rows import unpack
 from auv_sim.flight.batch.kinds.chosen import (
     at_rest,
@@ -84,34 +84,7 @@ def scratch_of(course: Course, ring: int = 0) -> Scratch:
     return Scratch(np.array(empty_approach()), cells, np.zeros(2 * max(ring, 1)))
 
 
-@compiled
-def fly_many(
-    example: FlightConfig, configs: Array, which: Array, starts: Array, currents: Array,
-    course: Course, scratch: Scratch, whole: Array, subpaths: Array, ends: Array,
-) -> None:  # fmt: skip
-    """Fly n flights of one course.
-
-    Args:
-        example: a flight of the same layout.
-        configs: shape (k, numbers), `rows.flat` of different flights.
-        which: shape (n,), each flight's row in `configs`.
-        starts: shape (n, 6) or (n, 13), first states of the hulls.
-        currents: shape (n, 2) or (n, 3), NED, m/s.
-        course: the path.
-        scratch: used by each flight in turn.
-        whole, subpaths, ends: written; a row of each for each flight, see `fly_one`.
-    """
-    none = np.empty((0, 0))
-    for k in range(len(which)):
-        flight = unpack(example, configs[which[k]])
-        start, current = start_from(flight.plant, starts[k], currents[k], scratch.ring)
-        fly_one(
-            flight, flight.plant, start, current, course, scratch, whole[k], subpaths[k], ends[k], none,
-            none.size,  # 0; a literal would compile another `fly_one`
-        )  # fmt: skip
-
-
-@compiled
+@inlined
 def fly_one(
     c: FlightConfig, vehicle: Any, afloat: Any, constant: Any, course: Course, scratch: Scratch,
     whole: Array, subpaths: Array, end: Array, track: Array, every: int,
@@ -175,3 +148,34 @@ def fly_one(
     end[tally.ODOMETRIES], end[tally.S], end[tally.FINITE] = odometries, s, 1.0 if finite else 0.0
     end[tally.SHARE] = np.mean(flown)
     write_end(seen.motion, end)
+
+
+#: `fly_one` for calls from Python: flights at sea, each of which has its own vehicle.
+fly_alone = compiled(fly_one)
+
+
+@compiled
+def fly_many(
+    example: FlightConfig, configs: Array, which: Array, starts: Array, currents: Array,
+    course: Course, scratch: Scratch, whole: Array, subpaths: Array, ends: Array, track: Array, every: int,
+) -> None:  # fmt: skip
+    """Fly n flights of one course without a sea.
+
+    Args:
+        example: a flight of the same layout.
+        configs: shape (k, numbers), `rows.flat` of different flights.
+        which: shape (n,), each flight's row in `configs`.
+        starts: shape (n, 6) or (n, 13), first states of the hulls.
+        currents: shape (n, 2) or (n, 3), NED, m/s.
+        course: the path.
+        scratch: used by each flight in turn.
+        whole, subpaths, ends: written; a row of each for each flight, see `fly_one`.
+        track, every: as of `fly_one`, for the last flight.
+    """
+    for k in range(len(which)):
+        flight = unpack(example, configs[which[k]])
+        start, current = start_from(flight.plant, starts[k], currents[k], scratch.ring)
+        fly_one(
+            flight, flight.plant, start, current, course, scratch, whole[k], subpaths[k], ends[k], track,
+            every,
+        )  # fmt: skip

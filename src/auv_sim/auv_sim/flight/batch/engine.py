@@ -27,10 +27,11 @@ from auv_sim.flight.batch.compiled import COMPILED
 from auv_sim.flight.batch.compiled_flight import (
     Course,
     FlightConfig,
+    fly_alone,
     fly_many,
-    fly_one,
     scratch_of,
 )
+from auv_sim.flight.batch.config_rows import flat
 from auv_sim.flight.batch.flight_figures import Flights
 from auv_sim.flight.batch.judge import judged
 from auv_sim.flight.batch.kinds.chosen import start_from
@@ -55,6 +56,7 @@ from auv_sim.vehicle.simulated import SimulatedVehicle
 _CHUNK = 64
 #: Odometries of one compiled call, about: Ctrl-C waits for the end of a call.
 _ODOMETRIES = 100_000
+_NO_TRACK = np.empty((0, 0))
 
 Done = Callable[[int], None]
 
@@ -122,7 +124,7 @@ class _Chunk(NamedTuple):
         with np.errstate(all="ignore"):  # a state that runs away is a result
             fly_many(
                 self.example, self.configs, self.which, starts, currents, self.course,
-                scratch_of(self.course, ring), whole, subpaths, ends,
+                scratch_of(self.course, ring), whole, subpaths, ends, _NO_TRACK, 0,
             )  # fmt: skip
         dt = np.array([scenario.dt for scenario in flown])
         return figures_by(self.path)(ends, whole, subpaths, dt)
@@ -182,7 +184,7 @@ def track(scenario: Scenario, every: int = 1) -> Run:
     if scenario.sea is not None and not COMPILED:
         return closed_loop.fly(scenario).select(slice(None, None, every))
     course, path = Courses().of(scenario)
-    *_, rows = _flown(scenario, path, course, flight_of(scenario), every)
+    _, rows = _flown(scenario, path, course, flight_of(scenario), every)
     t = [(topics.FIRST_STAMP_NS + int(k) * scenario.step_ns) * 1e-9 for k in rows[:, track_row.NUMBER]]
     names: tuple[str, ...] = track_row.TRACK
     truth: tuple[str, ...] = TRUTH
@@ -200,15 +202,16 @@ def _at_sea(
         return {
             name: np.array([value]) for name, value in judged(closed_loop.fly(scenario), scenario).items()
         }
-    whole, subpaths, end, _ = _flown(scenario, path, course, flight, 0)
-    return figures_by(path)(end[None], whole[None], subpaths[None], np.array([scenario.dt]))
+    (whole, subpaths, ends), _ = _flown(scenario, path, course, flight, 0)
+    return figures_by(path)(ends, whole, subpaths, np.array([scenario.dt]))
 
 
 def _flown(
     scenario: Scenario, path: CompositePath | SpatialPath, course: Course, flight: FlightConfig, every: int
-) -> tuple[Any, Any, Any, Any]:
-    """Fly one scenario; return its tallies, those of its subpaths, its end, and every `every`-th row."""
-    (whole,), (subpaths,), (end,) = tallies_of(1, path)
+) -> tuple[Any, Any]:
+    """Fly one scenario; return its tallies as `tallies_of`, and every `every`-th row."""
+    tallies = tallies_of(1, path)
+    whole, subpaths, end = (one[0] for one in tallies)
     row, water = start_row(scenario, path), current_row(scenario)
     columns = track_row.SPATIAL_TRACK_COLUMNS if scenario.vehicle.dives else track_row.TRACK_COLUMNS
     kind = SimulatedDiver.kind if scenario.vehicle.dives else SimulatedVehicle.kind
@@ -216,20 +219,24 @@ def _flown(
     while True:
         steps = min(steps, flight.steps)
         kept = np.empty((math.ceil(steps / every) if every else 0, columns))
-        vehicle: Any = flight.plant
-        state, constant = start_from(vehicle, row, water, scratch.ring)
-        if scenario.sea is not None:
-            draws = Draws(flight.dt, steps, arrays=True)
-            vehicle, state = kind.at_sea_of(
-                scenario.plant_vehicle, state.hull, scenario.sea, scenario.seed, draws
-            )
         with np.errstate(all="ignore"):  # a state that runs away is a result
-            fly_one(
-                flight._replace(steps=steps), vehicle, state, constant, course, scratch,
-                whole, subpaths, end, kept, every,
-            )  # fmt: skip
+            if scenario.sea is None:
+                fly_many(
+                    flight, np.array([flat(flight)]), np.zeros(1, np.int64), np.array([row]),
+                    np.array([water]), course, scratch, *tallies, kept, every,
+                )  # fmt: skip
+            else:
+                state, constant = start_from(flight.plant, row, water, scratch.ring)
+                vehicle, state = kind.at_sea_of(
+                    scenario.plant_vehicle, state.hull, scenario.sea, scenario.seed,
+                    Draws(flight.dt, steps, arrays=True),
+                )  # fmt: skip
+                fly_alone(
+                    flight._replace(steps=steps), vehicle, state, constant, course, scratch,
+                    whole, subpaths, end, kept, every,
+                )  # fmt: skip
         if steps == flight.steps or end[tally.ODOMETRIES] < steps:
-            return whole, subpaths, end, kept[: math.ceil(end[tally.ODOMETRIES] / every)] if every else kept
+            return tallies, kept[: math.ceil(end[tally.ODOMETRIES] / every)] if every else kept
         steps *= 2  # from the start: the same seed gives the same flight
 
 
