@@ -118,6 +118,16 @@ def test_too_much_thrust_is_refused():
     assert (refusal.where, refusal.found) == ("thrust", "7 N")
 
 
+@pytest.mark.parametrize(("thrust", "level"), [(6.48, "refused"), (300.0, "warning"), (900.0, None)])
+def test_newtons_for_a_vehicle_in_rpm_are_found_by_the_speed(thrust, level):
+    table = ((500.0, 0.72), (1500.0, 6.48))
+    rpm = dataclasses.replace(REMUS, thrust_max=1500.0, thrust_unit="rpm", thrust_table=table)
+    findings = check(mission(Line(0.0, 0.0, 900.0, 0.0), thrust=thrust), rpm)
+    found = [one for one in (*findings.refusals, *findings.warnings) if one.where == "thrust"]
+    assert [one.level for one in found] == ([level] if level else [])
+    assert not found or f"{thrust:g} rpm, which makes" in found[0].found
+
+
 CORNERS = smooth([(0, 0), (50, 0), (50, 8), (100, 8), (100, 50)], Smoothing(kind="linear"))
 
 

@@ -27,6 +27,8 @@ from auv_path_following.vehicle import Vehicle
 Array = npt.NDArray[np.float64]
 
 _MOST_CROSSINGS = 100
+#: Shares of the largest speed: a mission whose thrust makes less is warned of, and refused.
+_SLOW, _STANDING = 0.3, 0.1
 
 
 @dataclass(frozen=True)
@@ -75,6 +77,7 @@ def check(
     survey = LapSurvey(mission, level, speed)
     found = [
         *_thrust(mission, vehicle),
+        *_unit(mission, vehicle, speed),
         *depths(mission, vehicle, switching or SwitchingConfig(), speed, sinking),
         *_geofence(mission),
         *survey.way(level),
@@ -148,6 +151,16 @@ def _thrust(mission: Mission, vehicle: Vehicle) -> Iterator[Finding]:
             unit = vehicle.thrust_symbol
             limit = f"at most {vehicle.thrust_max:g} {unit}, all that {vehicle.name} has"
             yield Finding("refused", "thrust", f"{mission.thrust:g} {unit}", limit)
+
+
+def _unit(mission: Mission, vehicle: Vehicle, speed: float) -> Iterator[Finding]:
+    """Find a thrust that is probably one in newtons, of a vehicle that takes another unit."""
+    share = speed / vehicle.speed_at(vehicle.thrust_max)
+    if mission.speed is None and vehicle.thrust_unit != "N" and share < _SLOW:
+        unit = vehicle.thrust_symbol
+        found = f"{mission.thrust:g} {unit}, which makes {speed:.2f} m/s"
+        expected = f"a thrust in {unit}, of which {vehicle.name} has {vehicle.thrust_max:g}, or a speed"
+        yield Finding("refused" if share < _STANDING else "warning", "thrust", found, expected)
 
 
 def _geofence(mission: Mission) -> Iterator[Finding]:

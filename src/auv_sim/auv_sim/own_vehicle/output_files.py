@@ -2,10 +2,22 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from pathlib import Path
 
 from auv_msgs_py.values.errors import ConfigurationError
+
+
+def vehicle_file_of(name: str) -> Path:
+    """Return the file that `vehicle.py new` writes for a vehicle of this name."""
+    stem = re.sub(r"[^a-z0-9]+", "_", name.lower()).strip("_") or "vehicle"
+    return Path(f"{stem}.yaml")
+
+
+def survey_beside(file: Path) -> Path:
+    """Return the survey that `vehicle.py new` writes beside a vehicle file."""
+    return file.with_name(f"{file.stem}_survey.yaml")
 
 
 def check_outputs(files: Iterable[Path], inputs: Iterable[Path], overwrite: bool) -> None:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,6 +19,7 @@ from auv_sim.own_vehicle.new.vehicle_text import text_of
 from auv_sim.own_vehicle.prove import proof_picture, proof_words
 from auv_sim.own_vehicle.prove.one_flight import worst_of
 from auv_sim.own_vehicle.prove.proof import Proof, Proposition, SeaProof, draw_claim
+from auv_sim.own_vehicle.prove.proof_report import missions_for
 from auv_sim.own_vehicle.tune import tune_session
 from auv_sim.own_vehicle.tune.ensemble import UNCERTAIN_DIVING, spread_of_file
 from auv_sim.own_vehicle.tune.trial_flights import STRAIGHT, Conditions
@@ -204,6 +207,17 @@ def test_the_command_flies_and_concludes(tmp_path, capsys) -> None:
         assert main([*few, *seas, *wrong]) == 2
         (line,) = capsys.readouterr().err.splitlines()
         assert text in line
+
+
+def test_the_next_command_flies_the_survey_of_the_vehicle(tmp_path) -> None:
+    """The default mission has newtons: of a vehicle in rpm it makes 0.06 m/s."""
+    table = {"thrust_max": 1500.0, "thrust_unit": "rpm", "thrust_table": ((1500.0, 6.48),)}
+    file, rpm = str(tmp_path / "found.yaml"), dataclasses.replace(REMUS, name="My AUV", **table)
+    assert missions_for(REMUS, file) == []
+    assert missions_for(rpm, file) == [Path("MISSION.yaml")]
+    survey = tmp_path / "my_auv_survey.yaml"
+    survey.touch()
+    assert missions_for(rpm, file) == [survey]
 
 
 def test_a_file_states_the_uncertainty_of_its_coefficients(tmp_path) -> None:

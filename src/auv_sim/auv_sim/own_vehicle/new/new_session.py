@@ -17,7 +17,7 @@ from auv_sim.own_vehicle.new.next_measurement import headline, worth_measuring
 from auv_sim.own_vehicle.new.owner_facts import OwnerFacts, check_facts
 from auv_sim.own_vehicle.new.trial_flight import TrialSurvey, trial_survey
 from auv_sim.own_vehicle.new.vehicle_text import text_of
-from auv_sim.own_vehicle.output_files import check_outputs
+from auv_sim.own_vehicle.output_files import check_outputs, survey_beside
 from auv_sim.terminal import go_on, headed_table, wrote
 
 
@@ -39,7 +39,7 @@ def new_vehicle(facts: OwnerFacts, file: Path, overwrite: bool, console: Console
         ConfigurationError: the facts contradict each other, the file exists, or the vehicle does not fly.
     """
     check_facts(facts)
-    survey = file.with_name(f"{file.stem}_survey.yaml")
+    survey = survey_beside(file)
     check_outputs((file, survey), (), overwrite)
     vehicle, text = described(facts, file)
     with console.status("flying a survey on the assumed hull"):

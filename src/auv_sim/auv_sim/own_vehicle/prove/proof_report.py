@@ -13,6 +13,7 @@ from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.strict_json import without_nan
 from auv_path_following.vehicle import Vehicle
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, to_type
+from auv_sim.own_vehicle.output_files import survey_beside, vehicle_file_of
 from auv_sim.own_vehicle.prove import proof_page, proof_picture, proof_words, provenance
 from auv_sim.own_vehicle.prove.confidence import flights_needed
 from auv_sim.own_vehicle.prove.law_comparison import PEER, LawTables
@@ -100,7 +101,7 @@ def conclude(
     wrote(console, outputs.picture, "its distributions")
     wrote(console, outputs.flight, f"the worst flight; again: {refly}")
     wrote(console, outputs.summary, "its figures, for programs")
-    _next(console, options, holds)
+    _next(console, options, own, holds)
     return EXIT_DONE if holds else EXIT_FAILED
 
 
@@ -131,10 +132,24 @@ def _tables(options: argparse.Namespace, result: Result) -> list[PageTable]:
     return tables
 
 
-def _next(console: Console, options: argparse.Namespace, holds: bool) -> None:
+def missions_for(own: Vehicle, file: str) -> list[Path]:
+    """Return the survey that `vehicle.py new` wrote for a vehicle, if it did.
+
+    Without it there is none where the default mission fits, which has newtons; else a placeholder.
+
+    Args:
+        own, file: the vehicle and its file.
+    """
+    survey = survey_beside(Path(file).with_name(vehicle_file_of(own.name).name))
+    if survey.is_file():
+        return [survey]
+    return [] if own.thrust_unit == "N" else [Path("MISSION.yaml")]
+
+
+def _next(console: Console, options: argparse.Namespace, own: Vehicle, holds: bool) -> None:
     if holds:
-        rest = ["--params", options.params] if options.params else []
-        go_on(console, "Fly them", to_type("mission.py", "--vehicle", options.vehicle, *map(str, rest)))
+        words = {"vehicle": options.vehicle, "params": options.params or None}
+        go_on(console, "Fly them", to_type("mission.py", *missions_for(own, options.vehicle), **words))
     else:
         rest = conditions_again(options)
         rest += ["--overwrite"] if Path("tuned.yaml").exists() else []

@@ -11,7 +11,6 @@ import argparse
 import math
 import re
 import sys
-from pathlib import Path
 from typing import Any
 
 from auv_msgs_py.values.errors import ConfigurationError, printable
@@ -77,11 +76,11 @@ def run(arguments: argparse.Namespace) -> int:
     if sys.stdin.isatty() and not _is_complete(arguments):
         _ask(arguments)
     from auv_sim.own_vehicle.new.new_session import new_vehicle
+    from auv_sim.own_vehicle.output_files import vehicle_file_of
     from auv_sim.terminal import console
 
     facts = _facts(arguments)
-    stem = re.sub(r"[^a-z0-9]+", "_", facts.name.lower()).strip("_") or "vehicle"
-    new_vehicle(facts, arguments.out or Path(f"{stem}.yaml"), arguments.overwrite, console())
+    new_vehicle(facts, arguments.out or vehicle_file_of(facts.name), arguments.overwrite, console())
     return EXIT_DONE
 
 
