@@ -76,8 +76,7 @@ def check(
     level, sinking = Current(*current[:2]), sum(current[2:])
     survey = LapSurvey(mission, level, speed)
     found = [
-        *_thrust(mission, vehicle),
-        *_unit(mission, vehicle, speed),
+        *_thrust(mission, vehicle, speed),
         *depths(mission, vehicle, switching or SwitchingConfig(), speed, sinking),
         *_geofence(mission),
         *survey.way(level),
@@ -141,7 +140,8 @@ def _as_error(mission: Mission, finding: Finding, more: str) -> ConfigurationErr
     return ConfigurationError(where, finding.found, f"{finding.expected}{more}")
 
 
-def _thrust(mission: Mission, vehicle: Vehicle) -> Iterator[Finding]:
+def _thrust(mission: Mission, vehicle: Vehicle, speed: float) -> Iterator[Finding]:
+    yield from _unit(mission, vehicle, speed)
     if mission.thrust > vehicle.thrust_max * (1.0 + 1e-9):
         if mission.speed is not None:
             fastest = vehicle.speed_at(vehicle.thrust_max)
