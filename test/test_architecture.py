@@ -7,10 +7,12 @@ import functools
 import re
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections import Counter
 from pathlib import Path
 
 import pytest
+
+from source_facts import facts
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGES = ("auv_msgs_py", "auv_path_following", "auv_sim")  # each may import itself and those before it
@@ -67,19 +69,6 @@ def dotted(path: Path) -> str:
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
-@functools.cache
-def imports(path: Path) -> tuple[str, ...]:
-    """Every module named by an import, wherever it stands; `from a import b` gives ``a.b``."""
-    found: list[str] = []
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            found += (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            assert node.level == 0, f"{path}: a relative import hides where it points"
-            found += (f"{node.module}.{alias.name}" for alias in node.names)
-    return tuple(found)
-
-
 def may_use_ros(module: str) -> bool:
     return any(module == room or module.startswith(room + ".") for room in ROS_ROOMS)
 
@@ -87,7 +76,7 @@ def may_use_ros(module: str) -> bool:
 @functools.cache
 def sources(path: Path) -> frozenset[str]:
     """The modules of the suite that a module imports from."""
-    named = {found for name in imports(path) for found in (name, name.rpartition(".")[0])}
+    named = {found for name in facts(path).imports for found in (name, name.rpartition(".")[0])}
     return frozenset(named & {dotted(other) for other in MODULES} - {dotted(path)})
 
 
@@ -96,7 +85,7 @@ def needing_ros() -> set[str]:
     found = {
         dotted(path)
         for path in MODULES
-        if any(ROS.fullmatch(n.split(".")[0]) for n in imports(path) if n.split(".")[0] not in PACKAGES)
+        if any(ROS.fullmatch(n.split(".")[0]) for n in facts(path).imports if n.split(".")[0] not in PACKAGES)
     }
     graph = {dotted(path): sources(path) for path in MODULES}
     while more := {module for module, used in graph.items() if used & found} - found:
@@ -108,30 +97,16 @@ def needing_ros() -> set[str]:
 OF_RCLPY = r"(node|publisher|subscription|executor|clock)\._[^_]\w*$"
 
 
-def defined(nodes: list[ast.AST]) -> Iterator[str]:
-    """Every name that is assigned or defined as a function."""
-    for node in nodes:
-        match node:
-            case (
-                ast.Attribute(attr=name, ctx=ast.Store())
-                | ast.Name(id=name, ctx=ast.Store())
-                | ast.FunctionDef(name=name)
-                | ast.AsyncFunctionDef(name=name)
-            ):
-                yield name
-
-
 def test_one_module_alone_uses_private_parts_of_rclpy_and_one_of_numba() -> None:
     """Underscore names that the suite does not define, `handle`, and modules behind rclpy's public ones."""
-    trees = {path: list(ast.walk(ast.parse(path.read_text(encoding="utf-8")))) for path in MODULES}
-    harmless = {"_asdict", "_fields", "_replace", "_exit", "_getframe"}.union(*map(defined, trees.values()))
+    harmless = {"_asdict", "_fields", "_replace", "_exit", "_getframe"}
+    harmless = harmless.union(*(facts(path).defined for path in MODULES))
     users = set()
-    for path, nodes in trees.items():
-        attributes = [node for node in nodes if isinstance(node, ast.Attribute)]
-        names = {node.attr for node in attributes}
-        private = {name for name in names - harmless if re.match("_[^_]", name)} | names & {"handle"}
-        private |= {name for name in map(ast.unparse, attributes) if re.search(OF_RCLPY, name)}
-        if private or any(re.match(r"rclpy\.(_|impl\b)", name) for name in imports(path)):
+    for path in MODULES:
+        names = facts(path).attributes
+        private = {name for name in names - harmless if re.fullmatch(r"_[^_]\w*", name)}
+        private |= names & {"handle"} | {name for name in names if re.search(OF_RCLPY, name)}
+        if private or any(re.match(r"rclpy\.(_|impl\b)", name) for name in facts(path).imports):
             users.add(dotted(path))
     assert users == {"auv_msgs_py.node.private_rclpy", "auv_sim.flight.batch.compiled"}
 
@@ -140,12 +115,14 @@ def test_there_is_something_to_look_at() -> None:
     assert {dotted(path).split(".")[0] for path in MODULES} == set(PACKAGES)
 
 
-@pytest.mark.parametrize("path", MODULES, ids=dotted)
-def test_imports_point_one_way(path: Path) -> None:
-    allowed = PACKAGES[: PACKAGES.index(dotted(path).split(".")[0]) + 1]
-    for name in imports(path):
-        top = name.split(".")[0]
-        assert top not in PACKAGES or top in allowed, f"{dotted(path)} imports {name}"
+def test_imports_point_one_way() -> None:
+    against = [
+        f"{dotted(path)} imports {name}"
+        for path in MODULES
+        for name in facts(path).imports
+        if name.split(".")[0] in PACKAGES[PACKAGES.index(dotted(path).split(".")[0]) + 1 :]
+    ]
+    assert against == []
 
 
 @pytest.mark.parametrize(("package", "rooms"), ROOMS, ids=[package for package, _ in ROOMS])
@@ -183,31 +160,32 @@ def test_every_named_room_needs_ros() -> None:
     assert [room for room in ROS_ROOMS if not any(f"{m}.".startswith(f"{room}.") for m in found)] == []
 
 
-@pytest.mark.parametrize("room", sorted({path.parent for path in MODULES}), ids=dotted)
-def test_a_room_has_few_modules(room: Path) -> None:
-    modules = [path.name for path in room.glob("*.py") if path.name != "__init__.py"]
-    assert len(modules) <= MOST_MODULES
+def test_a_room_has_few_modules() -> None:
+    rooms = Counter(path.parent for path in MODULES if path.name != "__init__.py")
+    assert {dotted(room): count for room, count in rooms.items() if count > MOST_MODULES} == {}
 
 
-@pytest.mark.parametrize("path", [path for path in MODULES if not may_use_ros(dotted(path))], ids=dotted)
-def test_laws_are_repeatable(path: Path) -> None:
-    for name in imports(path):
-        assert name.split(".")[0] not in UNREPEATABLE, f"{dotted(path)} imports {name}"
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Attribute) and ast.unparse(node.value) in ("np.random", "numpy.random"):
-            assert node.attr in ("default_rng", "Generator"), f"{dotted(path)} uses np.random.{node.attr}"
+def test_laws_are_repeatable() -> None:
+    against = []
+    for path in MODULES:
+        if may_use_ros(dotted(path)):
+            continue
+        found = facts(path)
+        used = {name for name in found.imports if name.split(".")[0] in UNREPEATABLE}
+        used |= {f"np.random.{name}" for name in found.random - {"default_rng", "Generator"}}
+        against += [f"{dotted(path)} uses {name}" for name in sorted(used)]
+    assert against == []
 
 
-@pytest.mark.parametrize("path", [*MODULES, *SCRIPTS, *TESTS], ids=lambda path: str(path.relative_to(ROOT)))
-def test_annotations_are_not_evaluated(path: Path) -> None:
-    nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
-    if any(isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.AnnAssign) for node in nodes):
-        assert "__future__.annotations" in set(imports(path))
+def test_annotations_are_not_evaluated() -> None:
+    for path in (*MODULES, *SCRIPTS, *TESTS):
+        if facts(path).has_annotations:
+            assert "__future__.annotations" in facts(path).imports, str(path.relative_to(ROOT))
 
 
-@pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: path.name)
-def test_an_older_python_can_read_a_script_far_enough_to_say_so(path: Path) -> None:
-    ast.parse(path.read_text(encoding="utf-8"), feature_version=(3, 8))
+def test_an_older_python_can_read_a_script_far_enough_to_say_so() -> None:
+    for path in SCRIPTS:
+        ast.parse(path.read_text(encoding="utf-8"), path.name, feature_version=(3, 8))
 
 
 def texts() -> list[Path]:
