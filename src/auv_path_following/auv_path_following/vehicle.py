@@ -56,6 +56,12 @@ class Vehicle:
     hull: Hull | None = setting(
         None, "coefficients of the hull; not needed for a real vehicle with cruise and turning"
     )
+    assumed_within: float = setting(
+        1.0,
+        "factor within which the hull's coefficients are assumed, which the rule's gains allow for; 1: known",
+        ge=1.0,
+        le=3.0,
+    )
     simulated_as: BuiltInHull | None = setting(
         None, "hull that the simulator has as a program, in place of coefficients"
     )

@@ -23,6 +23,7 @@ from auv_sim.flight import closed_loop
 from auv_sim.flight.batch import engine
 from auv_sim.flight.scenario import Scenario
 from auv_sim.sim_parameters import SUITE
+from auv_sim.studies.gains.new_hulls import assumed, sized_hull
 from auv_sim.vehicle.remus import PlantState
 from hulls import REMUS, STABLE, drawn
 from peer_course import COURSE, PEER, course_sea, course_start, distances, rms
@@ -47,9 +48,10 @@ LINE = CompositePath([Line(0.0, 0.0, 600.0, 0.0)])
 
 
 def unrest(
-    hull: Vehicle, delay: float, step: float, guidance: PathFollowerConfig, autopilot: AutopilotConfig
-) -> float:
-    """Return the rms yaw rate in the second minute on a straight line, deg/s: the worst of four starts."""
+    hull: Vehicle, delay: float, step: float, guidance: PathFollowerConfig, autopilot: AutopilotConfig,
+    seconds: float = 120.0,
+) -> float:  # fmt: skip
+    """Return the rms yaw rate late on a straight line, deg/s: in the second half, the worst of four starts."""
     late = dataclasses.replace(hull, rudder=dataclasses.replace(hull.rudder, dead_time=delay))
     worst = 0.0
     for y, heading, r in STARTS:
@@ -57,10 +59,10 @@ def unrest(
         run = engine.track(
             Scenario(
                 path=LINE, vehicle=late, controller_vehicle=hull, thrust=hull.thrust_max, initial=start,
-                step=step, guidance=guidance, autopilot=autopilot, time_limit=120.0,
+                step=step, guidance=guidance, autopilot=autopilot, time_limit=seconds,
             )
         )  # fmt: skip
-        worst = max(worst, math.degrees(rms(run.r[run.t > run.t[0] + 60.0])))
+        worst = max(worst, math.degrees(rms(run.r[run.t > run.t[0] + 0.5 * seconds])))
     return worst
 
 
@@ -81,6 +83,16 @@ def test_no_limit_cycle_with_delay_and_slow_odometry(name: str) -> None:
 def test_the_default_gains_have_a_limit_cycle_there() -> None:
     """What the rule cures, and the measure can see."""
     assert unrest(REMUS, 0.15, 0.1, GUIDANCE, ROBUST[topics.AUTOPILOT].autopilot) > 0.9
+
+
+def test_an_assumed_hull_does_not_swing() -> None:
+    """A hull that slips by 0.8, of which `vehicle.py new` was given length, speed, rudder and radius."""
+    hull = sized_hull(9)
+    own = assumed(hull)
+    for of_it, swings in ((own, False), (dataclasses.replace(own, assumed_within=1.0), True)):
+        gains = gains_for(of_it)
+        found = unrest(hull, 0.05, 0.05, with_gains(GUIDANCE, gains), gains.heading.autopilot, 240.0)
+        assert (found > 0.8) is swings and (found < 0.3) is not swings
 
 
 def test_the_price_is_a_little_distance() -> None:

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import vehicle
 from auv_path_following.control.hull_model import tightest_turn
+from auv_path_following.control.rule.allowance import allowance_for
 from auv_path_following.control.rule.fin_response import FinResponse, response_of
 from auv_path_following.control.rule.gain_rule import RuledGains, gains_for, plane_gains
 from auv_path_following.vehicle import Rudder
@@ -49,6 +50,33 @@ def test_any_hull_gets_gains_within_their_bounds(response, fin, delay, step) -> 
     loop = nism.kp * nism.k5 * abs(response.gain(plane.crossover))
     assert loop == pytest.approx(1.0)  # w_c is where the inner loop has the gain 1
     assert plane.crossover * max(delay + fin.dead_time + 0.5 * step, 0.1) < 3.2
+
+
+@given(_response, _fin, st.floats(0.0, 0.5), st.sampled_from([0.02, 0.05, 0.1]), st.floats(1.0, 3.0))
+def test_an_assumed_hull_gets_longer_lookahead_and_a_quicker_reference(response, fin, delay, step, within):
+    known = plane_gains(response, fin, delay, step)
+    own = plane_gains(response, fin, delay, step, allowance=allowance_for(within))
+    if within == 1.0:
+        assert own == known
+    (nism, reference), (usual, limits) = ((g.autopilot.nism, g.autopilot.reference) for g in (own, known))
+    assert (own.crossover, own.product, own.authority) == (known.crossover, known.product, known.authority)
+    assert nism.kp * nism.k5 == pytest.approx(usual.kp * usual.k5)  # the loop's gain is that of the file
+    assert own.lookahead * reference.bandwidth >= known.lookahead * limits.bandwidth * (1.0 - 1e-9)
+    assert reference.max_acceleration >= limits.max_acceleration
+    assert reference.max_acceleration < response.effect * fin.max_angle
+    assert reference.max_rate * reference.bandwidth <= reference.max_acceleration * (1.0 + 1e-9)
+
+
+def test_a_vehicle_file_says_that_its_hull_is_assumed() -> None:
+    """At 10 odometries a second the command must not run ahead of a servo that may be slow."""
+    own = dataclasses.replace(DIVER, assumed_within=2.0)
+    assert gains_for(dataclasses.replace(DIVER, assumed_within=1.0)) == gains_for(DIVER)
+    assert gains_for(own).pitch == gains_for(DIVER).pitch
+    assert gains_for(own).heading.lookahead > 1.2 * gains_for(DIVER).heading.lookahead
+    rates = [gains_for(own, step=step).heading.autopilot.nism.kp for step in (0.1, 0.05)]
+    assert rates == pytest.approx([DIVER.rudder.max_rate, 1.6 * DIVER.rudder.max_rate])
+    with pytest.raises(ValueError, match="assumed_within"):
+        dataclasses.replace(DIVER, assumed_within=0.5)
 
 
 def test_more_delay_makes_everything_slower() -> None:

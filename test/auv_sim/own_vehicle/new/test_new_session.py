@@ -48,6 +48,7 @@ def test_a_vehicle_flies_and_its_assumptions_are_marked(tmp_path: Path) -> None:
     out = console()
     own = new_vehicle(FACTS, tmp_path / "own.yaml", False, out)
     assert own == vehicle.load(str(tmp_path / "own.yaml"))
+    assert own.assumed_within == 2.0
     assert own.speed_at(1100.0) == pytest.approx(1.9)
     assert own.speed_at(600.0) == pytest.approx(1.0)
     assert -own.coefficients.Xuu * 1.9**2 == pytest.approx(own.newtons(1100.0), rel=1e-3)

@@ -16,6 +16,7 @@ from auv_sim.studies.gains.new_study import TARGETS, Known, known
 def test_the_hulls_are_the_same_every_time_and_of_many_sizes() -> None:
     hulls = new_hulls(12)
     assert hulls == new_hulls(12)
+    assert list(new_hulls(2, first=10)) == ["drawn 10", "drawn 11"]
     drawn = [hull for name, hull in hulls.items() if name.startswith("drawn")]
     assert min(hull.length for hull in drawn) < 2.0 < 4.0 < max(hull.length for hull in drawn)
     assert all(LENGTHS[0] <= hull.length <= LENGTHS[1] for hull in drawn)

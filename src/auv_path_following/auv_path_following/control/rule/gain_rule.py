@@ -15,6 +15,7 @@ from auv_path_following.control.autopilot import AutopilotConfig
 from auv_path_following.control.nism import NismConfig
 from auv_path_following.control.pitch_plane import pitch_plane_of
 from auv_path_following.control.reference_model import JERK_SHARE, ReferenceConfig
+from auv_path_following.control.rule.allowance import KNOWN, Allowance, allowance_for
 from auv_path_following.control.rule.fin_response import FinResponse, response_of
 from auv_path_following.vehicle import Rudder, Vehicle
 
@@ -87,7 +88,8 @@ def gains_for(vehicle: Vehicle, delay: float = 0.0, step: float = 0.05) -> Ruled
     Raises:
         ConfigurationError: no turn of the hull is steady and none was measured; a gain is out of its range.
     """
-    heading = plane_gains(response_of(vehicle), vehicle.rudder, delay, step)
+    allowance = allowance_for(vehicle.assumed_within)
+    heading = plane_gains(response_of(vehicle), vehicle.rudder, delay, step, allowance=allowance)
     pitch = None
     if vehicle.sternplanes is not None:
         # Seen from the side a course has no turns.
@@ -101,8 +103,9 @@ def gains_for(vehicle: Vehicle, delay: float = 0.0, step: float = 0.05) -> Ruled
 
 
 def plane_gains(
-    response: FinResponse, fin: Rudder, delay: float, step: float, quickness: float = 1.0
-) -> PlaneGains:
+    response: FinResponse, fin: Rudder, delay: float, step: float, quickness: float = 1.0,
+    allowance: Allowance = KNOWN,
+) -> PlaneGains:  # fmt: skip
     """Return the gains of one plane.
 
     Args:
@@ -110,6 +113,7 @@ def plane_gains(
         fin: its limits and dead time.
         delay, step: as in `gains_for`.
         quickness: factor of the reference's bandwidth, divisor of the drift in the look-ahead.
+        allowance: for a hull that is assumed.
 
     Raises:
         ConfigurationError: a gain is out of its range.
@@ -117,17 +121,19 @@ def plane_gains(
     b, p = response.effect, max(response.divergence, 1e-6)
     tau = max(delay + fin.dead_time + 0.5 * step, LEAST_DELAY)
     crossover = _crossover(response, tau)
-    kp = min(fin.max_rate, LARGEST_KP)
+    kp = min(allowance.kp_for(fin.max_rate, step), LARGEST_KP)
     k5 = 1.0 / (kp * abs(response.gain(crossover)))
-    jerk = JERK_SHARE * b * min(fin.max_rate, FASTEST * fin.max_angle)
-    acceleration = min(FIN_SHARE * b * fin.max_angle, BUILD_UP * jerk)
+    jerk = JERK_SHARE * b * min(allowance.reference * fin.max_rate, FASTEST * fin.max_angle)
+    acceleration = min(allowance.acceleration * FIN_SHARE * b * fin.max_angle, BUILD_UP * jerk)
     authority = b * fin.max_rate / (p * p)
-    slowest = REFERENCE_LAG * jerk / acceleration * min(1.0, authority / FULL_AUTHORITY)
+    slowest = REFERENCE_LAG * jerk / acceleration
+    slowest *= min(1.0, allowance.reference * authority / FULL_AUTHORITY)
+    course_turn = allowance.turn * response.course_turn
     # Turns of a course must not be faster than the reference: on a slow hull that takes a smaller bandwidth.
-    slowest = min(slowest, acceleration / max(response.course_turn, 1e-9))
+    slowest = min(slowest, acceleration / max(course_turn, 1e-9))
     bandwidth = quickness * min(REFERENCE_SHARE * crossover, slowest)
-    rate = min(max(RATE_SHARE * response.turn, response.course_turn), acceleration / bandwidth)
-    k1, k3 = K1_SHARE * rate, K3_SHARE * acceleration
+    rate = min(max(RATE_SHARE * response.turn, course_turn), acceleration / bandwidth)
+    k1, k3 = (allowance.correction * gain for gain in (K1_SHARE * rate, K3_SHARE * acceleration))
     nism = _within(
         NismConfig, k1=k1, k2=A_SHARE * crossover / k1, k3=k3, k4=C_SHARE * crossover / k3, k5=k5, kp=kp
     )
@@ -135,7 +141,7 @@ def plane_gains(
     reference = _within(ReferenceConfig, enabled=True, bandwidth=bandwidth, **limits)
     return PlaneGains(
         AutopilotConfig(nism=nism, reference=reference),
-        _lookahead(response, bandwidth, quickness),
+        allowance.lookahead * _lookahead(response, bandwidth, quickness),
         crossover,
         p * (tau + response.lag(crossover)),
         authority,

@@ -57,6 +57,7 @@ def _lines(
         yield f"  surface: {depth.surface:g}  # m; assumed"
         yield f"  minimum_speed: {depth.minimum_speed:g}  # m/s; assumed: from there on planes hold the depth"
     yield from _measured(f)
+    yield f"assumed_within: {EFFECT_FACTOR:g}  # the rule's gains allow for it; `identify` leaves it out"
     yield "hull:  # SI units, radians; names as in Table 2 of the paper"
     yield from _coefficients(f, hull, "  ")
     if hull.vertical is not None:

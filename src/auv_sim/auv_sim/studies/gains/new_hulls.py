@@ -25,13 +25,19 @@ LENGTHS, SLENDERNESS, SPEEDS, ANGLES, MOST_LENGTHS = (1.0, 5.0), (6.0, 12.0), (1
 _REMUS, _MOST = 1.6 / 0.19, 50
 
 
-def new_hulls(drawn: int) -> dict[str, Vehicle]:
-    """Return all hulls by name, with thrust in per cent: shipped ones, one stable in yaw, and drawn ones."""
+def new_hulls(drawn: int, first: int = 0) -> dict[str, Vehicle]:
+    """Return all hulls by name, with thrust in per cent: shipped ones, one stable in yaw, and drawn ones.
+
+    Args:
+        drawn: how many drawn ones.
+        first: number of the first of them; from 1 on the drawn ones alone.
+    """
+    others = {f"drawn {number}": sized_hull(number) for number in range(first, first + drawn)}
+    if first > 0:
+        return others
     shipped = ("remus100", "remus100_mismatch", "remus100_table2")
     hulls = {name: planar(vehicle.load(name)) for name in shipped} | {"stable in yaw": stable_hull()}
-    return {name: _in_per_cent(hull) for name, hull in hulls.items()} | {
-        f"drawn {number}": sized_hull(number) for number in range(drawn)
-    }
+    return {name: _in_per_cent(hull) for name, hull in hulls.items()} | others
 
 
 def sized_hull(number: int) -> Vehicle:

@@ -85,6 +85,8 @@ def parser() -> argparse.ArgumentParser:
         allow_abbrev=False,
     )  # fmt: skip
     p.add_argument("--drawn", type=whole, default=30, metavar="N", help="drawn hulls (default: 30)")
+    first = "number of the first drawn hull (0); from 1 on the drawn ones alone"
+    p.add_argument("--first", type=whole, default=0, metavar="N", help=first)
     p.add_argument("--hulls", nargs="+", metavar="NAME", help="some of them (default: all)")
     p.add_argument("--seeds", type=at_least_one, default=2, metavar="N", help="surveys of each hull (2)")
     p.add_argument("--out", type=target, default=Path("new_study.json"), metavar="FILE", help="figures")
@@ -98,7 +100,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     console = terminal()
     found = [
         known(name, hull, options.seeds)
-        for name, hull in chosen(new_hulls(options.drawn), options.hulls).items()
+        for name, hull in chosen(new_hulls(options.drawn, options.first), options.hulls).items()
     ]
     write_text(options.out, json.dumps([one._asdict() for one in found], indent=2) + "\n")
     _print(console, found)

@@ -54,7 +54,7 @@ def found_with(c: Combinations, share: float) -> Identified:
 
 
 @given(
-    known=st.sampled_from([REMUS, DIVER, MEASURED, PITCHING]),
+    known=st.sampled_from([REMUS, DIVER, MEASURED, PITCHING, dataclasses.replace(REMUS, assumed_within=2.0)]),
     factors=st.lists(st.floats(0.9, 1.1), min_size=len(C), max_size=len(C)),
     share=st.sampled_from([0.05, 3.0]),
 )
@@ -68,6 +68,7 @@ def test_what_is_written_loads_and_is_the_same_vehicle(
     new = identified_vehicle(known, hull, c, 17.18873, 0.1234567, dive)
     text = identified_text(new, hull, found_with(c, share), "a bag")
     assert yaml_file.checked(yaml_file.parse_text(text, "x"), Path("x"), Vehicle) == new
+    assert new.assumed_within == 1.0
     assert new.sternplanes == known.sternplanes and new.pitching == known.pitching
     assert new.hull is not None and new.hull.Nuud == pytest.approx(factors[-1] * hull.Nuud, rel=0.3)
 

@@ -101,7 +101,8 @@ def identified_vehicle(
         rudder = dataclasses.replace(vehicle.rudder, max_rate_deg_s=rounded(rate_deg_s, 4), dead_time=late)
         return dataclasses.replace(
             vehicle, hull=found, rudder=rudder, thrust_table=table, depth=depth, turning=None, params=None,
-            simulated_as=None, cruise=None if vehicle.pitching is None else vehicle.cruise,
+            assumed_within=1.0, simulated_as=None,
+            cruise=None if vehicle.pitching is None else vehicle.cruise,
         )  # fmt: skip
     except pydantic.ValidationError as error:
         raise readable(error, f"{vehicle.name}: as identified", Vehicle) from None
