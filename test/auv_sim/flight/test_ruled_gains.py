@@ -51,7 +51,7 @@ def unrest(
     hull: Vehicle, delay: float, step: float, guidance: PathFollowerConfig, autopilot: AutopilotConfig,
     seconds: float = 120.0,
 ) -> float:  # fmt: skip
-    """Return the rms yaw rate late on a straight line, deg/s: in the second half, the worst of four starts."""
+    """Return the rms yaw rate in the second half of a straight line, deg/s: the worst of four starts."""
     late = dataclasses.replace(hull, rudder=dataclasses.replace(hull.rudder, dead_time=delay))
     worst = 0.0
     for y, heading, r in STARTS:

@@ -197,6 +197,7 @@ def test_length_speed_and_radius_are_enough_for_a_survey(hull: Vehicle) -> None:
     own = dataclasses.replace(
         hull, hull=assumed, turning=vehicle.Turning(radius=facts.radii[0][1]),
         rudder=dataclasses.replace(hull.rudder, dead_time=0.05), params=None,
+        assumed_within=2.0,
     )  # fmt: skip
     assert response_of(own).effect != pytest.approx(response_of(hull).effect, rel=0.05)
     mission, gains = mission_file.read_text(trial_text(own), own), gains_for(own)
@@ -216,9 +217,11 @@ def test_a_survey_gets_wider_turns_where_the_vehicle_needs_them(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A slow servo on a large slow hull; turns of 2.5 radii would have 23 m."""
-    facts = OwnerFacts("slow", 3.0, "N", 9.0, ((9.0, 1.0),), ((15.0, 9.0),), 15.0, rate_deg_s=5.0)
+    facts = OwnerFacts(
+        "slow", 3.0, "N", 9.0, ((9.0, 1.0),), ((15.0, 9.0),), 15.0, rate_deg_s=2.5, divergence=0.3
+    )
     own = new_vehicle(facts, tmp_path / "slow.yaml", False, console())
-    assert "turns of 34 m" in (tmp_path / "slow_survey.yaml").read_text()
+    assert "turns of 51 m" in (tmp_path / "slow_survey.yaml").read_text()
     monkeypatch.setattr(trial_flight, "fly_trials", lambda *_: ([TrialFlight(0.0, 0.9, 0.4, 1.7)], False))
     missed = trial_flight.trial_survey(own, "survey.yaml")
     assert not missed.is_flown and "turns of 51 m" in missed.text

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import json
 import math
 from collections.abc import Callable, Sequence
@@ -89,6 +90,7 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--first", type=whole, default=0, metavar="N", help=first)
     p.add_argument("--hulls", nargs="+", metavar="NAME", help="some of them (default: all)")
     p.add_argument("--seeds", type=at_least_one, default=2, metavar="N", help="surveys of each hull (2)")
+    p.add_argument("--no-allowance", action="store_true", help="gains as if the coefficients were known")
     p.add_argument("--out", type=target, default=Path("new_study.json"), metavar="FILE", help="figures")
     return p
 
@@ -99,7 +101,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     options = parser().parse_args(argv)
     console = terminal()
     found = [
-        known(name, hull, options.seeds)
+        known(name, hull, options.seeds, not options.no_allowance)
         for name, hull in chosen(new_hulls(options.drawn, options.first), options.hulls).items()
     ]
     write_text(options.out, json.dumps([one._asdict() for one in found], indent=2) + "\n")
@@ -107,18 +109,19 @@ def main(argv: Sequence[str] | None = None) -> int:
     return EXIT_DONE
 
 
-def known(name: str, hull: Vehicle, seeds: int) -> Known:
+def known(name: str, hull: Vehicle, seeds: int, allowance: bool = True) -> Known:
     """Return the figures of one hull.
 
     Args:
         name: of the hull.
         hull: that is in the water, without a dead time.
         seeds: of the sea; a survey each.
+        allowance: whether the rule allows for what is assumed.
     """
     response, size = response_of(hull), hull.top_speed / hull.length
     figures = name, hull.length, hull.top_speed, response.effect / size**2, response.divergence / size
     try:
-        own = assumed(hull)
+        own = assumed(hull) if allowance else dataclasses.replace(assumed(hull), assumed_within=1.0)
         surveys = [_survey(hull, own, seed) for seed in range(1, seeds + 1)]
     except ConfigurationError as error:
         nan = math.nan
