@@ -118,34 +118,45 @@ def plane_gains(
     Raises:
         ConfigurationError: a gain is out of its range.
     """
-    b, p = response.effect, max(response.divergence, 1e-6)
+    p = max(response.divergence, 1e-6)
     tau = max(delay + fin.dead_time + 0.5 * step, LEAST_DELAY)
     crossover = _crossover(response, tau)
     kp = min(allowance.kp_for(fin.max_rate, step), LARGEST_KP)
     k5 = 1.0 / (kp * abs(response.gain(crossover)))
-    jerk = JERK_SHARE * b * min(allowance.reference * fin.max_rate, FASTEST * fin.max_angle)
-    acceleration = min(allowance.acceleration * FIN_SHARE * b * fin.max_angle, BUILD_UP * jerk)
-    authority = b * fin.max_rate / (p * p)
-    slowest = REFERENCE_LAG * jerk / acceleration
-    slowest *= min(1.0, allowance.reference * authority / FULL_AUTHORITY)
-    course_turn = allowance.turn * response.course_turn
-    # Turns of a course must not be faster than the reference: on a slow hull that takes a smaller bandwidth.
-    slowest = min(slowest, acceleration / max(course_turn, 1e-9))
-    bandwidth = quickness * min(REFERENCE_SHARE * crossover, slowest)
-    rate = min(max(RATE_SHARE * response.turn, course_turn), acceleration / bandwidth)
+    limits = _limits(response, fin, crossover, quickness, allowance)
+    bandwidth, rate, acceleration = limits["bandwidth"], limits["max_rate"], limits["max_acceleration"]
     k1, k3 = (allowance.correction * gain for gain in (K1_SHARE * rate, K3_SHARE * acceleration))
     nism = _within(
         NismConfig, k1=k1, k2=A_SHARE * crossover / k1, k3=k3, k4=C_SHARE * crossover / k3, k5=k5, kp=kp
     )
-    limits = {"max_rate": rate, "max_acceleration": acceleration, "max_jerk": jerk}
-    reference = _within(ReferenceConfig, enabled=True, bandwidth=bandwidth, **limits)
+    reference = _within(ReferenceConfig, enabled=True, **limits)
     return PlaneGains(
         AutopilotConfig(nism=nism, reference=reference),
         allowance.lookahead * _lookahead(response, bandwidth, quickness),
         crossover,
         p * (tau + response.lag(crossover)),
-        authority,
+        response.effect * fin.max_rate / (p * p),
     )
+
+
+def _limits(
+    response: FinResponse, fin: Rudder, crossover: float, quickness: float, allowance: Allowance
+) -> dict[str, float]:
+    """Return bandwidth and limits of the reference, by the names of its settings."""
+    b, p = response.effect, max(response.divergence, 1e-6)
+    jerk = JERK_SHARE * b * min(allowance.reference * fin.max_rate, FASTEST * fin.max_angle)
+    acceleration = min(allowance.acceleration * FIN_SHARE * b * fin.max_angle, BUILD_UP * jerk)
+    authority = b * fin.max_rate / (p * p)
+    slowest = REFERENCE_LAG * jerk / acceleration
+    slowest *= min(1.0, allowance.reference * authority / FULL_AUTHORITY)
+    # Turns of a course must not be faster than the reference: on a slow hull that takes a smaller bandwidth.
+    course_turn = allowance.turn * response.course_turn
+    slowest = min(slowest, acceleration / max(course_turn, 1e-9))
+    bandwidth = quickness * min(REFERENCE_SHARE * crossover, slowest)
+    rate = min(max(RATE_SHARE * response.turn, course_turn), acceleration / bandwidth)
+    return {
+        "bandwidth": bandwidth, "max_rate": rate, "max_acceleration": acceleration, "max_jerk": jerk,
+    }  # fmt: skip
 
 
 def _within(kind: Any, **gains: Any) -> Any:
