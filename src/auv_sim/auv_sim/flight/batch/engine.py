@@ -88,8 +88,11 @@ def fly(
         return chunk.places, figures
 
     if threads > 1 and COMPILED:
-        with ThreadPoolExecutor(threads) as pool:
+        pool = ThreadPoolExecutor(threads)
+        try:
             parts = list(pool.map(one, chunks))
+        finally:  # a thread that compiles cannot be stopped: Ctrl-C does not wait for it
+            pool.shutdown(wait=False, cancel_futures=True)
     else:
         parts = [one(chunk) for chunk in chunks]
     return Flights.joined(parts, len(scenarios))
