@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
-import itertools
 import math
 import subprocess
 import sys
-import threading
-import time
 from pathlib import Path
 
 import numpy as np
@@ -278,24 +275,3 @@ def test_without_numba_the_flights_are_the_same() -> None:
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
     assert done.returncode == 0, done.stderr[-500:]
     assert int(done.stdout) > 200
-
-
-def test_ctrl_c_does_not_wait_for_a_flight_that_is_under_way(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The first flight of a run compiles for half a minute, and no thread can be stopped."""
-    under_way, over = threading.Event(), threading.Event()
-    numbers = itertools.count()
-
-    def fly(chunk: object, scenarios: object) -> None:
-        if next(numbers) == 0:
-            under_way.wait(10.0)
-            raise KeyboardInterrupt
-        under_way.set()
-        over.wait(20.0)
-
-    monkeypatch.setattr(engine, "COMPILED", True)
-    monkeypatch.setattr(engine._Chunk, "fly", fly)
-    begin = time.monotonic()
-    with pytest.raises(KeyboardInterrupt):
-        engine.fly([scenario(), scenario(mission="loiter")], threads=2)
-    over.set()
-    assert time.monotonic() - begin < 10.0

@@ -76,9 +76,8 @@ def fly(
         One row for each scenario, in their order.
 
     Raises:
-        ConfigurationError: a scenario that cannot be flown.
+        ConfigurationError: a scenario that cannot be flown; before the first flight.
     """
-    # Errors are found before the first flight.
     chunks = _chunks(scenarios, -(-len(scenarios) // (4 * threads)), courses or Courses())
 
     def one(chunk: _Chunk) -> tuple[Sequence[int], dict[str, Any]]:
