@@ -31,7 +31,7 @@ time_limit: 90
 vary:
   mission: {choice: [paper_composite, course_fermat]}
   autopilot.nism.k1: {grid: [0.2, 0.4]}
-  guidance.law: {grid: [ailos, ilos]}
+  guidance.switching.mode: {grid: [g0, all]}
   guidance.compensate_current: {choice: [true, false]}
   vehicle.hull.Nuud: {uniform: [0.7, 1.3], factor: true}
   initial.distance: {disc: 20}
