@@ -31,9 +31,12 @@ segments = lines | arcs | spirals | mirrored
 inside = st.floats(0.01, 0.99)
 
 
+REFERENCE = np.polynomial.legendre.leggauss(200)
+
+
 def _length_by_reference(segment, start, end):
     """Gauss-Legendre with many more nodes than the code under test uses."""
-    nodes, weights = np.polynomial.legendre.leggauss(200)
+    nodes, weights = REFERENCE
     t = start + (end - start) * (nodes + 1.0) / 2.0
     return float(np.sum(weights * segment.evaluate(t).speed)) * (end - start) / 2.0
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from auv_msgs_py.values.types import Navigation
@@ -167,6 +167,10 @@ def test_the_way_to_the_path_is_not_too_slow_along_it():
     assert first_broken(MissionRun(BEHIND), still, to_go=lambda t: 2000.0 - 1.9 * max(0.0, t - 200.0)) is None
 
 
+@example(0.31, 0.0)
+@example(0.31, 20.0)
+@example(5.0, 20.0)
+@settings(max_examples=20)
 @given(st.floats(0.31, 5.0), st.floats(0.0, 20.0))
 def test_a_vehicle_that_keeps_its_speed_along_the_path_goes_on(speed, wait):
     """Also one that waits at a corner for less than the window allows."""
