@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import vehicle
+from auv_path_following.curves.kinds.arc import Arc
 from auv_sim.own_vehicle.tune.drawn_courses import drawn_course
 from auv_sim.own_vehicle.tune.ensemble import (
     UNCERTAIN,
@@ -20,17 +21,37 @@ from auv_sim.own_vehicle.tune.ensemble import (
     factors_of,
     planar,
 )
+from auv_sim.own_vehicle.tune.trial_flights import Amount, Conditions, draw_flights, draw_sea_flights
 from hulls import DIVER, REMUS
 
 
 @settings(max_examples=20)
-@given(st.integers(0, 10**6), st.floats(2.0, 40.0), st.sampled_from(["sharp", "rounded", "survey"]))
+@given(st.integers(0, 10**6), st.floats(2.0, 40.0), st.sampled_from(["sharp", "rounded", "survey", "gentle"]))
 def test_a_course_can_be_flown(seed: int, radius: float, kind) -> None:
     path, again = (drawn_course(kind, radius, 5, np.random.default_rng(seed)) for _ in range(2))
     assert path.length == again.length
     corners = [joint for joint in path.joints if joint.geometric == "G0"]
     assert len(corners) == (4 if kind == "sharp" else 0)
     assert path.length > 240.0
+
+
+def _radii(flights) -> list[float]:
+    return [segment.radius for flight in flights for segment in flight.scenario.path.segments
+            if isinstance(segment, Arc)]  # fmt: skip
+
+
+def test_turns_are_those_of_missions_where_the_hull_turns_tighter() -> None:
+    """The printed hull turns in 1.3 m: gains for arcs of 1.5 to 4.5 m alone flew wider ones worse."""
+    conditions, random = Conditions(0.05, 0.05, (0.1,), None), np.random.default_rng(2)
+    tight = vehicle.load("remus100_table2")
+    flights = draw_flights(tight, conditions, Amount(1, 4, 5, 0), random)
+    gentle = _radii(flight for flight in flights if "gentle" in flight.kind)
+    assert 3.5 * 2.3 * 1.6 <= min(gentle) < max(gentle) < 0.45 * 80.0 * 3.0**0.5
+    radii = _radii(flight for flight in flights if "gentle" not in flight.kind)
+    assert 1.15 * 2.3 * 1.6 <= min(radii) < max(radii) <= 3.5 * 2.3 * 1.6
+    assert max(radii) > 9.0
+    proven = _radii(draw_sea_flights([tight] * 9, conditions, random))
+    assert 2.5 * 1.28 <= min(proven) < max(proven) < 3.5 * 1.29
 
 
 def test_members_stay_within_the_spread() -> None:

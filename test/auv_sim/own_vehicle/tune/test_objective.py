@@ -15,6 +15,7 @@ from auv_sim.own_vehicle.tune.objective import (
     LIMIT_CYCLE,
     cycling,
     distance_cost,
+    off_by_kind,
     ratios_of,
     reference_of,
     terms_of,
@@ -79,6 +80,27 @@ def test_a_course_that_becomes_worse_counts_twice() -> None:
 
 def test_the_worst_hull_counts() -> None:
     assert worst([-0.5, 0.2, -0.1]) == 0.2
+
+
+def test_a_course_behind_the_present_gains_costs_more_than_the_others_gain() -> None:
+    """Two of three courses are flown at three quarters of the distance, the third at 1.1 times."""
+    off = np.array([0.1, 0.1, 0.075, 0.075, 0.11])
+    mixed = flights(rms_distance=off, off_corners_rms_distance=off)
+    assert terms_of(mixed, flights(), IS_LINE).total < 0.0
+    held = terms_of(mixed, flights(), IS_LINE, present=flights())
+    assert held.behind == pytest.approx(4.0 * math.log(0.12 / 0.11))
+    better = flights(rms_distance=off, off_corners_rms_distance=np.minimum(off, 0.1))
+    assert terms_of(better, flights(), IS_LINE, present=flights()).behind == 0.0
+    assert terms_of(better, flights(), IS_LINE, present=flights()).total < held.total - 0.1
+
+
+def test_ratios_by_kind_are_those_of_completed_courses() -> None:
+    off = np.array([9.0, 9.0, 0.21, 0.1, 0.1])
+    kinds = ("", "", "survey", "sharp", "sharp")
+    found = off_by_kind(flights(off_corners_rms_distance=off), flights(), kinds)
+    assert found == {"survey": pytest.approx(2.0), "sharp": pytest.approx(1.0)}
+    lost = flights(off_corners_rms_distance=off, completed=np.array([True, True, False, True, True]))
+    assert off_by_kind(lost, flights(), kinds)["survey"] == 1.0
 
 
 def test_margins_that_are_missing_cost() -> None:

@@ -10,10 +10,12 @@ import pytest
 from auv_msgs_py.contract import topics
 from auv_msgs_py.settings import params_file
 from auv_path_following import config_files
-from auv_sim.own_vehicle.tune import sampled_loop, tuned_file
+from auv_sim.own_vehicle.tune import gain_verdict, sampled_loop, tuned_file
 from auv_sim.own_vehicle.tune import search as searching
 from auv_sim.own_vehicle.tune.gain_space import VARIABLES, GainSpace
-from auv_sim.own_vehicle.tune.gain_verdict import PRESENT, RULE, judge
+from auv_sim.own_vehicle.tune.gain_verdict import PRESENT, RULE, Held, HeldPresent, judge
+from auv_sim.own_vehicle.tune.objective import CostTerms, Ratios
+from auv_sim.own_vehicle.tune.sampled_loop import Margins
 from auv_sim.own_vehicle.tune.search import Budget, Found, beginning, hulls_of, search
 from auv_sim.own_vehicle.tune.trial_flights import Amount, Conditions, draw_flights
 from auv_sim.own_vehicle.tune.tuning_problem import Problem, margins_asked
@@ -34,7 +36,7 @@ def test_good_gains_are_accepted() -> None:
     verdict = judge(PROBLEM, Found(np.log(GOOD), ()), 1, FEW)
     assert verdict.accepted, verdict.why
     assert verdict.gains == SPACE.gains(verdict.point)
-    assert verdict.share == 1.0
+    assert verdict.mixed == ""
     assert verdict.held[0].ratios.rms < 0.8
     assert verdict.held[0].unrest < 0.3
 
@@ -77,6 +79,29 @@ def test_present_gains_with_a_limit_cycle_do_not_stay() -> None:
     assert not held.holds
 
 
+def test_gains_behind_on_one_kind_of_course_are_not_taken(monkeypatch) -> None:
+    """Better on the whole, and still behind on surveys: the more careful mixture is taken."""
+    present = SPACE.gains(np.log(GOOD))
+    attempts = []
+
+    def held_out(problem, gains, stream, threads, amount):
+        attempts.append(gains)
+        surveys = 1.06 if len(attempts) == 1 else 1.04
+        calm = CostTerms(-0.2, -0.2, 0.0, 0.0, 0.0, 0.0)
+        has = HeldPresent(calm, Ratios(0.8, 0.8, 0.9), 0.0, {"sharp corners": 0.7, "surveys": surveys})
+        return [Held(calm, Ratios(0.8, 0.8, 0.9), 0.0, 0.0, 67, 0, has)]
+
+    monkeypatch.setattr(gain_verdict, "hold_out", held_out)
+    monkeypatch.setattr(gain_verdict, "margins_of", lambda *_: Margins(2.0, 2.0, 0.1, True))
+    found = np.log(GOOD) + 0.2
+    verdict = judge(PROBLEM._replace(present=present), Found(found, ()), 1, FEWEST)
+    assert verdict.accepted
+    assert verdict.point == pytest.approx(0.5 * (found + SPACE.point_of(present)))
+    assert verdict.mixed == "50 % of the way back to the present gains"
+    assert verdict.why == ("as found: 1.06 times the distance off corners of the present gains on surveys",)
+    assert len(attempts) == 2
+
+
 def test_the_search_begins_at_present_gains_that_are_better() -> None:
     good = SPACE.gains(np.log(GOOD))
     assert beginning(PROBLEM._replace(present=good), 1) == pytest.approx(SPACE.point_of(good))
@@ -101,7 +126,8 @@ def test_generations_fly_other_starts_and_courses() -> None:
         draw_flights(REMUS, CONDITIONS, FEW, np.random.default_rng([0, 0, generation, 0]))
         for generation in (1, 2)
     )
-    assert [flight.is_line for flight in first] == [True] * 4 + [False] * 5
+    assert [flight.is_line for flight in first] == [True] * 4 + [False] * 6
+    assert [flight.kind for flight in first[3:5]] == ["", "sharp corners in still water"]
     assert first[0].scenario.initial != other[0].scenario.initial
     assert first[4].scenario.path.length != other[4].scenario.path.length
     assert all(flight.scenario.command_delay >= 0.05 for flight in first)

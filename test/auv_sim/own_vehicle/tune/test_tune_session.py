@@ -56,7 +56,7 @@ def test_flights_of_rejected_gains_are_not_in_the_file_of_others(source: str) ->
     accepted = source == FOUND
     why = () if accepted else ("no less distance than with the rule",)
     rule = problem.space.rule()
-    verdict = GainVerdict(source, rule, 1.0, problem.space.first, why, (held,), margins)
+    verdict = GainVerdict(source, rule, "", problem.space.first, why, (held,), margins)
     text = "\n".join(comments_of(options, REMUS, problem, verdict, "robust"))
     assert ("Held out" in text) is accepted
     assert ("Not accepted: no less distance" in text) is not accepted

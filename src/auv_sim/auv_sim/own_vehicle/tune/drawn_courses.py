@@ -14,10 +14,24 @@ from auv_path_following.missions.routes.smoothing import Smoothing, smooth
 SHORTEST, LONGEST, USUAL_TURN = 80.0, 140.0, 7.0
 #: Change of course at a corner, deg, drawn evenly, to either side.
 SHALLOWEST, SHARPEST = 30.0, 120.0
+#: The same on gentle courses, whose turns are as wide as their legs allow, drawn evenly from `WIDEST` on.
+STRAIGHTEST, GENTLE = 10.0, 60.0
 #: Radius of rounded corners and of the turns of a survey over that of the steady turn, drawn evenly.
 TIGHTEST, WIDEST = 1.15, 3.5
 
-Kind = Literal["sharp", "rounded", "survey"]
+Kind = Literal["sharp", "rounded", "survey", "gentle"]
+#: Kinds in words.
+WORDS: dict[Kind, str] = {
+    "sharp": "sharp corners",
+    "rounded": "rounded corners",
+    "survey": "surveys",
+    "gentle": "gentle bends",
+}
+
+
+def water(is_flowing: bool, is_sea: bool) -> str:
+    """Return the water of a flight in words."""
+    return "in the sea" if is_sea else "in a current" if is_flowing else "in still water"
 
 
 def drawn_course(
@@ -26,7 +40,8 @@ def drawn_course(
     """Draw a course of legs.
 
     Args:
-        kind: corners as they are, or rounded by arcs; or parallel legs with turns from one to the next.
+        kind: corners as they are, or rounded by arcs; parallel legs with turns from one to the next; or
+            gentle bends.
         turn_radius: of the hull's steady turn, m.
         legs: how many.
         random: where the numbers come from.
@@ -35,19 +50,23 @@ def drawn_course(
     if kind == "survey":
         return _survey(turn_radius, legs, random, tightest)
     scale = max(1.0, turn_radius / USUAL_TURN)
+    shallowest, sharpest = (STRAIGHTEST, GENTLE) if kind == "gentle" else (SHALLOWEST, SHARPEST)
     point, course = (0.0, 0.0), random.uniform(-math.pi, math.pi)
     points = [point]
     for _ in range(legs):
         length = scale * random.uniform(SHORTEST, LONGEST)
         point = point[0] + length * math.cos(course), point[1] + length * math.sin(course)
         points.append(point)
-        change = math.radians(random.uniform(SHALLOWEST, SHARPEST))
+        change = math.radians(random.uniform(shallowest, sharpest))
         course += math.copysign(change, random.uniform(-1.0, 1.0))
     if kind == "sharp":
         return CompositePath(smooth(points, Smoothing(kind="linear")))
-    # An arc of radius R takes R tan(60 deg) of a leg at most, at both of its ends: it must fit.
-    most = 0.45 * SHORTEST * scale / math.tan(math.radians(0.5 * SHARPEST))
-    radius = min(random.uniform(tightest, WIDEST) * turn_radius, most)
+    # An arc of radius R takes R tan(change/2) of a leg at most, at both of its ends: it must fit.
+    most = 0.45 * SHORTEST * scale / math.tan(math.radians(0.5 * sharpest))
+    if kind == "gentle":
+        radius = random.uniform(min(WIDEST * turn_radius, most), most)
+    else:
+        radius = min(random.uniform(tightest, WIDEST) * turn_radius, most)
     return CompositePath(smooth(points, Smoothing(kind="circular", radius=radius)))
 
 

@@ -33,7 +33,7 @@ Vector = npt.NDArray[np.float64]
 
 #: Largest acceleration of the reference over b times the full rudder angle, and its largest rate over u0/R of
 #: the steady turn: a corner is over before the turn has cost speed, so this is more than the steady rate.
-LARGEST_ACCELERATION, LARGEST_RATE = 0.8, 0.9
+LARGEST_ACCELERATION, LARGEST_RATE = 0.8, 1.3
 
 
 class GainSet(NamedTuple):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -11,19 +11,26 @@ import numpy as np
 from auv_sim.flight.batch.flight_figures import Flights
 from auv_sim.flight.batch.scenarios import Courses
 from auv_sim.own_vehicle.tune.gain_space import GainSet, Vector
-from auv_sim.own_vehicle.tune.objective import LIMIT_CYCLE, CostTerms, Ratios, ratios_of, terms_of
+from auv_sim.own_vehicle.tune.objective import (
+    LIMIT_CYCLE,
+    CostTerms,
+    Ratios,
+    off_by_kind,
+    ratios_of,
+    terms_of,
+)
 from auv_sim.own_vehicle.tune.sampled_loop import Margins
 from auv_sim.own_vehicle.tune.search import Found
 from auv_sim.own_vehicle.tune.trial_flights import HELD_OUT, Amount
 from auv_sim.own_vehicle.tune.tuning_problem import Problem, lacking, margins_asked, margins_of
 
-#: Shares of the way from the rule's gains to those found; the first that is accepted counts. Each has flights
-#: of its own.
-SHARES = (1.0, 0.6, 0.3)
+#: Share of the way from the gains found to the present ones, and shares of the way from the rule's gains to
+#: those found, that are tried in turn where the gains found are not accepted. Each has flights of its own.
+BACK, SHARES = 0.5, (0.85, 0.6, 0.3)
 #: Largest travel of the rudder over that of the rule and over that of the present gains, whichever is more,
 #: mean of the held-out flights.
 MOST_TRAVEL = 1.5
-#: Largest distance away from corners over that of the present gains.
+#: Largest distance away from corners over that of the present gains, of each kind of course.
 MOST_BEHIND = 1.05
 #: Where the gains of a verdict come from.
 FOUND, PRESENT, RULE = "found", "present", "rule"
@@ -57,11 +64,18 @@ class HeldPresent(NamedTuple):
         terms: the parts of the objective of the present gains, against the rule.
         ratios: of the gains to the present ones.
         unrest: as of `Held`.
+        by_kind: ratios off corners of the gains to the present ones, of each kind of course.
     """
 
     terms: CostTerms
     ratios: Ratios
     unrest: float
+    by_kind: Mapping[str, float]
+
+    @property
+    def worst_kind(self) -> tuple[float, str]:
+        """The largest ratio off corners, and its kind of course."""
+        return max(((ratio, kind) for kind, ratio in self.by_kind.items()), default=(0.0, ""))
 
     @property
     def holds(self) -> bool:
@@ -75,7 +89,7 @@ class GainVerdict(NamedTuple):
     Attributes:
         source: `FOUND`, `PRESENT` or `RULE`.
         gains: what the vehicle gets.
-        share: of the way from the rule's gains to those found; 0 where they are not accepted.
+        mixed: how the gains were mixed from those found, in words; empty for those found.
         point: of the gains found; the rule's where they are not accepted.
         why: reasons against the gains found, in words; empty for none.
         held: of each hull, with the gains found.
@@ -84,7 +98,7 @@ class GainVerdict(NamedTuple):
 
     source: str
     gains: GainSet
-    share: float
+    mixed: str
     point: Vector
     why: tuple[str, ...]
     held: tuple[Held, ...]
@@ -97,7 +111,7 @@ class GainVerdict(NamedTuple):
 
 
 def judge(problem: Problem, found: Found, threads: int, amount: Amount = HELD_OUT) -> GainVerdict:
-    """Fly the held-out flights with the gains found, or with a share of the way to them.
+    """Fly the held-out flights with the gains found, or with more careful ones; see `BACK` and `SHARES`.
 
     Gains that are behind the present ones are accepted only where those do not keep the conditions.
     """
@@ -105,18 +119,17 @@ def judge(problem: Problem, found: Found, threads: int, amount: Amount = HELD_OU
     reasons: list[str] = []
     flown: list[tuple[Held, ...]] = []
     behind: list[GainVerdict] = []
-    for attempt, share in enumerate(SHARES):
-        point = space.first + share * (found.point - space.first)
+    for attempt, (mixed, point) in enumerate(_attempts(problem, found.point)):
         gains = space.gains(point)
         flown.append(tuple(hold_out(problem, gains, (1, attempt), threads, amount)))
         against, lag = reasons_against(flown[-1]), reasons_behind(flown[-1])
         margins = margins_of(problem, gains, vehicle)
-        verdict = GainVerdict(FOUND, gains, share, point, tuple(reasons), flown[-1], margins)
+        verdict = GainVerdict(FOUND, gains, mixed, point, tuple(reasons), flown[-1], margins)
         if not against and not lag:
             return verdict
         if not against:
             behind.append(verdict)
-        reasons.extend(f"{100 * share:.0f} % of the way: {reason}" for reason in against + lag)
+        reasons.extend(f"{mixed or 'as found'}: {reason}" for reason in against + lag)
     present = flown[0][0].present
     may_stay = all(one.present is not None and one.present.holds for one in flown[0])
     if behind and not may_stay:
@@ -125,13 +138,26 @@ def judge(problem: Problem, found: Found, threads: int, amount: Amount = HELD_OU
     if may_stay and problem.present is not None and present is not None and present.terms.distance < 0.0:
         stays, gains = PRESENT, problem.present
     margins = margins_of(problem, gains, vehicle)
-    return GainVerdict(stays, gains, 0.0, space.first, tuple(reasons), flown[0], margins)
+    return GainVerdict(stays, gains, "", space.first, tuple(reasons), flown[0], margins)
+
+
+def _attempts(problem: Problem, found: Vector) -> Iterator[tuple[str, Vector]]:
+    """Yield points that are tried in turn, each with the words of `GainVerdict.mixed`."""
+    space, present = problem.space, problem.present
+    yield "", found
+    if present is not None and problem.plane.steering(present).controller == "nism":
+        yield (
+            f"{100 * BACK:.0f} % of the way back to the present gains",
+            found + BACK * (space.point_of(present) - found),
+        )
+    for share in SHARES:
+        yield f"{100 * share:.0f} % of the way from the rule", space.first + share * (found - space.first)
 
 
 def _off_present(verdict: GainVerdict) -> float:
-    """Return the ratio of the distances off corners to those of the present gains."""
+    """Return the largest ratio of the distances off corners to those of the present gains."""
     present = verdict.held[0].present
-    return 0.0 if present is None else present.ratios.off
+    return 0.0 if present is None else present.worst_kind[0]
 
 
 def hold_out(
@@ -141,14 +167,15 @@ def hold_out(
     rule, courses, held = problem.space.rule(), Courses(), []
     sets = [gains, rule] if problem.present is None else [gains, rule, problem.present]
     for k, hull in enumerate(problem.hulls):
-        (flown, ruled, *others), is_line = problem.fly(hull, amount, (*stream, k), sets, threads, courses)
+        found, is_line, kinds = problem.fly(hull, amount, (*stream, k), sets, threads, courses)
+        flown, ruled, *others = found
         asked = margins_asked(problem, hull)
         present = None
         if problem.present is not None:
             lacks = lacking(problem, asked, problem.present)
             present = HeldPresent(
                 terms_of(others[0], ruled, is_line, lacks), ratios_of(flown, others[0], is_line),
-                unrest(others[0], is_line),
+                unrest(others[0], is_line), off_by_kind(flown, others[0], kinds),
             )  # fmt: skip
         held.append(
             Held(
@@ -199,11 +226,11 @@ def reasons_against(held: Sequence[Held]) -> list[str]:
 def reasons_behind(held: Sequence[Held]) -> list[str]:
     """Return why the present gains of the vehicle itself, the first hull, are better; empty for none."""
     present = held[0].present
-    if present is None or present.ratios.off <= MOST_BEHIND:
+    if present is None or present.worst_kind[0] <= MOST_BEHIND:
         return []
     cycling = ", which have a limit cycle" if present.unrest > LIMIT_CYCLE else ""
-    ratio = present.ratios.off
-    return [f"{ratio:.2f} times the distance off corners of the present gains{cycling}"]
+    ratio, kind = present.worst_kind
+    return [f"{ratio:.2f} times the distance off corners of the present gains on {kind}{cycling}"]
 
 
 def _cures(held: Sequence[Held]) -> bool:

@@ -5,9 +5,11 @@ those that the vehicle has at present,
 
     J = 0.6 mean f(rms/rms_ref) + 0.4 mean f(off/off_ref), with f(x) = ln x + max(ln x, 0)
         + 0.1 mean ln(travel/travel_ref) + what that mean exceeds ln 2
+            + 12 mean max(ln(off/off_present), 0)
         + limit cycles + flights that do not complete + margins that are too small
 
-`off` is the rms away from corners. With f a course that becomes worse counts twice. The objective of several
+`off` is the rms away from corners. With f a course that becomes worse counts twice; one that becomes worse
+than with the present gains costs more than what another kind of course can gain. The objective of several
 hulls is that of the worst. Smaller is better; gains that fly like the reference and keep all conditions
 have 0.
 """
@@ -16,6 +18,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,6 +29,8 @@ from auv_sim.flight.batch.flight_figures import Flights
 RMS, OFF = 0.6, 0.4
 #: Weights of ln(travel), and of what exceeds `FREE_TRAVEL` times that of the reference.
 TRAVEL, TOO_MUCH, FREE_TRAVEL = 0.1, 1.0, 2.0
+#: Weight of the distance off corners beyond that with the present gains, flight by flight.
+BEHIND = 12.0
 #: Travel of the reference: a share of that of the present gains, within bounds over that of the rule.
 PRESENT_TRAVEL, LEAST_TRAVEL, LARGEST_TRAVEL = 0.65, 0.5, 2.0
 #: Rms yaw rate late on a straight line that is a limit cycle, and from which on it costs, deg/s.
@@ -51,6 +56,7 @@ class CostTerms(NamedTuple):
         cycling: of the flights on lines; 0 without a limit cycle.
         lost: of flights that did not complete.
         margins: of the linear loop.
+        behind: of flights that are farther from their path off corners than with the present gains.
     """
 
     rms: float
@@ -59,6 +65,7 @@ class CostTerms(NamedTuple):
     cycling: float
     lost: float
     margins: float
+    behind: float = 0.0
 
     @property
     def distance(self) -> float:
@@ -69,9 +76,8 @@ class CostTerms(NamedTuple):
     def total(self) -> float:
         """J."""
         excess = max(self.travel - math.log(FREE_TRAVEL), 0.0)
-        return (
-            self.distance + TRAVEL * self.travel + TOO_MUCH * excess + self.cycling + self.lost + self.margins
-        )
+        ruled_out = self.cycling + self.lost + self.margins + self.behind
+        return self.distance + TRAVEL * self.travel + TOO_MUCH * excess + ruled_out
 
 
 def reference_of(ruled: Flights, present: Flights | None) -> Flights:
@@ -103,13 +109,16 @@ def reference_of(ruled: Flights, present: Flights | None) -> Flights:
     )
 
 
-def terms_of(flown: Flights, reference: Flights, is_line: Any, unstable: float = 0.0) -> CostTerms:
+def terms_of(
+    flown: Flights, reference: Flights, is_line: Any, unstable: float = 0.0, present: Flights | None = None
+) -> CostTerms:
     """Return the objective's parts of one hull.
 
     Args:
         flown, reference: figures of the same flights with the gains, and of `reference_of`.
         is_line: which flights are along a line, shape (n,).
         unstable: share of the margins asked for that the linear loop lacks, 0 to 1.
+        present: figures of the same flights with the gains that the vehicle has; None without any.
     """
     along = ~is_line
     finished = along & flown.completed & reference.completed
@@ -124,7 +133,15 @@ def terms_of(flown: Flights, reference: Flights, is_line: Any, unstable: float =
         cycling(flown.late_rms_yaw_rate[is_line]),
         LOST * float(np.sum(along & ~flown.completed)),
         UNSTABLE * unstable,
+        0.0 if present is None else behind_cost(flown, present, is_line),
     )
+
+
+def behind_cost(flown: Flights, present: Flights, is_line: Any) -> float:
+    """Return the cost of flights that are farther from their path off corners than with the present gains."""
+    both = ~is_line & flown.completed & present.completed
+    ratio = _ratio(flown.off_corners_rms_distance[both], present.off_corners_rms_distance[both], _RESOLVED)
+    return BEHIND * _mean(np.maximum(ratio, 0.0))
 
 
 def cycling(rates: Any) -> float:
@@ -156,6 +173,19 @@ def ratios_of(flown: Flights, others: Flights, is_line: Any) -> Ratios:
         (flown.rudder_travel_per_metre, others.rudder_travel_per_metre, _STILL),
     )
     return Ratios(*(math.exp(_mean(_ratio(own[both], other[both], added))) for own, other, added in pairs))
+
+
+def off_by_kind(flown: Flights, others: Flights, kinds: Sequence[str]) -> dict[str, float]:
+    """Return the geometric means of the ratios off corners by kind of course, of flights that completed.
+
+    Args:
+        flown, others: figures of the same flights with the gains and with others.
+        kinds: of the flights; empty for one that does not count.
+    """
+    both = flown.completed & others.completed
+    ratio = _ratio(flown.off_corners_rms_distance, others.off_corners_rms_distance, _RESOLVED)
+    names = np.asarray(kinds)
+    return {name: math.exp(_mean(ratio[(names == name) & both])) for name in dict.fromkeys(kinds) if name}
 
 
 def distance_cost(flown: Any, reference: Any) -> float:

@@ -63,12 +63,13 @@ def assess(
     others = [rule] if problem.present is None else [rule, problem.present]
     terms: list[list[CostTerms]] = [[] for _ in candidates]
     for k, hull in enumerate(hulls):
-        found, is_line = problem.fly(hull, amount, (*stream, k), [*candidates, *others], threads, courses)
+        found, is_line, _ = problem.fly(hull, amount, (*stream, k), [*candidates, *others], threads, courses)
         flown, (ruled, *present) = found[: len(candidates)], found[len(candidates) :]
-        reference = reference_of(ruled, present[0] if present else None)
+        has = present[0] if present else None
+        reference = reference_of(ruled, has)
         asked = margins_asked(problem, hull)
         for own, candidate, figures in zip(terms, candidates, flown, strict=True):
-            own.append(terms_of(figures, reference, is_line, lacking(problem, asked, candidate)))
+            own.append(terms_of(figures, reference, is_line, lacking(problem, asked, candidate), has))
     return terms
 
 

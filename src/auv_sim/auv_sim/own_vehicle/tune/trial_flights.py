@@ -23,7 +23,7 @@ from auv_sim.flight.batch.flight_figures import Flights
 from auv_sim.flight.batch.scenarios import Courses
 from auv_sim.flight.batch.tally import calm_time
 from auv_sim.flight.scenario import Scenario
-from auv_sim.own_vehicle.tune.drawn_courses import TIGHTEST, Kind, drawn_course
+from auv_sim.own_vehicle.tune.drawn_courses import TIGHTEST, WORDS, Kind, drawn_course, water
 from auv_sim.own_vehicle.tune.gain_space import GainSet
 from auv_sim.vehicle.hulls.rigid_body import BodyState, body_at
 from auv_sim.vehicle.remus import PlantState
@@ -35,13 +35,13 @@ LATER = 0.15
 BESIDE, TURNING = 4.0, 0.75
 #: Current over the speed through the water, drawn evenly up to this.
 STRONGEST = 0.25
+#: Radii of turns are drawn as for a hull that turns in this many lengths, at least.
+NARROWEST = 2.3
 #: Courses in the sea by which gains are proven: legs, and least radius of their turns over the hull's.
 PROVEN_LEGS, PROVEN_TURN = 5, 2.5
 #: A flight along a course ends at this many times the time that it takes straight ahead, and 60 s later.
 PATIENCE = 1.6
-
-
-#: Kinds of courses; those of straight legs are for the laws that know no others.
+#: Kinds of proven courses; those of straight legs are for the laws that know no others.
 COURSES: tuple[Kind, ...] = ("sharp", "rounded", "survey")
 STRAIGHT: tuple[Kind, ...] = ("sharp",)
 
@@ -65,10 +65,17 @@ class Conditions(NamedTuple):
 
 
 class Flight(NamedTuple):
-    """One flight without its gains: a scenario whose laws are replaced, and whether it is along a line."""
+    """One flight without its gains.
+
+    Attributes:
+        scenario: whose laws are replaced.
+        is_line: whether it is along a line.
+        kind: of a course and its water, in words.
+    """
 
     scenario: Scenario
     is_line: bool
+    kind: str = ""
 
 
 class Amount(NamedTuple):
@@ -143,6 +150,7 @@ def _along_courses(
         (sharp, 0.0, None, n), (sharp, STRONGEST, None, n),
         (rounded, 0.0, None, n), (rounded, STRONGEST, None, n), (survey, STRONGEST, None, n),
         (rounded, 0.0, conditions.sea, amount.at_sea if conditions.sea is not None else 0),
+        ("gentle" if rounded != sharp else sharp, STRONGEST, None, n),
     ]  # fmt: skip
     return [
         _along(vehicle, conditions, kind, amount.legs, strongest, sea, random)
@@ -160,18 +168,18 @@ def draw_sea_flights(
     parallel legs of a survey.
     """
     kinds = conditions.kinds
-    further = PROVEN_LEGS, STRONGEST, conditions.sea, random, PROVEN_TURN
+    further = PROVEN_LEGS, STRONGEST, conditions.sea, random, PROVEN_TURN, 0.0
     return [_along(hull, conditions, kinds[k % len(kinds)], *further) for k, hull in enumerate(hulls)]
 
 
 def _along(
     vehicle: Vehicle, conditions: Conditions, kind: Kind, legs: int, strongest: float, sea: Sea | None,
-    random: np.random.Generator, tightest: float = TIGHTEST,
+    random: np.random.Generator, tightest: float = TIGHTEST, narrowest: float = NARROWEST,
 ) -> Flight:  # fmt: skip
-    """Draw one course, and a current of up to `strongest` times the speed."""
+    """Draw one course, and a current of up to `strongest` times the speed; see `NARROWEST`."""
     thrust, turn = thrust_of(vehicle), tightest_turn(vehicle)
     speed = vehicle.speed_at(thrust)
-    path = drawn_course(kind, turn.radius, legs, random, tightest)
+    path = drawn_course(kind, max(turn.radius, narrowest * vehicle.length), legs, random, tightest)
     size, course = random.uniform(0.3, 1.0) * strongest * speed, random.uniform(-math.pi, math.pi)
     scenario = Scenario(
         path=path, vehicle=vehicle, thrust=thrust, initial=_on_path(vehicle, path, speed),
@@ -179,7 +187,7 @@ def _along(
         seed=int(random.integers(2**31)), step=conditions.step, command_delay=conditions.delay,
         time_limit=PATIENCE * path.length / speed + 60.0,
     )  # fmt: skip
-    return Flight(scenario, False)
+    return Flight(scenario, False, f"{WORDS[kind]} {water(strongest > 0.0, sea is not None)}")
 
 
 def line_time(vehicle: Vehicle) -> float:
@@ -235,8 +243,8 @@ def fly_all(
 
 
 def _rows(flights: Flights, rows: slice) -> Flights:
-    columns = {field.name: getattr(flights, field.name)[rows] for field in dataclasses.fields(flights)}
-    return type(flights)(**columns)
+    names = [field.name for field in dataclasses.fields(flights)]
+    return type(flights)(**{name: getattr(flights, name)[rows] for name in names})
 
 
 LINE = CompositePath([Line(0.0, 0.0, 2000.0, 0.0)])

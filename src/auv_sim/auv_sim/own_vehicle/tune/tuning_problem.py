@@ -49,6 +49,20 @@ HEADING = TunedPlane(
 )
 
 
+class FlownSets(NamedTuple):
+    """The same flights with several sets of gains.
+
+    Attributes:
+        figures: of each set.
+        is_line: which flights are along a line, shape (n,).
+        kinds: of the courses, flight by flight, in words; empty on lines.
+    """
+
+    figures: list[Flights]
+    is_line: npt.NDArray[np.bool_]
+    kinds: tuple[str, ...]
+
+
 class Problem(NamedTuple):
     """What is tuned.
 
@@ -73,13 +87,16 @@ class Problem(NamedTuple):
     def fly(
         self, hull: Vehicle, amount: Amount, stream: Sequence[int], sets: Sequence[GainSet], threads: int,
         courses: Courses,
-    ) -> tuple[list[Flights], npt.NDArray[np.bool_]]:  # fmt: skip
-        """Fly one draw on a hull with each of several gains; return their figures, and which are on lines."""
+    ) -> FlownSets:  # fmt: skip
+        """Fly one draw on a hull with each of several sets of gains."""
         random = np.random.default_rng([self.seed, *stream])
         flights = self.plane.draw(hull, self.conditions, amount, random)
         found = fly_all(flights, sets, self.space.model, threads, courses)
-        is_line = np.array([flight.is_line for flight in flights])
-        return [self.plane.figures(figures) for figures in found], is_line
+        return FlownSets(
+            [self.plane.figures(figures) for figures in found],
+            np.array([flight.is_line for flight in flights]),
+            tuple(flight.kind for flight in flights),
+        )
 
 
 class MarginsAsked(NamedTuple):

@@ -82,7 +82,7 @@ def test_a_limit_cycle_in_pitch_is_seen_and_the_rule_has_none() -> None:
     problem = Problem(SPACE, [DIVER], CONDITIONS, 1, plane=PITCH)
     wild = SPACE.gains(SPACE.first + np.log([5.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]))
     level = Amount(starts=1, courses=0, legs=3, at_sea=0)
-    (ruled, cycling), is_line = problem.fly(DIVER, level, (0,), [SPACE.rule(), wild], 1, Courses())
+    (ruled, cycling), is_line, _ = problem.fly(DIVER, level, (0,), [SPACE.rule(), wild], 1, Courses())
     assert is_line.all()
     assert np.max(ruled.late_rms_yaw_rate) < 0.1
     assert np.max(cycling.late_rms_yaw_rate) > 0.3

@@ -40,8 +40,8 @@ def report(console: Console, verdict: GainVerdict, present: str, title: str) -> 
     if verdict.held:
         console.print(_table(verdict, present, title))
     stays = f"the present gains ({present}) stay" if verdict.source == PRESENT else "the rule's gains stay"
-    share = "" if verdict.share == 1.0 else f" ({100 * verdict.share:.0f} % of the way from the rule)"
-    result = f"accepted{share}" if verdict.accepted else stays
+    mixed = f" ({verdict.mixed})" if verdict.mixed else ""
+    result = f"accepted{mixed}" if verdict.accepted else stays
     console.print(f"{result}; margins {words_of(verdict.margins)}", markup=False)
 
 

@@ -26,7 +26,7 @@ from auv_path_following.guidance.spatial.spatial_limits import steepest_at, stee
 from auv_path_following.vehicle import Vehicle
 from auv_sim.flight.batch.flight_figures import Flights, SpatialFlights
 from auv_sim.flight.scenario import Scenario
-from auv_sim.own_vehicle.tune.drawn_courses import drawn_course
+from auv_sim.own_vehicle.tune.drawn_courses import drawn_course, water
 from auv_sim.own_vehicle.tune.gain_space import GainSet, GainSpace, Vector, with_lookahead
 from auv_sim.own_vehicle.tune.trial_flights import (
     LATER,
@@ -186,7 +186,7 @@ def _ramps(
         current=Current(size * math.cos(course), size * math.sin(course)), command_delay=conditions.delay,
         time_limit=PATIENCE * spatial.length / speed + 60.0,
     )  # fmt: skip
-    return Flight(scenario, False)
+    return Flight(scenario, False, f"{kind} ramps {water(strongest > 0.0, sea is not None)}")
 
 
 def _fitted(knots: Sequence[tuple[float, float]], length: float) -> list[tuple[float, float]]:
