@@ -206,9 +206,8 @@ def _refused(words: list[str], capsys: pytest.CaptureFixture[str]) -> str:
 
 
 def test_no_recording_costs_one_line(capsys: pytest.CaptureFixture[str]) -> None:
-    assert vehicle_command.main(["identify"]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
-    assert "no recording" in line
+    assert "no recording" in _refused(["identify"], capsys)
+    assert "--study N" in _refused(["identify", "runs/none", "--dive"], capsys)
 
 
 def _first(flown: Manoeuvred, rows: int) -> Manoeuvred:

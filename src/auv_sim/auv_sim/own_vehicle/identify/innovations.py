@@ -3,63 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from auv_sim.flight.batch.compiled import COMPILED, compiled, take_over_pure
-from auv_sim.own_vehicle.identify.combinations import COUNT, SCALE_POWERS, Numbers
-from auv_sim.own_vehicle.identify.dive.dive_combinations import DIVE_SCALE_POWERS
-from auv_sim.own_vehicle.identify.dive.dive_data import DiveData, dive_passage_of
-from auv_sim.own_vehicle.identify.dive.dive_filter import dive_innovations
+from auv_sim.own_vehicle.identify.combinations import COUNT, Numbers
+from auv_sim.own_vehicle.identify.dive.dive_data import DiveData
 from auv_sim.own_vehicle.identify.filter.exact_servo import fin_angles
-from auv_sim.own_vehicle.identify.filter.planar_filter import planar_flight, planar_innovations
-from auv_sim.own_vehicle.identify.time_grid import SAME, Passage, PlanarData, passage_of
+from auv_sim.own_vehicle.identify.motion_planes import HORIZONTAL, VERTICAL, Plane
+from auv_sim.own_vehicle.identify.time_grid import SAME, Passage, PlanarData
 from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, HALF_PLAY, LATENCY, RATE, TRIM, DataSheet
 
 take_over_pure()
 _fin_angles = compiled(fin_angles)
-_flight = compiled(planar_flight)
 
 #: Recordings of one kind.
 Recording = PlanarData | DiveData
-
-
-class Plane(NamedTuple):
-    """What differs between identifications in the plane and in the vertical.
-
-    Attributes:
-        compiled, plain: the filter.
-        passage_of: (recording, latency) -> passage.
-        measured: names of the signals in the order of the states, for their noise.
-        least: least standard deviations of those.
-        growth: of the states' variances in a second: nearly none.
-        alike: groups of states whose growth is increased together where the model is in error.
-        scale_powers: of the combinations, in the scale of the log.
-        has_thrust: whether the first combination is that of the thrust.
-    """
-
-    compiled: Callable[..., None]
-    plain: Callable[..., None]
-    passage_of: Callable[[Any, float], Passage]
-    measured: tuple[str, str, str]
-    least: tuple[float, float, float]
-    growth: tuple[float, float, float]
-    alike: tuple[tuple[int, ...], ...]
-    scale_powers: Numbers
-    has_thrust: bool
-
-
-HORIZONTAL = Plane(
-    compiled(planar_innovations), planar_innovations, passage_of, ("u", "v", "r"), (1e-3, 1e-3, 1e-4),
-    (1e-7, 1e-8, 1e-9), ((0, 1, 2),), SCALE_POWERS, True,
-)  # fmt: skip
-VERTICAL = Plane(
-    compiled(dive_innovations), dive_innovations, dive_passage_of, ("theta", "w", "q"), (1e-4, 1e-3, 1e-4),
-    (1e-9, 1e-7, 1e-8), ((0,), (1, 2)), DIVE_SCALE_POWERS, False,
-)  # fmt: skip
 
 
 class Channels(NamedTuple):
@@ -103,12 +65,9 @@ class Channels(NamedTuple):
         return self._replace(passages=tuple(found))
 
 
-#: Places in `Channels.noise`: growth of the first state's variance, variance of the fin's error.
-FIRST_GROWTH, FIN_VARIANCE = 3, 8
+#: Places in `Channels.noise`: growth of the first state's variance, variance of the error of fin or pitch.
+FIRST_GROWTH, ERROR_VARIANCE = 3, 8
 _NO_STATES = np.zeros((0, 4))
-#: Standard deviation (rad) and time constant (s) of the error of a fin's angle, before any data. Without it
-#: the likelihood has more local minima.
-FIN_ERROR, _FIN_TIME = math.radians(0.012), 1.0
 #: Length of a block of correlated innovations, s.
 _BLOCK = 10.0
 
@@ -135,8 +94,15 @@ def channels_of(
         blocks.append(block)
     signals = zip(plane.measured, plane.least, strict=True)
     measured = [max(least, _white(recordings, name)) ** 2 for name, least in signals]
-    thrust, fin = (sheet.thrust_drift**2, 1.0 / sheet.drift_time), (FIN_ERROR**2, 1.0 / _FIN_TIME)
-    noise = (*map(float, measured), *plane.growth, *thrust, *fin)
+    drift, time = plane.slow_error(sheet, recordings, _white(recordings, "u"))
+    noise = (
+        *map(float, measured),
+        *plane.growth,
+        drift**2,
+        1.0 / time,
+        plane.error**2,
+        1.0 / plane.error_time,
+    )
     return Channels(plane, passages, noise, dead_band, latency, np.concatenate(rows), np.concatenate(blocks))
 
 
@@ -178,11 +144,11 @@ def filtered(passage: Passage, channels: Channels, physical: Numbers) -> Numbers
 def flown(
     passage: Passage, channels: Channels, physical: Numbers, first: int, length: int, state: Numbers
 ) -> Numbers:
-    """Return u, v, r after each of `length` steps from node `first`, by the commands alone: (length, 3)."""
+    """Return the three states after each of `length` steps from node `first`, by the commands alone."""
     means, changes = rudder_of(passage, channels.dead_band, physical)
     out = np.zeros((length, 3))
     c = arguments_of(channels, physical)
-    _flight(c, passage.grid, means, changes, first, length, tuple(map(float, state)), out)
+    channels.plane.flight(c, passage.grid, means, changes, first, length, tuple(map(float, state)), out)
     return out
 
 

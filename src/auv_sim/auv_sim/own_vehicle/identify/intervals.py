@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from auv_sim.own_vehicle.identify.combinations import COUNT, Numbers
-from auv_sim.own_vehicle.identify.innovations import Channels, Plane
+from auv_sim.own_vehicle.identify.innovations import Channels
 from auv_sim.own_vehicle.identify.minimise import STEP, Minimised, free_unknowns, jacobian, weights_of
+from auv_sim.own_vehicle.identify.motion_planes import Plane
 from auv_sim.own_vehicle.identify.unknowns import ALL, DEAD_TIME, HALF_PLAY, RATE, DataSheet, Scaling
 
 #: Further steps of the servo's scaled unknowns.
@@ -74,7 +75,7 @@ def spread_of(
     np.add.at(scores, channels.blocks, J * estimate.residuals[:, None])
     meat = scores.T @ scores + before
     sandwich = (bread @ meat @ bread)[: free.size, : free.size]
-    slopes = scaling.slopes(estimate.z)[:, free]
+    slopes = channels.plane.model_error * scaling.slopes(estimate.z)[:, free]
     physical = scaling.physical(estimate.z)
     return Covariances(
         slopes @ bread[: free.size, : free.size] @ slopes.T,

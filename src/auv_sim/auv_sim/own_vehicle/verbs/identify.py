@@ -9,29 +9,24 @@ from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Callable
 from pathlib import Path
-
-from rich.progress import Progress
 
 from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_path_following import vehicle as vehicle_file
-from auv_path_following.vehicle import Hull, Vehicle
+from auv_path_following.vehicle import Vehicle
 from auv_sim.command_line import not_negative, positive, say, target, to_type
 from auv_sim.own_vehicle.identify.combinations import COUNT
 from auv_sim.own_vehicle.identify.dive.dive_combinations import DiveCombinations
-from auv_sim.own_vehicle.identify.dive.dive_data import DiveData
 from auv_sim.own_vehicle.identify.hull_abilities import abilities_of
-from auv_sim.own_vehicle.identify.identification import Identified, identify, identify_dive
+from auv_sim.own_vehicle.identify.identification import Identified, identify
 from auv_sim.own_vehicle.identify.innovations import Channels, channels_of
 from auv_sim.own_vehicle.identify.predictions import Prediction, predictions_of
 from auv_sim.own_vehicle.identify.results.excitation import check_excitation, remarks
 from auv_sim.own_vehicle.identify.results.identification_picture import draw_identification
 from auv_sim.own_vehicle.identify.results.identification_tables import (
     coefficients_table,
-    dive_table,
     figures_table,
     identified_count,
     predictions_table,
@@ -50,8 +45,9 @@ from auv_sim.own_vehicle.identify.results.plausibility import (
     latency_doubts,
 )
 from auv_sim.own_vehicle.identify.time_grid import PlanarData, shared_time
-from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, LATENCY, RATE, DataSheet, typed
+from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, RATE, DataSheet, typed
 from auv_sim.own_vehicle.identify.water_current import mean_current
+from auv_sim.own_vehicle.verbs.dive_report import IdentifiedDive, identified_dive, print_dive, reporter
 from auv_sim.own_vehicle.verbs.identification_study import add_study_arguments, study
 from auv_sim.own_vehicle.verbs.identify_checks import check_options, check_target
 from auv_sim.own_vehicle.verbs.recordings_read import (
@@ -124,7 +120,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.study is not None:
         o = arguments
         out = o.out.with_suffix(".json")
-        return study(o.study, o.first, o.program, o.sea, o.workers, out, o.page, o.quiet)
+        return study(o.study, o.first, o.program, o.sea, o.workers, out, o.page, o.quiet, o.dive)
     if not arguments.bag:
         raise ConfigurationError("BAG", "no recording", "at least one, or --study N")
     vehicle = vehicle_file.load(arguments.vehicle)
@@ -145,28 +141,15 @@ def run(arguments: argparse.Namespace) -> int:
     sheet = _sheet(arguments, vehicle)
     band = None if arguments.dead_band is None else math.radians(arguments.dead_band)
     with progress_bar(terminal(arguments.quiet), arguments.quiet) as bar:
-        found = identify(used, hull, sheet, band, _reporter(bar))
+        found = identify(used, hull, sheet, band, reporter(bar))
     check_sign(found, where)
     check_fit(found, where)
     for doubt in (*doubts(found, used, vehicle, -hull.Xuu), *latency_doubts(found)):
         say(f"notice {doubt}", error=True)
     dives = [one.dive for one in recorded if one.dive is not None]
-    dive = _dive(dives, vehicle, hull, sheet, found, arguments.quiet)
+    dive = identified_dive(dives, vehicle, hull, found, left_out, arguments.quiet)
     report(arguments, vehicle, recordings, left_out, found, dive)
     return 0
-
-
-def _dive(
-    dives: list[DiveData], vehicle: Vehicle, hull: Hull, sheet: DataSheet, plane: Identified, quiet: bool
-) -> Identified | None:
-    """Identify heave and pitch where stern planes moved; the log's latency is that found in the plane."""
-    if not dives or hull.vertical is None or vehicle.sternplanes is None:
-        return None
-    own = sheet._replace(
-        rate=vehicle.sternplanes.max_rate, latency=float(plane.physical[LATENCY]), latency_deviation=0.0
-    )
-    with progress_bar(terminal(quiet), quiet) as bar:
-        return identify_dive(dives, hull, hull.vertical, own, None, _reporter(bar))
 
 
 def report(
@@ -175,7 +158,7 @@ def report(
     recordings: list[PlanarData],
     left_out: PlanarData | None,
     found: Identified,
-    dive: Identified | None,
+    dive: IdentifiedDive | None,
 ) -> None:
     """Print tables; write the vehicle file and the picture."""
     console, hull = terminal(arguments.quiet), known_hull(vehicle)
@@ -188,10 +171,10 @@ def report(
     if predictions:
         console.print(predictions_table(predictions))
     if dive is not None:
-        console.print(dive_table(dive))
+        print_dive(console, dive, hull)
     new = identified_vehicle(
         vehicle, hull, typed(found.physical), math.degrees(found.physical[RATE]), found.physical[DEAD_TIME],
-        None if dive is None else DiveCombinations(*map(float, dive.physical[:COUNT])),
+        None if dive is None else DiveCombinations(*map(float, dive.found.physical[:COUNT])),
     )  # fmt: skip
     if new.depth != vehicle.depth:
         slowest, known = new.depth.minimum_speed, vehicle.depth.minimum_speed
@@ -238,12 +221,3 @@ def _predicted(left_out: PlanarData | None, found: Identified) -> tuple[Channels
     channels = channels.with_trims([found.channels.passages[-1].trim])  # a part of the last recording
     channels = channels.with_loads_off(found.channels.loads_off)
     return channels, predictions_of(channels, found.physical)
-
-
-def _reporter(bar: Progress) -> Callable[[int, int, str], None]:
-    task = bar.add_task("reading", total=None)
-
-    def update(done: int, total: int, what: str) -> None:
-        bar.update(task, completed=done, total=total, description=what)
-
-    return update

@@ -18,8 +18,10 @@ def check_options(o: argparse.Namespace, vehicle: Vehicle) -> None:
     """Check the numbers among the options.
 
     Raises:
-        ConfigurationError: one that no vehicle has.
+        ConfigurationError: one that no vehicle has, or an option of the study without it.
     """
+    if o.dive:
+        raise ConfigurationError("--dive", "no --study", "--study N: recordings show whether planes moved")
     _within("--log-latency", o.log_latency, 0.0, _LATENCY, "s")
     _within("--dead-band", o.dead_band, 0.0, 0.5 * vehicle.rudder.max_angle_deg, "deg")
     _within("--log-scale", o.log_scale, 0.0, _PERCENT, "per cent")

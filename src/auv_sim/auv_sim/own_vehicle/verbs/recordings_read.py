@@ -146,6 +146,8 @@ def diving(recorded: Manoeuvring, vehicle: Vehicle, hull: Hull) -> DiveData | No
         *(run.t[known], run.q[known], run.theta[known], run.phi[known], run.r[known]),
         *(recorded.water_t[water], log[:, 0], log[:, 1], log[:, 2]),
         *(planes.t, np.clip(planes.value, -limits.max_angle, limits.max_angle)),
+        recorded.thrust.t,
+        forces(vehicle, hull, np.clip(recorded.thrust.value, 0.0, vehicle.thrust_max)),
         coupling_of(hull, hull.vertical),
     )
 

@@ -1,4 +1,4 @@
-"""Covariances of motion, thrust's error and fin's error against dense matrices of all five states."""
+"""Covariances of motion, a first error and the fin's against dense matrices of all five states."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 from auv_sim.own_vehicle.identify.filter.filter_covariance import carried_covariance, corrected
 
 _ROOT = np.random.default_rng(2).normal(size=(5, 5))
-#: Covariance of three states of motion, of the thrust's error and of the fin's.
+#: Covariance of three states of motion, of a first error and of the fin's.
 DENSE = _ROOT @ _ROOT.T
 
 
@@ -27,10 +27,10 @@ def dense(p: Any, a: Any) -> Any:
 
 
 def test_a_step_is_that_of_the_matrices_of_all_states() -> None:
-    f, gains = np.random.default_rng(3).normal(size=(3, 3)), (0.3, -0.2, 0.7)
+    f, gains = np.random.default_rng(3).normal(size=(3, 3)), (0.3, 0.4, -0.6, 0.5, -0.2, 0.7)
     kept, held, growth = 0.9, 0.8, (0.01, 0.02, 0.03, 0.4, 0.5)
     F = np.zeros((5, 5))
-    F[:3, :3], F[0, 3], F[1, 4], F[2, 4], F[3, 3], F[4, 4] = f, *gains, kept, held
+    F[:3, :3], F[:3, 3], F[:3, 4], F[3, 3], F[4, 4] = f, gains[:3], gains[3:], kept, held
     shaken = np.diag([*growth[:3], (1.0 - kept**2) * growth[3], (1.0 - held**2) * growth[4]])
     found = carried_covariance(*flat(DENSE), tuple(f.ravel()), gains, kept, held, growth)
     assert dense(*found) == pytest.approx(F @ DENSE @ F.T + shaken)

@@ -111,22 +111,36 @@ def vertical_with(combinations: DiveCombinations, m: float, assumed: VerticalHul
 
 #: Draws of a prior, and the factor on their spread; deviation of the buoyancy (share of the weight) and of
 #: the centre of gravity ahead (share of its depth below) in them.
-_DRAWS, _WIDENED, _BUOYANCY, _AHEAD = 3000, 1.5, 0.01, 0.3
+_DRAWS, _WIDENED, _BUOYANCY, _AHEAD = 3000, 3.0, 0.03, 0.3
 
 
 #: Powers of length with which the coefficients of similar hulls grow.
 _POWERS = {
-    "Zww": 2, "Zqq": 4, "Zuw": 2, "Zuq": 3, "Zwd": 3, "Zqd": 4, "Zuud": 2,
-    "Mww": 3, "Mqq": 5, "Muw": 3, "Muq": 4, "Mwd": 4, "Mqd": 5, "Muud": 3, "Iyy": 5,
+    "diameter": 1, "W": 3, "B": 3, "xg": 1, "zg": 1, "Ixx": 5, "Iyy": 5,
+    "Xwq": 3, "Xqq": 4, "Ywp": 3, "Ypq": 4,
+    "Zww": 2, "Zqq": 4, "Zuw": 2, "Zuq": 3, "Zvp": 3, "Zrp": 4, "Zwd": 3, "Zqd": 4, "Zuud": 2,
+    "Kpp": 5, "Kup": 4, "Kpd": 5, "Kprop": 1,
+    "Mww": 3, "Mqq": 5, "Muw": 3, "Muq": 4, "Mvp": 4, "Mrp": 5, "Mwd": 4, "Mqd": 5, "Muud": 3,
+    "Nwp": 4, "Npq": 5,
 }  # fmt: skip
 
 
-def _similar(name: str, vertical: VerticalHull) -> float:
-    """Return a coefficient of the REMUS 100 scaled to the weight of another hull; 0 of weights and arms."""
+def scaled_vertical(vertical: VerticalHull, ratio: float) -> VerticalHull:
+    """Return a hull of the same shape and density.
+
+    Args:
+        vertical: a known one.
+        ratio: of the lengths, the new one over the known one.
+    """
+    values: dict[str, Any] = {name: getattr(vertical, name) * ratio**power for name, power in _POWERS.items()}
+    return dataclasses.replace(vertical, **values)
+
+
+def _similar(vertical: VerticalHull) -> VerticalHull:
+    """Return the REMUS 100 scaled to the weight of another hull."""
     reference = vehicle_file.load(DIVING_REFERENCE).coefficients.vertical
     assert reference is not None
-    ratio = (vertical.W / reference.W) ** (1.0 / 3.0)
-    return float(getattr(reference, name) * ratio ** _POWERS[name]) if name in _POWERS else 0.0
+    return scaled_vertical(reference, (vertical.W / reference.W) ** (1.0 / _POWERS["W"]))
 
 
 def dive_prior_of(hull: Hull, vertical: VerticalHull, seed: int = 0) -> Prior:
@@ -139,10 +153,11 @@ def dive_prior_of(hull: Hull, vertical: VerticalHull, seed: int = 0) -> Prior:
         seed: of the draws.
     """
     generator = np.random.default_rng(seed)
+    similar = _similar(vertical)
     values: dict[str, Any] = {}
     for name in _NEEDED:
         largest = 0.3 if name in ("Iyy", "W") else 1.0
-        value = getattr(vertical, name) or _similar(name, vertical)
+        value = getattr(vertical, name) or getattr(similar, name)
         values[name] = value * 2.0 ** generator.uniform(-largest, largest, _DRAWS)
     values["m"] = values["W"] / GRAVITY
     values["B"] = (

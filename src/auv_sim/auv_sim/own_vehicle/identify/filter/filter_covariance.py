@@ -95,30 +95,33 @@ def carried_covariance(p: Any, a: Any, f: Any, gains: Any, kept: Any, held: Any,
     Args:
         p, a: covariances.
         f: transition of the states of motion, nine numbers.
-        gains: change of the first state by the thrust's error, and of the second and third by the fin's.
-        kept, held: shares of the thrust's and the fin's error that are left.
+        gains: change of the three states by the first error, then by the fin's.
+        kept, held: shares of the first and the fin's error that are left.
         growth: of the variances of the three states, and variances of the two errors.
     """
-    g0, g1, g2 = gains
+    g0, g1, g2, d0, d1, d2 = gains
     q0, q1, q2, w, s0, s1, s2, y, e = a
     a0, a1 = f[0] * q0 + f[1] * q1 + f[2] * q2, f[3] * q0 + f[4] * q1 + f[5] * q2
     a2 = f[6] * q0 + f[7] * q1 + f[8] * q2
     b0, b1 = f[0] * s0 + f[1] * s1 + f[2] * s2, f[3] * s0 + f[4] * s1 + f[5] * s2
     b2 = f[6] * s0 + f[7] * s1 + f[8] * s2
     p00, p01, p02, p11, p12, p22 = spread(p, f)
+    # Half of what both errors add to themselves: each product below has it twice.
+    m0, m1, m2 = a0 + 0.5 * (g0 * w + d0 * y), a1 + 0.5 * (g1 * w + d1 * y), a2 + 0.5 * (g2 * w + d2 * y)
+    n0, n1, n2 = b0 + 0.5 * (g0 * y + d0 * e), b1 + 0.5 * (g1 * y + d1 * e), b2 + 0.5 * (g2 * y + d2 * e)
     return (
         (
-            p00 + g0 * (2.0 * a0 + g0 * w) + growth[0],
-            p01 + g0 * (a1 + g1 * y) + g1 * b0,
-            p02 + g0 * (a2 + g2 * y) + g2 * b0,
-            p11 + g1 * (2.0 * b1 + g1 * e) + growth[1],
-            p12 + g2 * (b1 + g1 * e) + g1 * b2,
-            p22 + g2 * (2.0 * b2 + g2 * e) + growth[2],
+            p00 + 2.0 * (g0 * m0 + d0 * n0) + growth[0],
+            p01 + g0 * m1 + g1 * m0 + d0 * n1 + d1 * n0,
+            p02 + g0 * m2 + g2 * m0 + d0 * n2 + d2 * n0,
+            p11 + 2.0 * (g1 * m1 + d1 * n1) + growth[1],
+            p12 + g1 * m2 + g2 * m1 + d1 * n2 + d2 * n1,
+            p22 + 2.0 * (g2 * m2 + d2 * n2) + growth[2],
         ),
         (
-            kept * (a0 + g0 * w), kept * (a1 + g1 * y), kept * (a2 + g2 * y),
+            kept * (a0 + g0 * w + d0 * y), kept * (a1 + g1 * w + d1 * y), kept * (a2 + g2 * w + d2 * y),
             kept * kept * w + (1.0 - kept * kept) * growth[3],
-            held * (b0 + g0 * y), held * (b1 + g1 * e), held * (b2 + g2 * e),
+            held * (b0 + g0 * y + d0 * e), held * (b1 + g1 * y + d1 * e), held * (b2 + g2 * y + d2 * e),
             kept * held * y, held * held * e + (1.0 - held * held) * growth[4],
         ),
     )  # fmt: skip

@@ -92,7 +92,8 @@ def carried(
     f = transition(planar_jacobian(c, u, v, r, delta), h)
     kept, held, square = 1.0 - decay * h, 1.0 - fin_decay * h, h * u * u
     growth = h * grow_u, h * grow_v, h * grow_r, drift, fin
-    gains = h * c[0] * thrust, c[8] * square, c[13] * square
+    zero = 0.0 * c[0]
+    gains = h * c[0] * thrust, zero, zero, zero, c[8] * square, c[13] * square
     p, a = carried_covariance(p, a, f, gains, kept, held, growth)
     u, v, r = planar_advance(c, u, v, r, c[0] * thrust * (1.0 + error), delta, change, h)
     u, v, r = u + h * given[0], v + h * given[1], r + h * given[2]

@@ -1,4 +1,4 @@
-"""How far the filter trusts its model: error of the fin, growth of the states' variances, by likelihood."""
+"""How far the filter trusts its model: error of fin or pitch, growth of the variances, by likelihood."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 
-from auv_sim.own_vehicle.identify.innovations import FIN_VARIANCE, FIRST_GROWTH, Channels, innovations_of
+from auv_sim.own_vehicle.identify.innovations import ERROR_VARIANCE, FIRST_GROWTH, Channels, innovations_of
 from auv_sim.own_vehicle.identify.minimise import Minimised, cost_of, minimise
 from auv_sim.own_vehicle.identify.unknowns import Scaling
 
-#: Deviations of the fin's error that are tried, rad.
-_FIN = tuple(math.radians(angle) for angle in (0.006, 0.012, 0.025, 0.05, 0.1, 0.2))
+#: Deviations of the error of the fin, or of the measured pitch, that are tried, rad.
+_ERRORS = tuple(math.radians(angle) for angle in (0.006, 0.012, 0.025, 0.05, 0.1, 0.2))
 #: Factors on the growth of the variances of the states.
 _FACTORS = (1.0, 10.0, 100.0, 1e3, 1e4, 1e5)
 #: Rounds of choice and minimisation, and choices of each number in a round, at most.
@@ -47,9 +47,9 @@ def _best_filter(channels: Channels, scaling: Scaling, estimate: Minimised) -> C
 
 
 def _alternatives(channels: Channels, group: tuple[int, ...]) -> list[Channels]:
-    """Return filters that differ in the growth of a group of states; for an empty one in the fin's error."""
+    """Return filters that differ in the growth of a group of states; for an empty one in that error."""
     if not group:
-        return [channels.with_noise(FIN_VARIANCE, fin**2) for fin in _FIN]
+        return [channels.with_noise(ERROR_VARIANCE, error**2) for error in _ERRORS]
     found = []
     for factor in _FACTORS:
         own = channels

@@ -97,7 +97,7 @@ def _innovations(axes: Axes, found: Identified, channel: int) -> None:
     axes.set_ylim(-5.0, 5.0)
     axes.set_xlabel("s", color=INK)
     style(axes, "innovation / deviation")
-    name = list(whiteness(found))[channel][0]
+    name = list(whiteness(found))[channel].name
     axes.set_title(name, color=INK, fontsize=10, loc="left")
 
 

@@ -10,7 +10,6 @@ import numpy as np
 from rich.table import Table
 
 from auv_sim.own_vehicle.identify.combinations import COUNT, SYMBOLS, UNITS
-from auv_sim.own_vehicle.identify.dive.dive_combinations import DIVE_SYMBOLS, DIVE_UNITS
 from auv_sim.own_vehicle.identify.hull_abilities import Ability
 from auv_sim.own_vehicle.identify.identification import Identified
 from auv_sim.own_vehicle.identify.intervals import REACH
@@ -31,10 +30,12 @@ from auv_sim.terminal import headed_table
 
 #: A coefficient with a smaller standard deviation counts as identified, a share.
 IDENTIFIED = 0.10
-#: Heave and pitch are identified with roll and sway given, not modelled: on a hull in six degrees of freedom
-#: this makes errors of about this many statistical deviations.
-MODEL_ERROR = 3.0
-_CHANNELS = ("yaw rate", "u through the water", "v through the water")
+#: Channels of the innovations: name, unit, and SI units for one of it.
+_RATE = math.radians(1.0)
+_IN_PLANE = (
+    ("yaw rate", "deg/s", _RATE), ("u through the water", "m/s", 1.0), ("v through the water", "m/s", 1.0),
+)  # fmt: skip
+_OF_DIVE = (("pitch rate", "deg/s", _RATE), ("pitch", "deg", _RATE), ("w through the water", "m/s", 1.0))
 
 
 class Figure(NamedTuple):
@@ -48,40 +49,25 @@ class Figure(NamedTuple):
 
 def coefficients_table(found: Identified) -> Table:
     """Return the combinations with both parts of their intervals."""
-    table = headed_table(
-        "accelerations by the water, rudder and thrust", ("",),
-        ("value", "unit", "95 %: data +- %", "systematic +- %", ""),
-    )  # fmt: skip
-    for k in range(COUNT):
+    return combinations_table(found, "accelerations by the water, rudder and thrust", SYMBOLS, UNITS)
+
+
+def combinations_table(found: Identified, title: str, symbols: Sequence[str], units: Sequence[str]) -> Table:
+    """Return combinations with both parts of their intervals.
+
+    Args:
+        found: the identification.
+        title: of the table.
+        symbols, units: of its combinations.
+    """
+    table = headed_table(title, ("",), ("value", "unit", "95 %: data +- %", "systematic +- %", ""))
+    for k, (symbol, unit) in enumerate(zip(symbols, units, strict=True)):
         row, value = np.eye(ALL)[k], found.physical[k]
         data, unseen = found.spread.statistical(row), found.spread.unseen(row)
         share = math.hypot(data, unseen) / abs(value)
         verdict = "" if share < IDENTIFIED else "weak" if share < 0.5 else "as assumed"
-        cells = (REACH * data, REACH * unseen)
-        table.add_row(
-            SYMBOLS[k],
-            f"{value:.4g}",
-            UNITS[k],
-            *(f"{100.0 * cell / abs(value):.1f}" for cell in cells),
-            verdict,
-        )
-    return table
-
-
-def dive_table(found: Identified) -> Table:
-    """Return the combinations of heave and pitch, with `MODEL_ERROR` times their statistical deviations."""
-    table = headed_table("heave and pitch", ("",), ("value", "unit", "95 % +- %", ""))
-    off = REACH * MODEL_ERROR * found.spread.deviations[:COUNT]
-    for k in range(COUNT):
-        value = found.physical[k]
-        share = off[k] / abs(value)
-        verdict = "" if share < REACH * IDENTIFIED else "weak" if share < 1.0 else "as assumed"
-        table.add_row(DIVE_SYMBOLS[k], f"{value:.4g}", DIVE_UNITS[k], f"{100.0 * share:.0f}", verdict)
-    p, sd = found.physical, REACH * found.spread.deviations
-    rate, late = p[RATE], max(p[DEAD_TIME], 1e-3)
-    shares = f"{100.0 * sd[RATE] / rate:.1f}", f"{100.0 * sd[DEAD_TIME] / late:.1f}"
-    table.add_row("rate of the planes", f"{math.degrees(rate):.4g}", "deg/s", shares[0], "")
-    table.add_row("dead time of the planes", f"{p[DEAD_TIME]:.3f}", "s", shares[1], "")
+        cells = (f"{100.0 * REACH * off / abs(value):.1f}" for off in (data, unseen))
+        table.add_row(symbol, f"{value:.4g}", unit, *cells, verdict)
     return table
 
 
@@ -147,28 +133,47 @@ def figures_table(
     return table
 
 
-def whiteness(found: Identified) -> Iterator[tuple[str, float, float, float]]:
-    """Yield name, deviation (SI), lag-1 correlation, and its bound for white noise, of each channel."""
-    for channel, name in enumerate(_CHANNELS):
+class Whiteness(NamedTuple):
+    """Innovations of one channel: name, unit, deviation in it, lag-1 correlation and its bound if white."""
+
+    name: str
+    unit: str
+    deviation: float
+    correlation: float
+    bound: float
+
+
+def whiteness(found: Identified) -> Iterator[Whiteness]:
+    """Yield the innovations of each channel."""
+    for channel, (name, unit, size) in enumerate(_IN_PLANE if found.channels.plane.has_thrust else _OF_DIVE):
         own = found.estimate.residuals[found.channels.rows == channel]
         lag = float(np.mean(own[1:] * own[:-1]) / max(np.mean(own * own), 1e-12))
-        yield name, float(found.estimate.deviations[channel]), lag, REACH / math.sqrt(max(own.size, 1))
+        deviation = float(found.estimate.deviations[channel]) / size
+        yield Whiteness(name, unit, deviation, lag, REACH / math.sqrt(max(own.size, 1)))
 
 
 def whiteness_table(found: Identified) -> Table:
     """Return deviation and lag-1 correlation of the innovations."""
     table = headed_table("innovations", ("",), ("deviation", "unit", "lag-1 correlation", "white below"))
-    for number, (name, deviation, lag, bound) in enumerate(whiteness(found)):
-        shown, unit = (math.degrees(deviation), "deg/s") if number == 0 else (deviation, "m/s")
-        table.add_row(name, f"{shown:.3g}", unit, f"{lag:+.3f}", f"{bound:.3f}")
+    for one in whiteness(found):
+        table.add_row(
+            one.name, f"{one.deviation:.3g}", one.unit, f"{one.correlation:+.3f}", f"{one.bound:.3f}"
+        )
     return table
 
 
-def predictions_table(predictions: Sequence[Prediction]) -> Table:
-    """Return the errors on left-out manoeuvres."""
+def predictions_table(
+    predictions: Sequence[Prediction], rate: str = "yaw rate", state: str = "speed"
+) -> Table:
+    """Return the errors on left-out manoeuvres.
+
+    Args:
+        predictions: with their errors.
+        rate, state: names of what is predicted.
+    """
     table = headed_table(
         "left-out manoeuvres, by the commands alone", ("over",),
-        ("starts", "yaw rate off %", "of it noise of the gyro %", "speed off %"),
+        ("starts", f"{rate} off %", "of it noise of the gyro %", f"{state} off %"),
     )  # fmt: skip
     for p in predictions:
         shares = (f"{100.0 * share:.1f}" for share in (p.error, p.noise, p.speed))

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from auv_path_following.vehicle import Hull
-from auv_sim.own_vehicle.identify.combinations import Numbers
-from auv_sim.own_vehicle.identify.dive.dive_data import DiveData
+from auv_sim.own_vehicle.identify.dive.dive_data import Coupling, DiveData
 from auv_sim.own_vehicle.identify.dive.vertical_motion import VerticalMotion, vertical_loads_of
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
 from auv_sim.own_vehicle.manoeuvres.manoeuvre_flight import Manoeuvred
@@ -31,10 +30,11 @@ def _vertical(flown: Manoeuvred, hull: Hull | None) -> VerticalMotion | None:
     return VerticalMotion(flown.t, flown.phi, flown.theta, flown.q, flown.water_t, flown.water_w, loads)
 
 
-def dive_data(flown: Manoeuvred, coupling: Numbers, name: str = "simulated") -> DiveData:
+def dive_data(flown: Manoeuvred, coupling: Coupling, name: str = "simulated") -> DiveData:
     """Return the vertical motion of `simulate` as a recording."""
     t, water = flown.t, (flown.water_t, flown.water_u, flown.water_v, flown.water_w)
-    return DiveData(name, t, flown.q, flown.theta, flown.phi, flown.r, *water, t, flown.sternplanes, coupling)
+    fins = t, flown.sternplanes, t, flown.thrust
+    return DiveData(name, t, flown.q, flown.theta, flown.phi, flown.r, *water, *fins, coupling)
 
 
 def thrust_share(sea: Sea, seed: int, step: float = 0.05) -> float:

@@ -1,0 +1,102 @@
+"""The figures of an identification study, with the targets that were set before it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, TypeVar
+
+import numpy as np
+
+from auv_sim.own_vehicle.identify.combinations import Numbers
+from auv_sim.own_vehicle.identify.intervals import REACH
+from auv_sim.own_vehicle.identify.results.identification_tables import IDENTIFIED
+from auv_sim.own_vehicle.identify.study.identified_cases import Judged
+from auv_sim.own_vehicle.identify.study.identified_dives import JudgedDive
+
+#: Coefficients of each data set that have to be identified.
+_LEAST = 8
+T = TypeVar("T", Judged, JudgedDive)
+
+
+class Row(NamedTuple):
+    """One figure: name, median, worst, unit, target, and whether it is met."""
+
+    name: str
+    median: str
+    worst: str
+    target: str
+    met: bool
+
+
+def figures(outcomes: Sequence[Judged], program: str) -> list[Row]:
+    """Return the figures and their targets; of two minutes only the rudder's effect has one."""
+    b = _row(outcomes, "effect of the rudder b", "%", 100.0, 4.0 if "two" in program else 3.0, lambda o: o.b)
+    if "two" in program:
+        return [b]
+    return [
+        b,
+        _row(outcomes, "tightest turn", "%", 100.0, 2.0, lambda o: o.radius),
+        _row(outcomes, "speed", "%", 100.0, 3.0, lambda o: o.speed),
+        _row(outcomes, "yaw pole", "1/s", 1.0, 0.1, lambda o: o.pole_off),
+        _row(outcomes, "dead time", "ms", 1000.0, 10.0, lambda o: o.dead_time),
+        _row(outcomes, "rudder rate", "%", 100.0, 1.0, lambda o: o.rate),
+        _row(outcomes, "current", "m/s", 1.0, 0.02, lambda o: o.current),
+        _row(outcomes, "left out, yaw rate over 2 s", "%", 100.0, 5.0, lambda o: o.two),
+        _row(
+            outcomes,
+            "left out, over 10 s, over that of the truth",
+            "",
+            1.0,
+            1.15,
+            lambda o: o.ten / o.true_ten,
+        ),
+        *_coverage(outcomes),
+    ]
+
+
+def dive_figures(outcomes: Sequence[JudgedDive], program: str) -> list[Row]:
+    """Return the figures of heave and pitch; targets are for medians, and twice as wide for two minutes."""
+    wider = 2.0 if "two" in program else 1.0
+
+    def row(name: str, unit: str, factor: float, target: float, value: Callable[[JudgedDive], float]) -> Row:
+        return _row(outcomes, name, unit, factor, target, value, np.median)
+
+    return [
+        row("effect of the planes", "%", 100.0, 2.0 * wider, lambda o: o.planes),
+        row("righting moment, pitch frequency squared", "%", 100.0, 2.0 * wider, lambda o: o.righting),
+        row("pitch damping at 10 deg/s", "%", 100.0, 3.0 * wider, lambda o: o.damping),
+        row("weight less buoyancy, masses assumed", "N", 1.0, 0.5 * wider, lambda o: o.buoyancy),
+        row("dead time", "ms", 1000.0, 5.0 * wider, lambda o: o.dead_time),
+        row("left out, pitch rate over 2 s", "%", 100.0, 10.0, lambda o: o.two),
+        row("left out, over 10 s, over that of the truth", "", 1.0, 1.15, lambda o: o.ten / o.true_ten),
+        *_coverage(outcomes),
+    ]
+
+
+def _row(
+    outcomes: Sequence[T],
+    name: str,
+    unit: str,
+    factor: float,
+    target: float,
+    value: Callable[[T], float],
+    judged: Callable[[Numbers], float] = np.max,
+) -> Row:
+    """Return a row whose target is that of the worst outcome, or of another figure of all."""
+    sizes = factor * np.abs([value(outcome) for outcome in outcomes])
+    met = bool(judged(sizes) <= target)
+    unit = f" {unit}" if unit else ""
+    return Row(name, f"{np.median(sizes):.2g}{unit}", f"{sizes.max():.2g}{unit}", f"{target:g}{unit}", met)
+
+
+def _coverage(outcomes: Sequence[Judged] | Sequence[JudgedDive]) -> list[Row]:
+    """Return the share of intervals that hold the truth, of the combinations identified, and how many are."""
+    identified = np.array([outcome.shares for outcome in outcomes]) < IDENTIFIED
+    holds = np.abs([outcome.scores for outcome in outcomes]) < REACH
+    inside, counts = float(holds[identified].mean()), identified.sum(axis=1)
+    middle = float(np.median(counts))
+    many = f"{int(identified.sum())} intervals"
+    return [
+        Row("95 % intervals that hold the truth", f"{100.0 * inside:.1f} %", many, "90 %", inside >= 0.9),
+        Row("identified of 14", f"{middle:g}", f"{counts.min()}", f"{_LEAST} (median)", middle >= _LEAST),
+    ]
