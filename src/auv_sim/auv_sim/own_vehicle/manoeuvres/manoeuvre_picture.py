@@ -73,5 +73,5 @@ def _beside(axis: Any, t: Any, values: Any, label: str, limits: tuple[float, flo
 def _series(axis: Any, t: Any, series: list[tuple[Any, str]]) -> None:
     for (values, label), colour in zip(series, _COLOURS, strict=False):
         axis.plot(t, values, color=colour, linewidth=1.0, label=label)
-    axis.legend(loc="upper right", fontsize=8, framealpha=0.8)
+    axis.legend(loc="lower right", bbox_to_anchor=(1.0, 0.97), ncols=2, frameon=False, fontsize=8)
     axis.grid(alpha=0.3)
