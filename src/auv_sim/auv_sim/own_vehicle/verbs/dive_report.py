@@ -21,7 +21,7 @@ from auv_sim.own_vehicle.identify.results.identification_tables import (
     whiteness_table,
 )
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
-from auv_sim.own_vehicle.identify.unknowns import LATENCY
+from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, LATENCY, RATE
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import progress_bar
 
@@ -34,6 +34,11 @@ class IdentifiedDive(NamedTuple):
 
     found: Identified
     predictions: list[Prediction]
+
+    @property
+    def planes(self) -> tuple[float, float]:
+        """Rate (deg/s) and dead time (s) of the stern planes."""
+        return math.degrees(self.found.physical[RATE]), float(self.found.physical[DEAD_TIME])
 
 
 def identified_dive(

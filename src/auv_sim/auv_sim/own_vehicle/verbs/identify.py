@@ -175,6 +175,7 @@ def report(
     new = identified_vehicle(
         vehicle, hull, typed(found.physical), math.degrees(found.physical[RATE]), found.physical[DEAD_TIME],
         None if dive is None else DiveCombinations(*map(float, dive.found.physical[:COUNT])),
+        None if dive is None else dive.planes,
     )  # fmt: skip
     if new.depth != vehicle.depth:
         slowest, known = new.depth.minimum_speed, vehicle.depth.minimum_speed

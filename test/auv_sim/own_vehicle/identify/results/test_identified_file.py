@@ -73,6 +73,19 @@ def test_what_is_written_loads_and_is_the_same_vehicle(
     assert new.hull is not None and new.hull.Nuud == pytest.approx(factors[-1] * hull.Nuud, rel=0.3)
 
 
+def test_rate_and_dead_time_of_the_planes_stand_in_the_file() -> None:
+    c = combinations_of(DIVER.coefficients)
+    new = identified_vehicle(DIVER, DIVER.coefficients, c, 15.0, 0.1, DIVE, (17.18873, 0.0987654))
+    read = yaml_file.checked(
+        yaml_file.parse_text(identified_text(new, DIVER.coefficients, found_with(c, 0.1), "a bag"), "x"),
+        Path("x"), Vehicle,
+    )  # fmt: skip
+    assert read.sternplanes is not None and DIVER.sternplanes is not None
+    assert (read.sternplanes.max_rate_deg_s, read.sternplanes.dead_time) == (17.19, 0.099)
+    assert read.sternplanes.max_angle_deg == DIVER.sternplanes.max_angle_deg
+    assert (read.rudder.max_rate_deg_s, read.rudder.dead_time) == (15.0, 0.1)
+
+
 def test_a_width_that_the_data_do_not_show_is_a_factor_of_two() -> None:
     text = identified_text(REMUS, REMUS.coefficients, found_with(C, 3.0), "a bag")
     (line,) = (line for line in text.splitlines() if line.startswith("  Nuud:"))

@@ -12,7 +12,7 @@ from pydantic_core import PydanticCustomError
 from auv_msgs_py.settings.explanations import readable
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import vehicle as vehicle_file
-from auv_path_following.abilities import DepthRange
+from auv_path_following.abilities import LONGEST_DEAD_TIME, DepthRange, Rudder
 from auv_path_following.vehicle import Hull, Vehicle
 from auv_path_following.vertical_hull import VerticalHull, check_planes
 from auv_sim.own_vehicle.identify.combinations import (
@@ -74,6 +74,7 @@ def identified_vehicle(
     rate_deg_s: float,
     dead_time: float,
     dive: DiveCombinations | None = None,
+    planes: tuple[float, float] | None = None,
 ) -> Vehicle:
     """Return the vehicle with identified coefficients; it moves by them with the masses of `hull`.
 
@@ -87,6 +88,7 @@ def identified_vehicle(
         c: identified combinations, for forces by `forces`.
         rate_deg_s, dead_time: of the rudder, deg/s and s.
         dive: identified combinations of heave and pitch.
+        planes: identified rate (deg/s) and dead time (s) of the stern planes.
 
     Raises:
         ConfigurationError: no vehicle file can hold what was identified.
@@ -97,15 +99,27 @@ def identified_vehicle(
         if dive is not None and hull.vertical is not None:
             vertical = _rounded_hull(vertical_with(dive, hull.m, hull.vertical), hull.vertical, 6)
             found, depth = dataclasses.replace(found, vertical=vertical), held_depth(vehicle, vertical)
-        late = round(float(min(max(dead_time, 0.0), 2.0)), 3)
-        rudder = dataclasses.replace(vehicle.rudder, max_rate_deg_s=rounded(rate_deg_s, 4), dead_time=late)
+        rudder, sternplanes = _fin(vehicle.rudder, rate_deg_s, dead_time), _planes(vehicle, planes)
         return dataclasses.replace(
-            vehicle, hull=found, rudder=rudder, thrust_table=table, depth=depth, turning=None, params=None,
-            assumed_within=1.0, simulated_as=None,
+            vehicle, hull=found, rudder=rudder, sternplanes=sternplanes, depth=depth, turning=None,
+            params=None, thrust_table=table, assumed_within=1.0, simulated_as=None,
             cruise=None if vehicle.pitching is None else vehicle.cruise,
         )  # fmt: skip
     except pydantic.ValidationError as error:
         raise readable(error, f"{vehicle.name}: as identified", Vehicle) from None
+
+
+def _fin(fin: Rudder, rate_deg_s: float, dead_time: float) -> Rudder:
+    """Return a fin with an identified rate (deg/s) and dead time (s)."""
+    late = round(float(min(max(dead_time, 0.0), LONGEST_DEAD_TIME)), 3)
+    return dataclasses.replace(fin, max_rate_deg_s=rounded(rate_deg_s, 4), dead_time=late)
+
+
+def _planes(vehicle: Vehicle, planes: tuple[float, float] | None) -> Rudder | None:
+    """Return the stern planes with an identified rate (deg/s) and dead time (s), if they were identified."""
+    if planes is None or vehicle.sternplanes is None:
+        return vehicle.sternplanes
+    return _fin(vehicle.sternplanes, *planes)
 
 
 def _with_newtons(
