@@ -230,8 +230,21 @@ def test_a_survey_gets_wider_turns_where_the_vehicle_needs_them(
     assert "warning the survey is not flown within 1 m everywhere" in printed(out)
 
 
+def test_a_hull_for_which_the_rule_does_not_hold_may_fly_manoeuvres(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A large hull with a slow rudder, whose survey is flown in part: its file is what manoeuvres need."""
+    facts = OwnerFacts("slow", 5.2, "rpm", 200.0, ((200.0, 2.0),), ((20.0, 28.0),), 20.0, rate_deg_s=4.0)
+    monkeypatch.setattr(trial_flight, "fly_trials", lambda *_: ([TrialFlight(0.3, 0.93, 0.4, 1.7)], False))
+    out = console()
+    own = new_vehicle(facts, tmp_path / "slow.yaml", False, out)
+    assert own == vehicle.load(str(tmp_path / "slow.yaml"))
+    assert "too slow a fin for this hull" in printed(out)
+    assert "warning the survey is not flown within 1 m everywhere" in printed(out)
+
+
 def test_a_vehicle_that_cannot_fly_leaves_no_file_and_says_why(tmp_path: Path) -> None:
-    late = FACTS._replace(delay=0.6, radii=((25.0, 8.0),), divergence=1.3)
+    late = FACTS._replace(delay=1.0, radii=((25.0, 8.0),), divergence=1.3)
     with pytest.raises(ConfigurationError, match=r"flown to \d+ ?%.*too much delay for this hull"):
         new_vehicle(late, tmp_path / "late.yaml", False, console())
     assert list(tmp_path.iterdir()) == []

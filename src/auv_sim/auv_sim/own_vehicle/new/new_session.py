@@ -48,7 +48,8 @@ def new_vehicle(facts: OwnerFacts, file: Path, overwrite: bool, console: Console
         draft.write_text(text, encoding="utf-8")
         survey_draft.write_text(flown.text, encoding="utf-8")
     wrote(console, file, "the vehicle; numbers that were not given are marked `assumed`")
-    wrote(console, survey, f"a survey that it can fly, {flown.mission.path.length:.0f} m")
+    able = " that it can fly" if flown.is_flown else ""
+    wrote(console, survey, f"a survey{able}, {flown.mission.path.length:.0f} m")
     _show(console, flown)
     _advise(console, facts, vehicle, file)
     return vehicle
