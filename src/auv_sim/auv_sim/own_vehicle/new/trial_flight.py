@@ -26,7 +26,7 @@ from auv_sim.sim_parameters import SUITE
 #: Radius of the turns: in tightest turns, and at least in hull lengths; then wider by these factors.
 _TURNS, _LENGTHS = 2.5, 5.0
 _WIDER = (1.0, 1.5, 2.25)
-#: Least flown share of the survey: with less the facts are doubted. In between the vehicle may fly manoeuvres.
+#: Least flown share of the survey; with less the facts are doubted. Manoeuvres do not need all of it.
 _LEAST_SHARE = 0.8
 #: Current of the trial, as a share of the speed, and its direction, rad.
 _CURRENT, _DIRECTION = 0.15, 0.8
