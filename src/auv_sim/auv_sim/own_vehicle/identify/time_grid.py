@@ -90,7 +90,7 @@ class Grid(NamedTuple):
         thrust: of the step, N.
         rate_row, rate: row of r among the innovations or -1, and r, rad/s.
         u_row, v_row, u, v: rows of u and v among them or -1, and these, m/s.
-        given: further accelerations of u, v (m/s^2) and r (rad/s^2), (n, 3).
+        given: further accelerations of u, v (m/s^2) and r (rad/s^2) in the step, (n, 3).
     """
 
     step: Numbers
@@ -126,6 +126,11 @@ class Passage(NamedTuple):
     counts: tuple[int, int, int]
     trim: float = 0.0
     loads: VerticalLoads | None = None
+
+    @property
+    def middles(self) -> Numbers:
+        """Times in the middle of each step, s: motion given at its beginning would be half a step late."""
+        return 0.5 * (self.times[:-1] + self.times[1:])
 
     def with_loads(self, loads: VerticalLoads | None) -> Passage:
         """Return the passage with other loads, if there are any."""
@@ -163,9 +168,11 @@ def passage_of(data: PlanarData, latency: float) -> Passage:
     grid = Grid(step, begins, thrust, rate_row, rate, u_row, v_row, u, v, np.zeros((n, 3)))
     every = np.concatenate((t, at, at))
     ends = np.append(times, times[-1] + SAME)
-    loads = None if data.vertical is None else vertical_loads(data.vertical, latency, times, rate)
-    counts = (t.size, at.size, at.size)
-    return Passage(grid, ends, data.rudder_t, data.rudder, every, counts).with_loads(loads)
+    passage = Passage(grid, ends, data.rudder_t, data.rudder, every, (t.size, at.size, at.size))
+    if data.vertical is None:
+        return passage
+    turning = np.interp(passage.middles, t, data.r[rows])
+    return passage.with_loads(vertical_loads(data.vertical, latency, passage.middles, turning))
 
 
 def _snapped(at: Numbers, t: Numbers) -> Numbers:

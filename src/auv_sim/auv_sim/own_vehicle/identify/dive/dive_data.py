@@ -12,7 +12,7 @@ from auv_path_following.vehicle import GRAVITY, Hull
 from auv_path_following.vertical_hull import VerticalHull
 from auv_sim.own_vehicle.identify.combinations import Numbers
 from auv_sim.own_vehicle.identify.dive.surge_fit import SLOW, Surge, surge_of
-from auv_sim.own_vehicle.identify.dive.vertical_motion import ROLL, smoothed
+from auv_sim.own_vehicle.identify.dive.vertical_motion import roll_and_rate, smoothed
 from auv_sim.own_vehicle.identify.time_grid import Passage, PlanarData, passage_of
 
 #: Times over which measured sway and heave are averaged where they are given, s.
@@ -104,20 +104,16 @@ def dive_passage_of(data: DiveData, latency: float) -> Passage:
     w_row = np.where(grid.v_row >= 0, grid.v_row - of_water + of_rate, -1)
     pitch_row = np.where(grid.rate_row >= 0, grid.rate_row + of_rate, -1)
     pitch = np.interp(nodes, data.t, data.theta)
-    # In the middle of each step: at its beginning it would be late by half a step.
-    given = _given(data, latency, 0.5 * (passage.times[:-1] + passage.times[1:]))
-    own = grid._replace(thrust=given, u_row=pitch_row, v_row=w_row, u=pitch)
+    own = grid._replace(thrust=_given(data, latency, passage.middles), u_row=pitch_row, v_row=w_row, u=pitch)
     t, at = passage.rows[:of_rate], passage.rows[of_rate : of_rate + of_water]
     return passage._replace(grid=own, rows=np.concatenate((t, t, at)), counts=(of_rate, of_rate, of_water))
 
 
 def _given(data: DiveData, latency: float, times: Numbers) -> Numbers:
     """Return what `dive_advance` is given at times, (n, 8)."""
-    at, rolled = data.water_t - latency, smoothed(data.t, data.phi, ROLL)
-    phi, theta, q, r = (np.interp(times, data.t, x) for x in (rolled, data.theta, data.q, data.r))
-    # The heading turns about the vertical: of a pitched hull a part of that is roll rate.
-    turning = (r * np.cos(phi) + q * np.sin(phi)) * np.tan(theta)
-    p = np.interp(times, data.t, np.gradient(rolled, data.t)) - turning
+    at = data.water_t - latency
+    theta, q, r = (np.interp(times, data.t, x) for x in (data.theta, data.q, data.r))
+    phi, p = roll_and_rate(data.t, data.phi, times, theta, q, r)
     v = np.interp(times, at, smoothed(data.water_t, data.v, _SWAY))
     surge = _surge(data, at, times, np.array([v * r, r * r, q, theta]))
     heave, pitch = data.coupling.by_roll @ np.array([v * p, r * p])

@@ -33,29 +33,27 @@ class VerticalMotion(NamedTuple):
     w: Numbers
     loads: Numbers
 
-    def products(self, latency: float, nodes: Numbers, r: Numbers) -> Numbers:
-        """Return what `loads` is multiplied with at nodes, shape (n, 9).
+    def products(self, latency: float, times: Numbers, r: Numbers) -> Numbers:
+        """Return the products that `loads` multiplies, shape (n, 9): see `vertical_loads_of`.
 
         Args:
             latency: age of a velocity when it arrives, s.
-            nodes: times, s.
-            r: yaw rate there, rad/s.
+            times: s, shape (n,).
+            r: yaw rate at those times, rad/s.
         """
-        roll = smoothed(self.t, self.phi, ROLL)
-        columns = (roll, self.theta, self.q, np.gradient(roll, self.t))
-        phi, theta, q, rolling = (np.interp(nodes, self.t, column) for column in columns)
-        w = np.interp(nodes, self.water_t - latency, self.w)
-        p = rolling - r * np.tan(theta)
-        aside, growing = np.cos(theta) * np.sin(phi), np.gradient(p, nodes)
+        theta, q = (np.interp(times, self.t, column) for column in (self.theta, self.q))
+        phi, p = roll_and_rate(self.t, self.phi, times, theta, q, r)
+        w = np.interp(times, self.water_t - latency, self.w)
+        aside, growing = np.cos(theta) * np.sin(phi), np.gradient(p, times)
         return np.array([w * q, q * q, p * r, w * p, p * q, q * r, np.sin(theta), aside, growing]).T
 
 
 class VerticalLoads(NamedTuple):
-    """Accelerations of surge, sway and yaw by heave, roll and pitch, on the nodes of a passage.
+    """Accelerations of surge, sway and yaw by heave, roll and pitch, for each step of a passage.
 
     Attributes:
-        products: see `VerticalMotion.products`.
-        assumed: accelerations by them before any data, (3, 9).
+        products: see `VerticalMotion.products`, (n, 9).
+        assumed: accelerations by them before any data, (3, 9): see `vertical_loads_of`.
         off: deviations of those that are not 0, in standard deviations.
     """
 
@@ -70,10 +68,10 @@ class VerticalLoads(NamedTuple):
         return np.ascontiguousarray(self.products @ loads.T)
 
 
-def vertical_loads(motion: VerticalMotion, latency: float, nodes: Numbers, r: Numbers) -> VerticalLoads:
-    """Return the assumed loads at nodes; see `VerticalMotion.products`."""
+def vertical_loads(motion: VerticalMotion, latency: float, times: Numbers, r: Numbers) -> VerticalLoads:
+    """Return the assumed loads at times; the arguments are those of `VerticalMotion.products`."""
     off = np.zeros(int(np.count_nonzero(motion.loads)))
-    return VerticalLoads(motion.products(latency, nodes, r), motion.loads, off)
+    return VerticalLoads(motion.products(latency, times, r), motion.loads, off)
 
 
 def vertical_loads_of(hull: Hull, vertical: VerticalHull) -> Numbers:
@@ -90,8 +88,25 @@ def vertical_loads_of(hull: Hull, vertical: VerticalHull) -> Numbers:
     return np.vstack((np.array(surge) / (h.m - h.Xud), np.linalg.solve(masses, np.array([sway, yaw]))))
 
 
+def roll_and_rate(
+    t: Numbers, phi: Numbers, times: Numbers, theta: Numbers, q: Numbers, r: Numbers
+) -> tuple[Numbers, Numbers]:
+    """Return roll (rad) and roll rate (rad/s) of a measured roll, averaged over `ROLL`.
+
+    The heading turns about the vertical: of a pitched hull a part of that is roll rate.
+
+    Args:
+        t, phi: times (s) and measured roll, rad.
+        times: of the result, s, shape (n,).
+        theta, q, r: pitch (rad), pitch rate and yaw rate (rad/s) at those times.
+    """
+    averaged = smoothed(t, phi, ROLL)
+    roll, change = (np.interp(times, t, column) for column in (averaged, np.gradient(averaged, t)))
+    return roll, change - (r * np.cos(roll) + q * np.sin(roll)) * np.tan(theta)
+
+
 def smoothed(t: Numbers, values: Numbers, over: float) -> Numbers:
-    """Return values averaged over a time, s."""
+    """Return values at times `t` (s), each averaged over `over` seconds around it; ends are repeated."""
     period = max(float(np.median(np.diff(t))), 1e-3)
     half = max(round(0.5 * over / period), 0)
     padded = np.concatenate((np.repeat(values[:1], half), values, np.repeat(values[-1:], half)))
