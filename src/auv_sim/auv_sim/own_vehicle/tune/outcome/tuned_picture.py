@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.vehicle import Vehicle
@@ -28,7 +29,7 @@ from auv_sim.views.plot_style import BLUE, INK, MUTED, ORANGE, PATH, save, style
 _COLOURS = (ORANGE, BLUE)
 #: Stream of the draw of the picture's course.
 _PICTURE = 3
-_PANELS, _DEPTH = ("distance to the path (m)", "rudder (°)", "rudder travel so far (°)"), "depth (m)"
+_PANELS, _DEPTH = ("distance (m)", "rudder (°)", "rudder travel (°)"), "depth (m)"
 #: Of each source of gains: label of its track, state in the picture's title.
 _STATES = {
     FOUND: ("tuned", "tuned"),
@@ -41,7 +42,7 @@ def draw(
     target: Path, title: str, path: CompositePath, flights: Sequence[tuple[str, Scenario]],
     history: Sequence[float],
 ) -> None:  # fmt: skip
-    """Draw the tracks, the distances, the rudder, and how the search went.
+    """Draw the tracks, the distances to the path, the rudder, and how the search went.
 
     Args:
         target: the picture.
@@ -139,4 +140,5 @@ def _add_search(axes: Axes, history: Sequence[float]) -> None:
     style(axes, "objective")
     axes.axhline(0.0, color=PATH, linewidth=1.0)
     axes.plot(range(1, len(history) + 1), history, color=MUTED, linewidth=1.4)
-    axes.set_xlabel("generation, each with other courses; the gains it starts against have 0", color=INK)
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+    axes.set_xlabel("generation, each on new courses; 0: the gains compared with", color=INK)
