@@ -14,7 +14,7 @@ from auv_path_following.missions.routes.smoothing import Smoothing, smooth
 SHORTEST, LONGEST, USUAL_TURN = 80.0, 140.0, 7.0
 #: Change of course at a corner, deg, drawn evenly, to either side.
 SHALLOWEST, SHARPEST = 30.0, 120.0
-#: The same on gentle courses, whose turns are as wide as their legs allow, drawn evenly from `WIDEST` on.
+#: The same on gentle courses. Their radii are drawn evenly from `WIDEST` up to what the legs allow.
 STRAIGHTEST, GENTLE = 10.0, 60.0
 #: Radius of rounded corners and of the turns of a survey over that of the steady turn, drawn evenly.
 TIGHTEST, WIDEST = 1.15, 3.5
@@ -40,12 +40,12 @@ def drawn_course(
     """Draw a course of legs.
 
     Args:
-        kind: corners as they are, or rounded by arcs; parallel legs with turns from one to the next; or
-            gentle bends.
+        kind: sharp corners; corners rounded by arcs; a survey of parallel legs; or gentle bends, which are
+            rounded corners of up to `GENTLE` with wide arcs.
         turn_radius: of the hull's steady turn, m.
         legs: how many.
         random: where the numbers come from.
-        tightest: radius of rounded corners and turns over that of the hull, at least.
+        tightest: least radius of rounded corners and turns of a survey over `turn_radius`.
     """
     if kind == "survey":
         return _survey(turn_radius, legs, random, tightest)
@@ -64,7 +64,7 @@ def drawn_course(
     # An arc of radius R takes R tan(change/2) of a leg at most, at both of its ends: it must fit.
     most = 0.45 * SHORTEST * scale / math.tan(math.radians(0.5 * sharpest))
     if kind == "gentle":
-        radius = random.uniform(min(WIDEST * turn_radius, most), most)
+        radius = random.uniform(WIDEST * turn_radius, most)
     else:
         radius = min(random.uniform(tightest, WIDEST) * turn_radius, most)
     return CompositePath(smooth(points, Smoothing(kind="circular", radius=radius)))

@@ -24,8 +24,8 @@ from auv_sim.own_vehicle.tune.search import Found
 from auv_sim.own_vehicle.tune.trial_flights import HELD_OUT, Amount
 from auv_sim.own_vehicle.tune.tuning_problem import Problem, lacking, margins_asked, margins_of
 
-#: Share of the way from the gains found to the present ones, and shares of the way from the rule's gains to
-#: those found, that are tried in turn where the gains found are not accepted. Each has flights of its own.
+#: Where the gains found are not accepted, mixtures are tried in turn, each on flights of its own: a share of
+#: the way from them to the present gains, then shares of the way from the rule's gains to them.
 BACK, SHARES = 0.5, (0.85, 0.6, 0.3)
 #: Largest travel of the rudder over that of the rule and over that of the present gains, whichever is more,
 #: mean of the held-out flights.
@@ -89,7 +89,7 @@ class GainVerdict(NamedTuple):
     Attributes:
         source: `FOUND`, `PRESENT` or `RULE`.
         gains: what the vehicle gets.
-        mixed: how the gains were mixed from those found, in words; empty for those found.
+        mixed: the mixture that was accepted, in words; empty for the gains as found, and where none is.
         point: of the gains found; the rule's where they are not accepted.
         why: reasons against the gains found, in words; empty for none.
         held: of each hull, with the gains found.
@@ -111,7 +111,7 @@ class GainVerdict(NamedTuple):
 
 
 def judge(problem: Problem, found: Found, threads: int, amount: Amount = HELD_OUT) -> GainVerdict:
-    """Fly the held-out flights with the gains found, or with more careful ones; see `BACK` and `SHARES`.
+    """Fly the held-out flights with the gains found, then with mixtures of them; see `BACK` and `SHARES`.
 
     Gains that are behind the present ones are accepted only where those do not keep the conditions.
     """
@@ -142,7 +142,7 @@ def judge(problem: Problem, found: Found, threads: int, amount: Amount = HELD_OU
 
 
 def _attempts(problem: Problem, found: Vector) -> Iterator[tuple[str, Vector]]:
-    """Yield points that are tried in turn, each with the words of `GainVerdict.mixed`."""
+    """Yield the points to try in turn, each with the words of `GainVerdict.mixed`."""
     space, present = problem.space, problem.present
     yield "", found
     if present is not None and problem.plane.steering(present).controller == "nism":
@@ -155,7 +155,7 @@ def _attempts(problem: Problem, found: Vector) -> Iterator[tuple[str, Vector]]:
 
 
 def _off_present(verdict: GainVerdict) -> float:
-    """Return the largest ratio of the distances off corners to those of the present gains."""
+    """Return the largest ratio off corners to the present gains, of all kinds of course."""
     present = verdict.held[0].present
     return 0.0 if present is None else present.worst_kind[0]
 

@@ -4,12 +4,12 @@ Of every hull, on the same flights against a reference, which `reference_of` mak
 those that the vehicle has at present,
 
     J = 0.6 mean f(rms/rms_ref) + 0.4 mean f(off/off_ref), with f(x) = ln x + max(ln x, 0)
-        + 0.1 mean ln(travel/travel_ref) + what that mean exceeds ln 2
-            + 12 mean max(ln(off/off_present), 0)
+        + 0.1 mean ln(travel/travel_ref) + the excess of that mean over ln 2
+        + 12 mean max(ln(off/off_present), 0)
         + limit cycles + flights that do not complete + margins that are too small
 
-`off` is the rms away from corners. With f a course that becomes worse counts twice; one that becomes worse
-than with the present gains costs more than what another kind of course can gain. The objective of several
+`off` is the rms away from corners. With f a course that becomes worse counts twice. A course that becomes
+worse than with the present gains costs more than another kind of course can gain. The objective of several
 hulls is that of the worst. Smaller is better; gains that fly like the reference and keep all conditions
 have 0.
 """
@@ -29,7 +29,8 @@ from auv_sim.flight.batch.flight_figures import Flights
 RMS, OFF = 0.6, 0.4
 #: Weights of ln(travel), and of what exceeds `FREE_TRAVEL` times that of the reference.
 TRAVEL, TOO_MUCH, FREE_TRAVEL = 0.1, 1.0, 2.0
-#: Weight of the distance off corners beyond that with the present gains, flight by flight.
+#: Weight of ln(off/off_present) where that is above 0, in the mean of the flights along courses: large enough
+#: that no kind of course is traded for another.
 BEHIND = 12.0
 #: Travel of the reference: a share of that of the present gains, within bounds over that of the rule.
 PRESENT_TRAVEL, LEAST_TRAVEL, LARGEST_TRAVEL = 0.65, 0.5, 2.0
@@ -56,7 +57,8 @@ class CostTerms(NamedTuple):
         cycling: of the flights on lines; 0 without a limit cycle.
         lost: of flights that did not complete.
         margins: of the linear loop.
-        behind: of flights that are farther from their path off corners than with the present gains.
+        behind: of flights that are farther from their path off corners than with the present gains; 0
+            without any.
     """
 
     rms: float
@@ -76,8 +78,8 @@ class CostTerms(NamedTuple):
     def total(self) -> float:
         """J."""
         excess = max(self.travel - math.log(FREE_TRAVEL), 0.0)
-        ruled_out = self.cycling + self.lost + self.margins + self.behind
-        return self.distance + TRAVEL * self.travel + TOO_MUCH * excess + ruled_out
+        penalties = self.cycling + self.lost + self.margins + self.behind
+        return self.distance + TRAVEL * self.travel + TOO_MUCH * excess + penalties
 
 
 def reference_of(ruled: Flights, present: Flights | None) -> Flights:
@@ -180,7 +182,7 @@ def off_by_kind(flown: Flights, others: Flights, kinds: Sequence[str]) -> dict[s
 
     Args:
         flown, others: figures of the same flights with the gains and with others.
-        kinds: of the flights; empty for one that does not count.
+        kinds: of the courses, flight by flight; empty on lines, which do not count.
     """
     both = flown.completed & others.completed
     ratio = _ratio(flown.off_corners_rms_distance, others.off_corners_rms_distance, _RESOLVED)

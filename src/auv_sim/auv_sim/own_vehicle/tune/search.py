@@ -65,11 +65,12 @@ def assess(
     for k, hull in enumerate(hulls):
         found, is_line, _ = problem.fly(hull, amount, (*stream, k), [*candidates, *others], threads, courses)
         flown, (ruled, *present) = found[: len(candidates)], found[len(candidates) :]
-        has = present[0] if present else None
-        reference = reference_of(ruled, has)
+        with_present = present[0] if present else None
+        reference = reference_of(ruled, with_present)
         asked = margins_asked(problem, hull)
         for own, candidate, figures in zip(terms, candidates, flown, strict=True):
-            own.append(terms_of(figures, reference, is_line, lacking(problem, asked, candidate), has))
+            lacks = lacking(problem, asked, candidate)
+            own.append(terms_of(figures, reference, is_line, lacks, with_present))
     return terms
 
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from auv_msgs_py.values.types import Current
 from auv_path_following.control.hull_model import tightest_turn
+from auv_path_following.control.rule.fin_response import COURSE_LENGTHS, COURSE_TURNS
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.curves.kinds.line import Line
 from auv_path_following.guidance.approach import ApproachConfig
@@ -35,8 +36,8 @@ LATER = 0.15
 BESIDE, TURNING = 4.0, 0.75
 #: Current over the speed through the water, drawn evenly up to this.
 STRONGEST = 0.25
-#: Radii of turns are drawn as for a hull that turns in this many lengths, at least.
-NARROWEST = 2.3
+#: Least radius that the hull's turn counts as where courses are drawn, hull lengths; as in the rule.
+NARROWEST = COURSE_LENGTHS / COURSE_TURNS
 #: Courses in the sea by which gains are proven: legs, and least radius of their turns over the hull's.
 PROVEN_LEGS, PROVEN_TURN = 5, 2.5
 #: A flight along a course ends at this many times the time that it takes straight ahead, and 60 s later.
@@ -54,7 +55,7 @@ class Conditions(NamedTuple):
         step: between two odometries on courses, s.
         steps: between two odometries on lines, s; each is flown.
         sea: imperfections of one flight; None for none.
-        kinds: of the courses, in turn; the first is flown in place of kinds that are not among them.
+        kinds: of the courses, in turn; the first replaces missing ones. Gentle bends go with rounded corners.
     """
 
     delay: float
@@ -65,12 +66,11 @@ class Conditions(NamedTuple):
 
 
 class Flight(NamedTuple):
-    """One flight without its gains.
+    """One flight without its gains: a scenario whose laws are replaced.
 
     Attributes:
-        scenario: whose laws are replaced.
         is_line: whether it is along a line.
-        kind: of a course and its water, in words.
+        kind: of a course and its water, in words; empty on a line.
     """
 
     scenario: Scenario
@@ -162,12 +162,9 @@ def _along_courses(
 def draw_sea_flights(
     hulls: Sequence[Vehicle], conditions: Conditions, random: np.random.Generator
 ) -> list[Flight]:
-    """Draw one flight for each hull, in the sea and a further current.
-
-    In turn the courses are of the kinds of the conditions: with sharp corners, with rounded corners, and the
-    parallel legs of a survey.
-    """
+    """Draw one flight for each hull, in the sea and a further current; the kinds of courses take turns."""
     kinds = conditions.kinds
+    # 0: the hull's own turn counts, however tight.
     further = PROVEN_LEGS, STRONGEST, conditions.sea, random, PROVEN_TURN, 0.0
     return [_along(hull, conditions, kinds[k % len(kinds)], *further) for k, hull in enumerate(hulls)]
 
@@ -176,7 +173,10 @@ def _along(
     vehicle: Vehicle, conditions: Conditions, kind: Kind, legs: int, strongest: float, sea: Sea | None,
     random: np.random.Generator, tightest: float = TIGHTEST, narrowest: float = NARROWEST,
 ) -> Flight:  # fmt: skip
-    """Draw one course, and a current of up to `strongest` times the speed; see `NARROWEST`."""
+    """Draw one course, and a current of up to `strongest` times the speed.
+
+    Turns have at least `tightest` times the hull's radius, which counts as at least `narrowest` lengths.
+    """
     thrust, turn = thrust_of(vehicle), tightest_turn(vehicle)
     speed = vehicle.speed_at(thrust)
     path = drawn_course(kind, max(turn.radius, narrowest * vehicle.length), legs, random, tightest)
