@@ -28,9 +28,9 @@ _COMPOSED = "composed"
 
 
 def domain_of(plan: Plan) -> AbstractContextManager[int]:
-    """Return the ROS domain: of the command line; for a foreign vehicle, the environment; else a free one.
+    """Return a context of the ROS domain: asked for; without a simulator that of the environment; else free.
 
-    A free one is claimed until the context ends.
+    A free domain is claimed until the context ends.
 
     Raises:
         ConfigurationError: ROS_DOMAIN_ID is not a domain.

@@ -44,11 +44,11 @@ def fly(options: Options, loader: Starter, domain: int | None = None) -> int:
     directory = run_directory(options)
     resolved = prepare(options, directory)
     with launcher.domain_of(resolved) if domain is None else nullcontext(domain) as chosen:
-        return _flown(resolved, directory, chosen, loader)
+        return _fly(resolved, directory, chosen, loader)
 
 
-def _flown(resolved: Plan, directory: Path, domain: int, loader: Starter) -> int:
-    """Fly a plan, conclude its run directory; return the exit code."""
+def _fly(resolved: Plan, directory: Path, domain: int, loader: Starter) -> int:
+    """Fly a plan and conclude its run directory; return the exit code."""
     options = resolved.options
     console = terminal(options.quiet)
     make_directory(directory, new=True)

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-#: Each factor of the rule is a power of the factor within which the coefficients are assumed.
+#: Exponents: factors of `Allowance` are these powers of the factor within which coefficients are assumed.
 _RATE, _REFERENCE, _ACCELERATION, _TURN, _CORRECTION, _LOOKAHEAD = 0.8, 1.3, 0.7, 0.4, -1.3, 0.85
-#: Where kp is above the fin's rate: time in which the fin turns by what kp turns it in one step, s.
+#: Longest time that the fin may need for the command of one step where kp is above its rate, s.
 LEAD = 0.08
 
 
 class Allowance(NamedTuple):
-    """Factors on gains of the rule; all are 1 for a hull that is known.
+    """Factors on gains of the rule, dimensionless; all are 1 for a hull that is known.
 
     Attributes:
-        rate: kp, over the fin's rate; less at slow odometry, see `kp_for`.
-        reference: rate of the fin by which the reference builds up and brakes a turn, over the fin's rate.
-        acceleration: share of the full fin that the reference may use.
-        turn: rate at which a course may turn.
-        correction: k1 and k3, the speeds at which errors are corrected.
-        lookahead: Delta.
+        rate: on the fin's rate in kp; less at slow odometry, see `kp_for`.
+        reference: on the fin's rate in the jerk and the bandwidth of the reference.
+        acceleration: on the share of the full fin in the reference's acceleration.
+        turn: on the rate of turn that courses need, in the reference's rate and bandwidth.
+        correction: on k1 and k3, which bound how fast errors are corrected.
+        lookahead: on Delta.
     """
 
     rate: float = 1.0
@@ -38,6 +38,6 @@ KNOWN = Allowance()
 
 
 def allowance_for(within: float) -> Allowance:
-    """Return the factors for a hull whose coefficients are assumed within a factor; 1: they are known."""
+    """Return the factors for a hull whose coefficients are assumed within a factor; 1: known."""
     powers = _RATE, _REFERENCE, _ACCELERATION, _TURN, _CORRECTION, _LOOKAHEAD
     return Allowance(*(within**power for power in powers))

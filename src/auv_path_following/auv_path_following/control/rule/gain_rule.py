@@ -113,12 +113,11 @@ def plane_gains(
         fin: its limits and dead time.
         delay, step: as in `gains_for`.
         quickness: factor of the reference's bandwidth, divisor of the drift in the look-ahead.
-        allowance: for a hull that is assumed.
+        allowance: for coefficients that are assumed.
 
     Raises:
         ConfigurationError: a gain is out of its range.
     """
-    p = max(response.divergence, 1e-6)
     tau = max(delay + fin.dead_time + 0.5 * step, LEAST_DELAY)
     crossover = _crossover(response, tau)
     kp = min(allowance.kp_for(fin.max_rate, step), LARGEST_KP)
@@ -134,21 +133,31 @@ def plane_gains(
         AutopilotConfig(nism=nism, reference=reference),
         allowance.lookahead * _lookahead(response, bandwidth, quickness),
         crossover,
-        p * (tau + response.lag(crossover)),
-        response.effect * fin.max_rate / (p * p),
+        _divergence(response) * (tau + response.lag(crossover)),
+        _authority(response, fin),
     )
+
+
+def _divergence(response: FinResponse) -> float:
+    """Return p, 1/s; above 0 also for a stable hull."""
+    return max(response.divergence, 1e-6)
+
+
+def _authority(response: FinResponse, fin: Rudder) -> float:
+    """Return b rate/p^2, rad/s."""
+    p = _divergence(response)
+    return response.effect * fin.max_rate / (p * p)
 
 
 def _limits(
     response: FinResponse, fin: Rudder, crossover: float, quickness: float, allowance: Allowance
 ) -> dict[str, float]:
-    """Return bandwidth and limits of the reference, by the names of its settings."""
-    b, p = response.effect, max(response.divergence, 1e-6)
+    """Return bandwidth (1/s) and limits (rad/s, rad/s^2, rad/s^3) of the reference, by name of setting."""
+    b = response.effect
     jerk = JERK_SHARE * b * min(allowance.reference * fin.max_rate, FASTEST * fin.max_angle)
     acceleration = min(allowance.acceleration * FIN_SHARE * b * fin.max_angle, BUILD_UP * jerk)
-    authority = b * fin.max_rate / (p * p)
     slowest = REFERENCE_LAG * jerk / acceleration
-    slowest *= min(1.0, allowance.reference * authority / FULL_AUTHORITY)
+    slowest *= min(1.0, allowance.reference * _authority(response, fin) / FULL_AUTHORITY)
     # Turns of a course must not be faster than the reference: on a slow hull that takes a smaller bandwidth.
     course_turn = allowance.turn * response.course_turn
     slowest = min(slowest, acceleration / max(course_turn, 1e-9))

@@ -41,8 +41,8 @@ def fly(fleet: str, options: Options, loader: Starter, domain: int | None = None
     """
     directory = run_directory(fleet, options)
     plan = fleet_plan.make(fleet, options, directory)
-    one = next(iter(plan.members.values()))
-    with launcher.domain_of(one) if domain is None else nullcontext(domain) as chosen:
+    any_member = next(iter(plan.members.values()))  # all of a fleet are in one domain
+    with launcher.domain_of(any_member) if domain is None else nullcontext(domain) as chosen:
         return _fly(plan, directory, chosen, options.quiet, loader)
 
 

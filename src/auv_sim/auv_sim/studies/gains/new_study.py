@@ -109,19 +109,21 @@ def main(argv: Sequence[str] | None = None) -> int:
     return EXIT_DONE
 
 
-def known(name: str, hull: Vehicle, seeds: int, allowance: bool = True) -> Known:
+def known(name: str, hull: Vehicle, seeds: int, has_allowance: bool = True) -> Known:
     """Return the figures of one hull.
 
     Args:
         name: of the hull.
         hull: that is in the water, without a dead time.
         seeds: of the sea; a survey each.
-        allowance: whether the rule allows for what is assumed.
+        has_allowance: whether the rule's gains allow for assumed coefficients.
     """
     response, size = response_of(hull), hull.top_speed / hull.length
     figures = name, hull.length, hull.top_speed, response.effect / size**2, response.divergence / size
     try:
-        own = assumed(hull) if allowance else dataclasses.replace(assumed(hull), assumed_within=1.0)
+        own = assumed(hull)
+        if not has_allowance:
+            own = dataclasses.replace(own, assumed_within=1.0)
         surveys = [_survey(hull, own, seed) for seed in range(1, seeds + 1)]
     except ConfigurationError as error:
         nan = math.nan
