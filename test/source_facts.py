@@ -1,4 +1,4 @@
-"""What the tests of the house's rules ask about source files, each of them parsed once."""
+"""Facts about source files that the rules of CONTRIBUTING.md are tested by; each file is parsed once."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 
 class Facts(NamedTuple):
-    """What the rules ask about a source file.
+    """Facts about one source file.
 
     Attributes:
         imports: every module named by an import, wherever it stands; `from a import b` gives ``a.b``.
@@ -32,7 +32,7 @@ class Facts(NamedTuple):
 
 @functools.cache
 def facts(path: Path) -> Facts:
-    """Parse a file; once, as a thousand files take seconds."""
+    """Return the facts about a file, cached: parsing a thousand files takes seconds."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     imported: list[str] = []
     names, attributes, random = set[str](), set[str](), set[str]()
