@@ -51,7 +51,7 @@ def unrest(
     hull: Vehicle, delay: float, step: float, guidance: PathFollowerConfig, autopilot: AutopilotConfig,
     seconds: float = 120.0,
 ) -> float:  # fmt: skip
-    """Return the rms yaw rate in the second half of a straight line, deg/s: the worst of four starts."""
+    """Return the rms yaw rate in the second half of `seconds` on a line, deg/s: the worst of `STARTS`."""
     late = dataclasses.replace(hull, rudder=dataclasses.replace(hull.rudder, dead_time=delay))
     worst = 0.0
     for y, heading, r in STARTS:
@@ -88,11 +88,13 @@ def test_the_default_gains_have_a_limit_cycle_there() -> None:
 def test_an_assumed_hull_does_not_swing() -> None:
     """A hull that slips by 0.8, of which `vehicle.py new` was given length, speed, rudder and radius."""
     hull = sized_hull(9)
-    own = assumed(hull)
-    for of_it, swings in ((own, False), (dataclasses.replace(own, assumed_within=1.0), True)):
-        gains = gains_for(of_it)
-        found = unrest(hull, 0.05, 0.05, with_gains(GUIDANCE, gains), gains.heading.autopilot, 240.0)
-        assert (found > 0.8) is swings and (found < 0.3) is not swings
+    found = []
+    for factor in (2.0, 1.0):
+        gains = gains_for(dataclasses.replace(assumed(hull), assumed_within=factor))
+        found.append(unrest(hull, 0.05, 0.05, with_gains(GUIDANCE, gains), gains.heading.autopilot, 240.0))
+    allowed, known = found
+    assert allowed < 0.3
+    assert known > 0.8  # without the allowance it swings
 
 
 def test_the_price_is_a_little_distance() -> None:
