@@ -160,7 +160,7 @@ def _wrong_unit(mission: Mission, vehicle: Vehicle, speed: float) -> Iterator[Fi
     if mission.speed is None and vehicle.thrust_unit != "N" and share < _SLOW:
         unit = vehicle.thrust_symbol
         found = f"{mission.thrust:g} {unit}, which makes {speed:.2f} m/s"
-        expected = f"a thrust in {unit}, of {vehicle.name} at most {vehicle.thrust_max:g}, or a speed"
+        expected = f"a thrust in {unit} (at most {vehicle.thrust_max:g}), or a speed"
         yield Finding("refused" if share < _STANDING else "warning", "thrust", found, expected)
 
 

@@ -57,21 +57,24 @@ if numba is not None:
     class _LinkedOnly(JITCodeLibrary):
         """Code of an inlined function, for its callers to link.
 
-        Numba would optimise and load each of them with all that it inlines, although only their callers
-        run: LLVM takes twice as long.
+        Numba would also optimise and load every inlined function with all that it inlines, although only its
+        callers run. That doubles the time in LLVM.
         """
 
         def finalize(self) -> None:
+            """Link what the function calls, and neither optimise nor load it."""
             for library in dict.fromkeys(self._linking_libraries):
                 self._reload_init.update(library._reload_init)
                 self._final_module.link_in(library._get_module_for_linking(), preserve=True)
             self._finalized = True
 
         def get_pointer_to_function(self, name: str) -> int:
-            return 0  # as of a function that is not in the library
+            """Return 0, as for a function that is not in the library."""
+            return 0
 
         @property
         def codegen(self) -> _LinkedOnly:
+            """Return the library itself, so that Numba calls its `set_env`."""
             return self
 
         def set_env(self, name: str, environment: object) -> None:
