@@ -1,12 +1,13 @@
-"""The part of a recording that is left out of an identification."""
+"""What is read of a recording: axes of its frame ids, motion of its planes, the part that is left out."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
+from auv_msgs_py.contract.frames import Convention, FrameTable
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
-from auv_sim.own_vehicle.verbs.recordings_read import LAST, divided, motion_within, turning_part
+from auv_sim.own_vehicle.verbs.recordings_read import LAST, divided, frames_with, motion_within, turning_part
 
 
 def turning(begin: float, end: float, rate: float) -> PlanarData:
@@ -40,3 +41,12 @@ def test_commands_beside_the_odometry_are_no_motion_of_the_planes(begin: float, 
     t = np.arange(0.0, 300.0, 0.05)
     commands = 0.2 * np.sign(np.sin(t))
     assert (motion_within(t + begin, commands, t) > 0.1) == moves
+
+
+@pytest.mark.parametrize(("given", "convention"), [("frd", Convention.NED_FRD), ("flu", Convention.ENU_FLU)])
+@pytest.mark.parametrize("name", ["base_link", "base_link_frd", "base_footprint"])
+def test_axes_that_are_given_hold_for_known_frame_ids_too(
+    name: str, given: str, convention: Convention
+) -> None:
+    table = FrameTable(frames_with([f"{name}={given}"]))
+    assert table.of_body("odom", name) is convention

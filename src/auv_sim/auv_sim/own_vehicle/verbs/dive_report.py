@@ -22,11 +22,12 @@ from auv_sim.own_vehicle.identify.results.identification_tables import (
 )
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
 from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, LATENCY, RATE
+from auv_sim.own_vehicle.verbs.recordings_read import SHORTEST
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import progress_bar
 
-#: Shortest part of a recording that is used beside what is left out, s; fewest samples of what is left out.
-_SHORTEST, _FEWEST = 10.0, 10
+#: Fewest samples of what is left out.
+_FEWEST = 10
 
 
 class IdentifiedDive(NamedTuple):
@@ -81,7 +82,7 @@ def _divided(
     last, begin, end = dives[-1], float(left_out.t[0]), float(left_out.t[-1])
     kept = last.between(begin, end)
     parts = [last.between(-math.inf, begin), last.between(end, math.inf)]
-    used = [part for part in parts if part.t.size and part.t[-1] - part.t[0] > _SHORTEST]
+    used = [part for part in parts if part.t.size and part.t[-1] - part.t[0] > SHORTEST]
     if kept.water_t.size < _FEWEST or kept.t.size < _FEWEST or not used:
         return list(dives), None
     return [*dives[:-1], *used], kept

@@ -23,11 +23,17 @@ from auv_sim.own_vehicle.identify.time_grid import PlanarData
 
 #: With this much data (s) a part of so many seconds is left out and predicted; step of its choice, s.
 ENOUGH, LAST, _STEP = 150.0, 45.0, 15.0
+#: Shortest part of a recording that is used beside what is left out, s.
+SHORTEST = 10.0
 #: Heave and pitch need at least so many odometries and samples, and planes that move (deviation, rad).
 _LEAST_ROWS, _LEAST_SAMPLES, _LEAST_ANGLE = 800, 100, 0.01
 
-#: Axes of a frame, and the frame ids that have them.
-_AXES = {"enu": "enu_world", "ned": "ned_world", "flu": "flu_body", "frd": "frd_body"}
+#: Axes of a frame -> fields of `FrameIds` with the frame ids that have them, and with those that have the
+#: opposite ones.
+_AXES = {
+    "enu": ("enu_world", "ned_world"), "ned": ("ned_world", "enu_world"),
+    "flu": ("flu_body", "frd_body"), "frd": ("frd_body", "flu_body"),
+}  # fmt: skip
 
 
 class Recorded(NamedTuple):
@@ -66,7 +72,7 @@ def read(options: argparse.Namespace, vehicle: Vehicle, hull: Hull) -> list[Reco
         if name in names:
             raise ConfigurationError(f"--topic {name}", f"{names[name]} and {other}", "one topic")
         names[name] = other
-    frames, found = _frames(options.frame), []
+    frames, found = frames_with(options.frame), []
     for path in options.bag:
         try:
             recorded = manoeuvres_in(path, names, options.namespace, frames=frames)
@@ -88,15 +94,21 @@ def _renaming(text: str) -> tuple[str, str]:
     return name, other
 
 
-def _frames(given: Sequence[str]) -> FrameIds:
-    """Return the accepted frame ids with those that are given, ID=AXES."""
+def frames_with(given: Sequence[str]) -> FrameIds:
+    """Return the accepted frame ids with those that are given, ID=AXES.
+
+    Raises:
+        ConfigurationError: a text that is not ID=AXES, or unknown axes.
+    """
     ids = FrameIds()
     for text in given:
         name, equals, axes = text.rpartition("=")
         if not equals or not name or axes not in _AXES:
             raise ConfigurationError("--frame", text, f"ID=AXES with AXES one of {', '.join(_AXES)}")
-        accepted = getattr(ids, _AXES[axes])
-        ids = dataclasses.replace(ids, **{_AXES[axes]: [*accepted, name.strip("/").rsplit("/", 1)[-1]]})
+        same, opposite = _AXES[axes]
+        bare = name.strip("/").rsplit("/", 1)[-1]  # a frame id counts without its prefix
+        others = [other for other in getattr(ids, opposite) if other != bare]
+        ids = dataclasses.replace(ids, **{same: [*getattr(ids, same), bare], opposite: others})
     return ids
 
 
@@ -203,5 +215,5 @@ def divided(
             raise ConfigurationError("--left-out", found, expected)
         first, until = begin + left_out[0], begin + left_out[1]
     parts = [last.between(begin - 1.0, first), last.between(until, end + 1.0)]
-    kept = [part for part in parts if part.t.size and part.t[-1] - part.t[0] > 10.0]
+    kept = [part for part in parts if part.t.size and part.t[-1] - part.t[0] > SHORTEST]
     return [*recordings[:-1], *kept], last.between(first, until)
