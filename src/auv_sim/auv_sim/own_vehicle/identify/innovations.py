@@ -132,7 +132,10 @@ def innovations_of(tries: Sequence[tuple[Channels, Numbers]]) -> list[Numbers]:
 
 
 def filtered(passage: Passage, channels: Channels, physical: Numbers) -> Numbers:
-    """Return u, v, r and the thrust's error at each node of a passage, measurements used, shape (n, 4)."""
+    """Return the filter's states at each node of a passage, measurements used, shape (n, 4).
+
+    They are u, v, r and the thrust's error in the plane; theta, w, q and the surge's error of a dive.
+    """
     states = np.full((passage.times.size - 1, 4), np.nan)
     means, changes = rudder_of(passage, channels.dead_band, physical)
     out = np.zeros(passage.rows.size)
@@ -183,7 +186,7 @@ def rudder_of(passage: Passage, dead_band: float, physical: Numbers) -> tuple[Nu
 
 
 def arguments_of(channels: Channels, physical: Numbers) -> Numbers:
-    """Return what `planar_innovations` takes as `c`."""
+    """Return what `planar_innovations` and `dive_innovations` take as `c`."""
     lead = channels.latency - physical[LATENCY]
     return np.concatenate((physical[:COUNT], physical[HALF_PLAY + 1 : LATENCY], [lead]))
 

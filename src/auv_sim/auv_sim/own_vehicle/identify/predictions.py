@@ -22,16 +22,16 @@ class Prediction(NamedTuple):
 
     Attributes:
         horizon: s.
-        error: rms error of the yaw rate over the rms yaw rate.
-        noise: white noise of the measured yaw rate over the rms yaw rate; no error lies below it.
-        speed: rms error of u over its rms.
+        error: rms error of the yaw rate, or of a dive's pitch rate, over its rms.
+        noise: white noise of that rate as measured over its rms; no error lies below it.
+        state: rms error of u, or of a dive's pitch, over its rms.
         starts: how many.
     """
 
     horizon: float
     error: float
     noise: float
-    speed: float
+    state: float
     starts: int
 
 
@@ -58,9 +58,9 @@ def _over(channels: Channels, physical: Numbers, horizon: float) -> Prediction:
     if not errors:
         return Prediction(horizon, np.nan, np.nan, np.nan, 0)
     off_r, r, off_u, u = np.concatenate(errors, axis=1)
-    rate, speed = np.sqrt(np.mean(off_r**2) / np.mean(r**2)), np.sqrt(np.mean(off_u**2) / np.mean(u**2))
+    rate, state = np.sqrt(np.mean(off_r**2) / np.mean(r**2)), np.sqrt(np.mean(off_u**2) / np.mean(u**2))
     noise = math.sqrt(channels.noise[2] / float(np.mean(r**2)))
-    return Prediction(horizon, float(rate), noise, float(speed), len(errors))
+    return Prediction(horizon, float(rate), noise, float(state), len(errors))
 
 
 def starts_of(passage: Passage, horizon: float) -> list[tuple[int, int]]:
@@ -81,7 +81,10 @@ def starts_of(passage: Passage, horizon: float) -> list[tuple[int, int]]:
 def _compared(
     passage: Passage, track: Numbers, first: int, length: int, gyro: float, states: Numbers
 ) -> Numbers:
-    """Return error of r, r, error of u and u at the nodes where r was measured, shape (4, rows)."""
+    """Return error of r, r, error of u and u at the nodes where r was measured, shape (4, rows).
+
+    Of a dive these are pitch rate and pitch.
+    """
     nodes = np.arange(first + 1, first + 1 + length)
     measured = passage.grid.rate_row[nodes] >= 0
     r, u = passage.grid.rate[nodes] - gyro, states[nodes, 0]

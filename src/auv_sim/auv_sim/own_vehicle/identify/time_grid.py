@@ -111,7 +111,7 @@ class Passage(NamedTuple):
     Attributes:
         grid: its nodes.
         times: of the nodes and of the end of the last step, s.
-        issued, commands: rudder commands.
+        issued, commands: times (s) and angles (rad) of the fin's commands.
         rows: time of each row of the innovations, s: channel after channel.
         counts: rows of each channel.
         trim: of the fin, in addition to that of all recordings, rad.

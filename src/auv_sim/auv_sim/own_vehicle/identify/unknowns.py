@@ -20,12 +20,11 @@ class DataSheet(NamedTuple):
     """What data sheets say, as standard deviations, and first values; a deviation of 0 fixes an unknown.
 
     Attributes:
-        rate: of the rudder, rad/s, within about a factor of two.
-        dead_time: of the rudder, s.
-        half_play: of the rudder, rad.
+        rate: of the rudder, or of a dive's stern planes, rad/s, within about a factor of two.
+        dead_time, half_play: of the same fin, s, rad.
         gyro, u_bias, v_bias: deviations of constant offsets, rad/s, m/s.
         latency, latency_deviation: age of a velocity when it arrives, s.
-        trim: deviation of the rudder's angle at a command of 0, rad.
+        trim: deviation of the fin's angle at a command of 0, rad.
         log_scale, thrust_bias: deviations of shares that motion data cannot show.
         thrust_drift, drift_time: deviation of the thrust's slow error, a share, and its time constant, s.
     """

@@ -2,7 +2,8 @@
 
 The manoeuvres are zig-zags, circles and thrust steps; two minutes are enough to tune by, eight show most of
 the coefficients. Needed are the odometry's yaw rate, the velocity through the water, and the commands of
-rudder and thrust. Writes a vehicle file that flies, and a picture.
+rudder and thrust. With commands of stern planes heave and pitch are identified too. Writes a vehicle file
+that flies, and a picture.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ T = TypeVar("T", Judged, JudgedDive)
 
 
 class Row(NamedTuple):
-    """One figure: name, median, worst, unit, target, and whether it is met."""
+    """One figure: name; median, worst and target with their unit; and whether the target is met."""
 
     name: str
     median: str
@@ -30,26 +30,23 @@ class Row(NamedTuple):
 
 def figures(outcomes: Sequence[Judged], program: str) -> list[Row]:
     """Return the figures and their targets; of two minutes only the rudder's effect has one."""
-    b = _row(outcomes, "effect of the rudder b", "%", 100.0, 4.0 if "two" in program else 3.0, lambda o: o.b)
+
+    def row(name: str, unit: str, factor: float, target: float, value: Callable[[Judged], float]) -> Row:
+        return _row(outcomes, name, unit, factor, target, value)
+
+    b = row("effect of the rudder b", "%", 100.0, 4.0 if "two" in program else 3.0, lambda o: o.b)
     if "two" in program:
         return [b]
     return [
         b,
-        _row(outcomes, "tightest turn", "%", 100.0, 2.0, lambda o: o.radius),
-        _row(outcomes, "speed", "%", 100.0, 3.0, lambda o: o.speed),
-        _row(outcomes, "yaw pole", "1/s", 1.0, 0.1, lambda o: o.pole_off),
-        _row(outcomes, "dead time", "ms", 1000.0, 10.0, lambda o: o.dead_time),
-        _row(outcomes, "rudder rate", "%", 100.0, 1.0, lambda o: o.rate),
-        _row(outcomes, "current", "m/s", 1.0, 0.02, lambda o: o.current),
-        _row(outcomes, "left out, yaw rate over 2 s", "%", 100.0, 5.0, lambda o: o.two),
-        _row(
-            outcomes,
-            "left out, over 10 s, over that of the truth",
-            "",
-            1.0,
-            1.15,
-            lambda o: o.ten / o.true_ten,
-        ),
+        row("tightest turn", "%", 100.0, 2.0, lambda o: o.radius),
+        row("speed", "%", 100.0, 3.0, lambda o: o.speed),
+        row("yaw pole", "1/s", 1.0, 0.1, lambda o: o.pole_off),
+        row("dead time", "ms", 1000.0, 10.0, lambda o: o.dead_time),
+        row("rudder rate", "%", 100.0, 1.0, lambda o: o.rate),
+        row("current", "m/s", 1.0, 0.02, lambda o: o.current),
+        row("left out, yaw rate over 2 s", "%", 100.0, 5.0, lambda o: o.two),
+        row("left out, over 10 s, over that of the truth", "", 1.0, 1.15, lambda o: o.ten / o.true_ten),
         *_coverage(outcomes),
     ]
 

@@ -110,7 +110,8 @@ def vertical_with(combinations: DiveCombinations, m: float, assumed: VerticalHul
 
 
 #: Draws of a prior, and the factor on their spread; deviation of the buoyancy (share of the weight) and of
-#: the centre of gravity ahead (share of its depth below) in them.
+#: the centre of gravity ahead (share of its depth below) in them. The spread is wide so that the data decide:
+#: half of it changes the median errors of six drawn divers in two minutes by less than 3 %.
 _DRAWS, _WIDENED, _BUOYANCY, _AHEAD = 3000, 3.0, 0.03, 0.3
 
 
@@ -144,9 +145,10 @@ def _similar(vertical: VerticalHull) -> VerticalHull:
 
 
 def dive_prior_of(hull: Hull, vertical: VerticalHull, seed: int = 0) -> Prior:
-    """Return what is assumed before any data: each coefficient of a known hull within a factor of two.
+    """Return what is assumed before any data: the combinations of a known hull, with a wide covariance.
 
-    A coefficient that a file leaves at 0 is drawn around that of the REMUS 100, scaled to the same weight.
+    It is that of hulls with each coefficient within a factor of two, with three times their spread. A
+    coefficient that a file leaves at 0 is drawn around that of the REMUS 100, scaled to the same weight.
 
     Args:
         hull, vertical: a known hull of about this size.

@@ -1,5 +1,7 @@
 """Covariances of a filter's states: of motion, and of two slow errors, those of the thrust and of the fin.
 
+In a dive the two errors are those of the measured surge and pitch.
+
 Written flat, for compiled code and for arrays of many sets. Of three states of motion `p` is the upper
 triangle of the covariance, row after row. `a` are nine numbers: covariances of the states with the thrust's
 error, its variance, covariances with the fin's error, that of both errors, and the variance of the fin's.

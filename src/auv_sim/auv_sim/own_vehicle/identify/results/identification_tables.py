@@ -169,13 +169,13 @@ def predictions_table(
 
     Args:
         predictions: with their errors.
-        rate, state: names of what is predicted.
+        rate, state: names of the predicted rate and of the other predicted state.
     """
     table = headed_table(
         "left-out manoeuvres, by the commands alone", ("over",),
         ("starts", f"{rate} off %", "of it noise of the gyro %", f"{state} off %"),
     )  # fmt: skip
     for p in predictions:
-        shares = (f"{100.0 * share:.1f}" for share in (p.error, p.noise, p.speed))
+        shares = (f"{100.0 * share:.1f}" for share in (p.error, p.noise, p.state))
         table.add_row(f"{p.horizon:g} s", str(p.starts), *shares)
     return table
