@@ -36,7 +36,7 @@ def report(console: Console, verdict: GainVerdict, present: str, title: str) -> 
         title: what was tuned.
     """
     for reason in verdict.why:
-        console.print(f"not accepted: {reason}", markup=False)
+        console.print(f"not accepted, {reason}", markup=False)
     if verdict.held:
         console.print(_table(verdict, present, title))
     stays = f"the present gains ({present}) stay" if verdict.source == PRESENT else "the rule's gains stay"
