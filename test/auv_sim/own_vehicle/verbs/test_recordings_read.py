@@ -36,6 +36,14 @@ def test_the_last_part_is_left_out_where_it_turns() -> None:
     assert turning_part(data)[1] == pytest.approx(data.t[-1])
 
 
+def test_the_only_turn_of_a_recording_is_not_left_out_of_its_identification() -> None:
+    for data in (turning(150.0, 165.0, 0.2), turning(150.0, 180.0, 0.2)):
+        used, _ = divided([data], None)
+        assert sum(np.sum(part.r**2) for part in used) > 0.4 * np.sum(data.r**2)
+    again = turning(150.0, 165.0, 0.2)
+    assert divided([again, data], None)[1] is not None  # the other recording turns as well
+
+
 @pytest.mark.parametrize(("begin", "moves"), [(-5.0, True), (400.0, False)])
 def test_commands_beside_the_odometry_are_no_motion_of_the_planes(begin: float, moves: bool) -> None:
     t = np.arange(0.0, 300.0, 0.05)

@@ -186,7 +186,7 @@ def report(
     write_text(arguments.out, identified_text(new, hull, found, names))
     picture = arguments.out.with_suffix(".png")
     draw_identification(found, abilities, kept, predictions, f"{vehicle.name}: {names}", picture)
-    wrote(console, arguments.out, "vehicle file, every coefficient with its interval")
+    wrote(console, arguments.out, "vehicle file, with planar intervals as comments")
     wrote(console, picture, "intervals, innovations, left-out manoeuvres")
     go_on(console, "Tune gains for it", to_type("vehicle.py", "tune", arguments.out))
 

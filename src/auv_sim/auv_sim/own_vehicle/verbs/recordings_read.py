@@ -23,6 +23,8 @@ from auv_sim.own_vehicle.identify.time_grid import PlanarData
 
 #: With this much data (s) a part of so many seconds is left out and predicted; step of its choice, s.
 ENOUGH, LAST, _STEP = 150.0, 45.0, 15.0
+#: Largest share of all turning that is left out by default: the rest must still show the rudder.
+_MOST = 0.6
 #: Shortest part of a recording that is used beside what is left out, s.
 SHORTEST = 10.0
 #: Heave and pitch need at least so many odometries and samples, and planes that move (deviation, rad).
@@ -185,6 +187,11 @@ def turning_part(data: PlanarData) -> tuple[float, float]:
     return float(first), float(first + LAST)
 
 
+def turning_of(recordings: Sequence[PlanarData]) -> float:
+    """Return the sum of the squared yaw rates, rad^2/s^2."""
+    return sum(float(np.sum(data.r**2)) for data in recordings)
+
+
 def divided(
     recordings: list[PlanarData], left_out: list[float] | None
 ) -> tuple[list[PlanarData], PlanarData | None]:
@@ -192,7 +199,8 @@ def divided(
 
     Args:
         recordings: in the plane.
-        left_out: begin and end of the part of the last recording, s from its begin; None: see `turning_part`.
+        left_out: begin and end of the part of the last recording, s from its begin; None: see `turning_part`,
+            unless that part has most of the turning.
 
     Raises:
         ConfigurationError: the part lies outside the recording, or ends before it begins.
@@ -204,6 +212,8 @@ def divided(
         if total < ENOUGH:
             return recordings, None
         first, until = turning_part(last)
+        if turning_of([last.between(first, until)]) > _MOST * turning_of(recordings):
+            return recordings, None
     elif left_out == [0.0, 0.0]:
         return recordings, None
     else:

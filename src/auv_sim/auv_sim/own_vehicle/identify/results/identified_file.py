@@ -1,4 +1,4 @@
-"""The identified vehicle as a file: every coefficient with its interval as a comment."""
+"""The identified vehicle as a file: planar coefficients and rudder with their intervals as comments."""
 
 from __future__ import annotations
 
