@@ -27,17 +27,22 @@ from auv_sim.launch.vehicle_driver import EMULATOR, EMULATOR_MODULE
 _COMPOSED = "composed"
 
 
-def domain_of(plan: Plan) -> AbstractContextManager[int]:
+def domain_of(plan: Plan, domain: int | None = None) -> AbstractContextManager[int]:
     """Return a context of the ROS domain: asked for; without a simulator that of the environment; else free.
 
     A free domain is claimed until the context ends.
 
+    Args:
+        plan: of a mission.
+        domain: asked for in place of the plan's; None: not.
+
     Raises:
         ConfigurationError: ROS_DOMAIN_ID is not a domain.
     """
-    if plan.options.domain is not None:
-        return nullcontext(plan.options.domain)
-    return nullcontext(domain_of_environment()) if plan.options.no_sim else free_domain()
+    asked = plan.options.domain if domain is None else domain
+    if asked is None and plan.options.no_sim:
+        asked = domain_of_environment()
+    return free_domain() if asked is None else nullcontext(asked)
 
 
 def domain_of_environment() -> int:

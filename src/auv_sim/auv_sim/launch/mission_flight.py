@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shutil
 import time
-from contextlib import nullcontext
 from pathlib import Path
 
 from rich.console import Console
@@ -43,7 +42,7 @@ def fly(options: Options, loader: Starter, domain: int | None = None) -> int:
     """
     directory = run_directory(options)
     resolved = prepare(options, directory)
-    with launcher.domain_of(resolved) if domain is None else nullcontext(domain) as chosen:
+    with launcher.domain_of(resolved, domain) as chosen:
         return _fly(resolved, directory, chosen, loader)
 
 

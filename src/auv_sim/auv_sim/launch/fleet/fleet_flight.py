@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import shutil
-from contextlib import nullcontext
 from pathlib import Path
 
 from auv_msgs_py.node.graph_look import GraphTaken
@@ -42,7 +41,7 @@ def fly(fleet: str, options: Options, loader: Starter, domain: int | None = None
     directory = run_directory(fleet, options)
     plan = fleet_plan.make(fleet, options, directory)
     any_member = next(iter(plan.members.values()))  # all of a fleet are in one domain
-    with launcher.domain_of(any_member) if domain is None else nullcontext(domain) as chosen:
+    with launcher.domain_of(any_member, domain) as chosen:
         return _fly(plan, directory, chosen, options.quiet, loader)
 
 

@@ -13,7 +13,7 @@ from auv_path_following.vehicle import Vehicle
 from auv_sim.own_vehicle.identify.combinations import COUNT, Numbers, combinations_of
 from auv_sim.own_vehicle.identify.hull_abilities import abilities_of, pole_of, radius_of, speed_of
 from auv_sim.own_vehicle.identify.identification import Identified, identify
-from auv_sim.own_vehicle.identify.innovations import channels_of
+from auv_sim.own_vehicle.identify.innovations import Recording, channels_of
 from auv_sim.own_vehicle.identify.predictions import predictions_of
 from auv_sim.own_vehicle.identify.study.random_hulls import random_vehicle
 from auv_sim.own_vehicle.identify.study.simulated_data import planar_data, thrust_share
@@ -109,8 +109,8 @@ def _compared(case: Case, vehicle: Vehicle, sea: Sea, recorded: FlownCase, found
     known = dataclasses.replace(_known(), rudder=vehicle.rudder)
     named = {one.name: one.value for one in abilities_of(found.physical, found.spread, known)}
     p, sd = found.physical[:COUNT], found.spread.deviations[:COUNT]
-    two, ten = _predicted(recorded.left_out, found, found.physical)
-    true_two, true_ten = _predicted(recorded.left_out, found, true_unknowns(vehicle, sea))
+    two, ten = left_out_errors(recorded.left_out, found, found.physical)
+    true_two, true_ten = left_out_errors(recorded.left_out, found, true_unknowns(vehicle, sea))
     return Judged(
         case,
         pole_of(true, speed),
@@ -141,7 +141,14 @@ def true_unknowns(vehicle: Vehicle, sea: Sea) -> Numbers:
     return found
 
 
-def _predicted(left_out: PlanarData, found: Identified, physical: Numbers) -> tuple[float, float]:
+def left_out_errors(left_out: Recording, found: Identified, physical: Numbers) -> tuple[float, float]:
+    """Return the errors of left-out manoeuvres predicted over 2 s and 10 s, shares.
+
+    Args:
+        left_out: their recording.
+        found: an identification that did not use it.
+        physical: unknowns to predict with, those found or the true ones.
+    """
     channels = channels_of([left_out], found.scaling.sheet, found.dead_band)
     two, ten = predictions_of(channels, physical)
     return two.error, ten.error

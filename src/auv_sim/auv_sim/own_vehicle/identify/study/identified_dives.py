@@ -18,8 +18,7 @@ from auv_sim.own_vehicle.identify.dive.dive_combinations import (
 )
 from auv_sim.own_vehicle.identify.dive.dive_data import DiveData, coupling_of
 from auv_sim.own_vehicle.identify.identification import Identified, identify_dive
-from auv_sim.own_vehicle.identify.innovations import channels_of
-from auv_sim.own_vehicle.identify.predictions import predictions_of
+from auv_sim.own_vehicle.identify.study.identified_cases import left_out_errors
 from auv_sim.own_vehicle.identify.study.random_divers import known_diver, random_diver
 from auv_sim.own_vehicle.identify.study.simulated_data import dive_data
 from auv_sim.own_vehicle.identify.unknowns import ALL, DEAD_TIME, HALF_PLAY, LATENCY, RATE
@@ -98,8 +97,8 @@ def _compared(
     sd, vertical = found.spread.deviations[:COUNT], _vertical(vehicle.coefficients)
     c, t = DiveCombinations(*map(float, p)), DiveCombinations(*map(float, true))
     written = vertical_with(c, known.m, _vertical(known))
-    two, ten = _predicted(left_out, found, found.physical)
-    true_two, true_ten = _predicted(left_out, found, truth)
+    two, ten = left_out_errors(left_out, found, found.physical)
+    true_two, true_ten = left_out_errors(left_out, found, truth)
     return JudgedDive(
         case,
         vehicle.length,
@@ -133,9 +132,3 @@ def true_dive_unknowns(vehicle: Vehicle, sea: Sea) -> Numbers:
     found[HALF_PLAY] = math.radians(0.5 * sea.sternplanes.backlash_deg)
     found[LATENCY] = sea.sensors.water_track.latency
     return found
-
-
-def _predicted(left_out: DiveData, found: Identified, physical: Numbers) -> tuple[float, float]:
-    channels = channels_of([left_out], found.scaling.sheet, found.dead_band)
-    two, ten = predictions_of(channels, physical)
-    return two.error, ten.error
