@@ -84,6 +84,16 @@ class Bench:
             assert time.monotonic() < deadline, "the node did not do what was waited for"
             self.executor.spin_once(timeout_sec=0.02)
 
+    def until_newest(self, topic: Topic, condition: Callable[[Any], Any]) -> Any:
+        """Wait until the newest message of a topic fulfils the condition; return it.
+
+        Latched topics are waited for in this way and not by number: their writers keep one message, so that
+        a reader who is late receives the newest alone.
+        """
+        kept = self.received[topic.name]
+        self.until(lambda: kept and condition(kept[-1]))
+        return kept[-1]
+
     def spin(self, seconds: float) -> None:
         deadline = time.monotonic() + seconds
         while time.monotonic() < deadline:

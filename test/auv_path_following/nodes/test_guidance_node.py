@@ -16,8 +16,8 @@ from node_bench import Bench
 
 def test_guidance_asks_for_nothing_before_the_start_and_for_thrust_after_it(bench: Bench) -> None:
     bench.start(GuidanceNode)
-    bench.until(lambda: [m.data for m in bench.received["mission_state"]] == ["idle"])
-    bench.until(lambda: len(bench.received["path"]) == 1)
+    bench.until_newest(topics.MISSION_STATE, lambda state: state.data == "idle")
+    bench.until_newest(topics.PATH, lambda path: path.poses)
     bench.water(1.0, 1.9)
     bench.odometry(1.0, Navigation(-20.0, 20.0, 0.5, 0.0))
     bench.until(lambda: bench.values(topics.DESIRED_THRUST))

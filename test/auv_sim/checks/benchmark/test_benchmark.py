@@ -18,7 +18,6 @@ import pytest
 
 from auv_msgs_py.contract import topics
 from auv_sim.checks.benchmark import against, console_cost, contender, figures_page, sheets
-from auv_sim.checks.benchmark.fleet_cost import in_own_process
 from auv_sim.checks.benchmark.measures import dimensions, graph_speed, law_speed, operation, start_up
 from auv_sim.checks.benchmark.measures.children import BenchmarkFailed
 from auv_sim.checks.benchmark.measures.rig import LockstepTiming, Setup, free_running, lockstep
@@ -42,12 +41,6 @@ def test_a_lockstep_run_is_timed_step_by_step(setup: Setup) -> None:
     assert set(timing.usage) == ({"composed"} if setup.composed else NODES | {topics.RECORDER})
     assert all(used.cpu > 0.0 for used in timing.usage.values())
     assert all(0 < occupied.pss <= occupied.rss for occupied in timing.memory.values())
-
-
-def test_the_cost_of_a_fleet_is_that_of_a_vehicle_s_step() -> None:
-    cost = in_own_process(2, True, 40)
-    assert set(cost) == {"composed", topics.FLEET_CLOCK}
-    assert 0.0 < cost[topics.FLEET_CLOCK] < cost["composed"] < 1.0
 
 
 def test_the_fleet_s_table_has_the_ratio_of_a_vehicle_s_cost() -> None:

@@ -126,35 +126,56 @@ def _measured(
 ) -> dict[str, float]:
     """Start all missions and measure `steps` steps of each vehicle."""
 
-    def look() -> None:
-        for monitor in monitors.values():
-            monitor.look(0.02)
-
     def missing() -> bool:
         return any(
             monitor.missing_nodes(set(members[label].parameters), True) for label, monitor in monitors.items()
         )
 
-    def all_beyond(seconds: float) -> Callable[[], bool]:
-        return lambda: min(monitor.mission_time for monitor in monitors.values()) >= seconds
-
-    children.until(lambda: not missing(), look, _PATIENCE)
+    children.until(lambda: not missing(), lambda: _look(monitors), _PATIENCE)
     with contextlib.ExitStack() as held:
         fleet_launcher.place(members, children.ids, held)
         for label, monitor in monitors.items():
             if refused := monitor.start():
                 raise BenchmarkFailed(f"{label} did not start: {refused}")
-        children.until(all_beyond(_BEFORE), look, _PATIENCE)
-        stamps = sum(monitor.stamp for monitor in monitors.values())
-        before = children.usage()
-        children.until(all_beyond(_BEFORE + steps * _STEP), look, _PATIENCE)
-        flown = (sum(monitor.stamp for monitor in monitors.values()) - stamps) * 1e-9 / _STEP
-        after = children.usage()
+        return cost_of_steps(children, monitors, steps)
+
+
+def cost_of_steps(children: MeasuredProcesses, monitors: Mapping[str, Any], steps: int) -> dict[str, float]:
+    """Measure at least `steps` steps of each vehicle of missions that have started.
+
+    The steps count from the place at which the measurement begins: on a busy machine a lockstep mission may
+    have flown any time before this process looks at it again.
+
+    Returns:
+        kind of process -> processor time of a vehicle's step, s, over all vehicles.
+
+    Raises:
+        BenchmarkFailed: they did not fly as far.
+    """
+
+    def wait_until(flown: float) -> None:
+        children.until(lambda: earliest() >= flown, lambda: _look(monitors), _PATIENCE)
+
+    def earliest() -> float:
+        return min(float(monitor.mission_time) for monitor in monitors.values())
+
+    def stamps() -> int:
+        return sum(monitor.stamp for monitor in monitors.values())
+
+    wait_until(_BEFORE)
+    begin, before = stamps(), children.usage()
+    wait_until(earliest() + steps * _STEP)
+    flown, after = (stamps() - begin) * 1e-9 / _STEP, children.usage()
     cost: dict[str, float] = {}
     for name, used in after.items():
         kind = name.rsplit(".", 1)[-1]
         cost[kind] = cost.get(kind, 0.0) + (used.cpu - before[name].cpu) / flown
     return cost
+
+
+def _look(monitors: Mapping[str, Any]) -> None:
+    for monitor in monitors.values():
+        monitor.look(0.02)
 
 
 if __name__ == "__main__":
