@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import time
 from typing import Any
@@ -20,7 +21,7 @@ def test_guidance_asks_for_nothing_before_the_start_and_for_thrust_after_it(benc
     bench.until_newest(topics.PATH, lambda path: path.poses)
     bench.water(1.0, 1.9)
     bench.odometry(1.0, Navigation(-20.0, 20.0, 0.5, 0.0))
-    bench.until(lambda: bench.values(topics.DESIRED_THRUST))
+    bench.until(lambda: bench.values(topics.DESIRED_THRUST) and bench.values(topics.DESIRED_YAW))
     assert bench.values(topics.DESIRED_THRUST) == [0.0]
     assert bench.values(topics.DESIRED_YAW) == pytest.approx([math.pi / 2 - 0.5])
     assert bench.call("start").success
@@ -31,7 +32,7 @@ def test_guidance_asks_for_nothing_before_the_start_and_for_thrust_after_it(benc
     bench.until(lambda: len(bench.values(topics.DESIRED_THRUST)) == 2)
     assert bench.values(topics.DESIRED_THRUST)[1] == 6.48
     assert bench.call("abort").success
-    bench.until(lambda: [m.data for m in bench.received["mission_state"]][-1] == "aborted")
+    bench.until_newest(topics.MISSION_STATE, lambda state: state.data == "aborted")
     assert bench.call("start").success
 
 
@@ -55,17 +56,17 @@ def test_guidance_steers_back_from_either_side(bench: Bench, tmp_path: Any, east
 def test_guidance_holds_without_navigation_and_goes_on_with_it(bench: Bench) -> None:
     bench.start(GuidanceNode, guidance__minimum_speed=0.2, holding__hold_after=0.4)
     bench.call("start")
-    bench.until(lambda: [m.data for m in bench.received["mission_state"]][-1:] == ["holding"])
+    bench.until(lambda: was_in(bench, "running", "holding"))
     bench.water(1.0, 1.9)
     bench.odometry(1.0, Navigation(-20.0, 20.0, 0.5, 0.0))
-    bench.until(lambda: [m.data for m in bench.received["mission_state"]][-1:] == ["running"])
-    assert bench.values(topics.DESIRED_THRUST)[-1] == 6.48
+    bench.until(lambda: was_in(bench, "running", "holding", "running"))
+    bench.until(lambda: bench.values(topics.DESIRED_THRUST)[-1:] == [6.48])
 
 
 def test_guidance_aborts_when_it_had_to_hold_for_too_long(bench: Bench) -> None:
     bench.start(GuidanceNode, holding__hold_after=0.2, holding__abort_after=0.4)
     bench.call("start")
-    bench.until(lambda: [m.data for m in bench.received["mission_state"]][-1:] == ["aborted"])
+    bench.until_newest(topics.MISSION_STATE, lambda state: state.data == "aborted")
 
 
 NORTH = (
@@ -76,6 +77,12 @@ NORTH = (
 
 def states(bench: Bench) -> list[str]:
     return [message.data for message in bench.received["mission_state"]]
+
+
+def was_in(bench: Bench, *words: str) -> bool:
+    """Whether the mission was in these states, one after the other; each is published more than once."""
+    changes = [word for word, _ in itertools.groupby(states(bench))]
+    return any(changes[k : k + len(words)] == list(words) for k in range(len(changes)))
 
 
 def fly_north(bench: Bench, tmp_path: Any, **parameters: Any) -> Any:
@@ -103,7 +110,7 @@ def test_after_a_hold_guidance_rejoins_its_path_ahead_beside_the_vehicle(bench: 
     bench.until(lambda: states(bench)[-1] == "holding")
     bench.until(lambda: bench.diagnosed("holding: no usable navigation for 0.4 s"))
     s = step(bench, 20.0, 12.0, 3.0)  # carried along in 16 s; at its last speed P would be at 36 m
-    bench.until(lambda: states(bench)[-1] == "running")
+    bench.until(lambda: was_in(bench, "holding", "running"))
     assert before < s == pytest.approx(0.12, abs=1e-4)
 
 
@@ -149,10 +156,13 @@ def test_a_pose_that_froze_is_accepted_again_after_a_new_start(bench: Bench, tmp
 
 
 def test_time_before_the_start_does_not_count_and_time_that_is_held_does(bench: Bench, tmp_path: Any) -> None:
-    """Odometry was out for 50 s before; then the mission holds for want of velocity through water."""
+    """Odometry was out for 50 s before; then the mission holds for want of velocity through water.
+
+    It holds by the stamps, which are 10 s apart: no watchdog of wall time is as quick.
+    """
     mission = tmp_path / "north.yaml"
     mission.write_text(NORTH)
-    bench.start(GuidanceNode, mission=str(mission), limits__duration=40.0)
+    bench.start(GuidanceNode, mission=str(mission), limits__duration=40.0, holding__hold_after=9.0)
     step(bench, 1.0, 0.0)
     bench.call("start")
     step(bench, 51.0, 0.2)
@@ -161,7 +171,7 @@ def test_time_before_the_start_does_not_count_and_time_that_is_held_does(bench: 
     for k in range(1, 8):
         bench.odometry(51.1 + 10.0 * k, Navigation(0.4, 0.1 * k, 0.0, 0.0))
         bench.spin(0.05)
-    bench.until(lambda: states(bench)[-1] == "aborted")
+    bench.until(lambda: was_in(bench, "running", "holding", "aborted"))
     bench.until(lambda: bench.diagnosed("aborted: limit duration"))
 
 
@@ -182,11 +192,11 @@ def test_a_gap_of_time_holds_and_rejoins_whichever_notices_it_first(
     bench: Bench, tmp_path: Any, watchdog: bool
 ) -> None:
     """16 s between two stamps, at 12 m: at its last speed P would be at 36 m."""
-    node = fly_north(bench, tmp_path, holding__hold_after=1.0 if watchdog else 10.0)
+    node = fly_north(bench, tmp_path, holding__hold_after=1.0 if watchdog else 15.0)
     if watchdog:
         bench.until(lambda: states(bench)[-1] == "holding")
     s = step(bench, 20.0, 12.0, 1.0)
-    bench.until(lambda: states(bench)[-2:] == ["holding", "running"])
+    bench.until(lambda: was_in(bench, "holding", "running"))
     assert s == pytest.approx(0.12, abs=1e-4)
     assert node.keeper.state.follower.progress.point.t == pytest.approx(s, abs=1e-9)
 
@@ -194,7 +204,8 @@ def test_a_gap_of_time_holds_and_rejoins_whichever_notices_it_first(
 def test_an_approach_is_a_phase_of_its_own(bench: Bench, tmp_path: Any) -> None:
     mission = tmp_path / "north.yaml"
     mission.write_text(NORTH)
-    node = bench.start(GuidanceNode, mission=str(mission), guidance__approach__overdue=0.3)
+    own = {"guidance__approach__overdue": 0.3, "holding__hold_after": 30.0}
+    node = bench.start(GuidanceNode, mission=str(mission), **own)
     bench.call("start")
     for k in range(3):
         assert step(bench, 1.0 + 0.2 * k, -50.0 + 0.4 * k) == 0.0
@@ -223,15 +234,16 @@ def test_a_late_reader_gets_the_present_state_and_all_get_it_once_a_second(bench
     bench.until(lambda: states(bench))
     bench.call("start")
     bench.until(lambda: "running" in states(bench))
-    heard: list[str] = []
+    heard: list[tuple[float, str]] = []
     topic = topics.MISSION_STATE
     late = qos.requested(topic, reliable=True, depth=100)
     bench.node.create_subscription(
-        qos.message_class(topic.type), topic.name, lambda m: heard.append(m.data), late
+        qos.message_class(topic.type), topic.name, lambda m: heard.append((time.monotonic(), m.data)), late
     )
-    bench.until(lambda: heard)
-    assert heard == ["running"]
     begin = time.monotonic()
-    bench.until(lambda: len(heard) >= 3)
-    assert time.monotonic() - begin > 0.9
-    assert len(heard) == 3
+    bench.until(lambda: heard)
+    assert [word for _, word in heard] == ["running"]
+    # After a pause of the machine one repetition may be late, and the next one is not.
+    bench.until(lambda: any(b - a > 0.9 for (a, _), (b, _) in itertools.pairwise(heard[1:])))
+    assert {word for _, word in heard} == {"running"}
+    assert len(heard) <= 3 + (heard[-1][0] - begin), "the present state, then one a second"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import time
 
@@ -9,7 +10,7 @@ import pytest
 from rclpy.duration import Duration
 from std_msgs.msg import String
 
-from auv_msgs_py.contract import topics
+from auv_msgs_py.contract import mission_word, topics
 from auv_msgs_py.values.types import Navigation
 from auv_path_following.nodes.heading_autopilot_node import HeadingAutopilotNode
 from node_bench import NORTHWARD, Bench
@@ -51,33 +52,43 @@ def test_the_autopilot_stops_the_vehicle_when_guidance_falls_silent(bench: Bench
     bench.reference(math.pi / 2, 0.0, 6.0)
     bench.until(lambda: bench.values(topics.THRUST_CMD) == [6.0])
     t = time.monotonic()
-    while bench.values(topics.THRUST_CMD)[-1] != 0.0:
+
+    def stopped() -> bool:
         bench.odometry(1.0 + time.monotonic() - t + 0.01, NORTHWARD)
         bench.spin(0.05)
-        assert time.monotonic() - t < 10.0
+        return bench.values(topics.THRUST_CMD)[-1] == 0.0
+
+    bench.until(stopped)
     assert bench.values(topics.RUDDER_CMD)[-1] == 0.0
     bench.until(lambda: bench.diagnosed("guidance is silent"))
 
 
 def test_the_autopilot_stops_the_vehicle_when_odometry_falls_silent(bench: Bench) -> None:
     bench.start(HeadingAutopilotNode, odometry_timeout=0.3)
-    bench.odometry(1.0, NORTHWARD)
-    bench.reference(math.pi / 2, 0.0, 6.0)
-    bench.until(lambda: bench.values(topics.THRUST_CMD) == [6.0])
+    stamps = itertools.count(1.0, 0.05)
+
+    def answered() -> bool:
+        bench.odometry(next(stamps), NORTHWARD)
+        bench.reference(math.pi / 2, 0.0, 6.0)
+        bench.spin(0.02)
+        return 6.0 in bench.values(topics.THRUST_CMD)
+
+    bench.until(answered)
     bench.until(lambda: bench.values(topics.THRUST_CMD)[-1] == 0.0)
     bench.until(lambda: bench.diagnosed("no usable odom for 0.3 s: rudder and thrust are 0"))
 
 
 def test_a_gap_between_stamps_begins_anew_as_after_a_silence(bench: Bench) -> None:
     """The laws would otherwise go on turning the rudder for the 5 s."""
-    bench.start(HeadingAutopilotNode, odometry_timeout=2.0)
-    for k in range(3):
-        bench.odometry(1.0 + 0.05 * k if k < 2 else 6.0, NORTHWARD)
+    node = bench.start(HeadingAutopilotNode, odometry_timeout=4.0)
+    for k, stamp in enumerate((1.0, 1.05, 6.0)):
+        bench.odometry(stamp, Navigation(stamp, 0.0, 0.0, 0.0))
         bench.reference(math.pi / 2 + 0.3, 0.0, 6.0)
-        bench.until(lambda k=k: len(bench.values(topics.RUDDER_CMD)) > k)
+        bench.until(lambda k=k: len(bench.values(topics.THRUST_CMD)) > k)
     assert bench.values(topics.RUDDER_CMD)[1] > 0.0
     assert bench.values(topics.RUDDER_CMD)[2] == 0.0
-    assert bench.values(topics.THRUST_CMD)[-1] == 6.0
+    assert bench.values(topics.THRUST_CMD) == [6.0] * 3
+    assert not node.health.refused
 
 
 def test_a_heading_that_jumps_does_not_reach_the_rudder(bench: Bench) -> None:
@@ -112,12 +123,16 @@ def test_thrust_that_contradicts_the_state_of_the_mission_is_not_obeyed_for_long
     bench.start(HeadingAutopilotNode, reference_timeout=0.3)
     bench.send(topics.MISSION_STATE, String(data="aborted"))
     t = time.monotonic()
-    while not bench.diagnosed("though the mission is aborted"):
-        bench.odometry(1.0 + time.monotonic() - t, Navigation(time.monotonic() - t, 0.0, 0.0, 0.0))
+
+    def diagnosed() -> bool:
+        at = time.monotonic() - t
+        bench.odometry(1.0 + at, Navigation(at, 0.0, 0.0, 0.0))
         bench.reference(math.pi / 2, 0.0, 6.0)
         bench.spin(0.05)
-        assert time.monotonic() - t < 20.0
-    assert bench.values(topics.THRUST_CMD)[-1] == 0.0
+        return bench.diagnosed("though the mission is aborted")
+
+    bench.until(diagnosed)
+    bench.until(lambda: bench.values(topics.THRUST_CMD)[-1] == 0.0)
 
 
 def test_a_pose_that_froze_is_accepted_again_when_a_mission_is_started(bench: Bench) -> None:
@@ -164,7 +179,8 @@ def test_a_mission_state_that_is_repeated_is_no_start(bench: Bench) -> None:
 
 def test_a_vehicle_clock_that_is_set_back_far_is_followed(bench: Bench) -> None:
     """By more than would be too late: two messages that continue each other show what it is."""
-    node = bench.start(HeadingAutopilotNode, lateness=1.0)
+    node = bench.start(HeadingAutopilotNode)
+    assert node.parameters.lateness < 500.0
     for k in range(5):
         bench.odometry(1000.0 + 0.05 * k, Navigation(0.1 * k, 0.0, 0.0, 0.0))
         bench.spin(0.05)
@@ -179,14 +195,15 @@ def test_a_vehicle_clock_that_is_set_back_far_is_followed(bench: Bench) -> None:
 def test_a_clock_of_the_computer_that_is_set_forward_makes_nothing_late(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    node = bench.start(HeadingAutopilotNode, lateness=1.0)
+    node = bench.start(HeadingAutopilotNode)
+    assert node.parameters.lateness < 600.0
     true_time = node.get_clock().now
     for k in range(20):
         if k == 10:
-            monkeypatch.setattr(node.get_clock(), "now", lambda: true_time() + Duration(seconds=7))
+            monkeypatch.setattr(node.get_clock(), "now", lambda: true_time() + Duration(seconds=700))
         bench.odometry(1000.0 + 0.05 * k, Navigation(0.1 * k, 0.0, 0.0, 0.0))
         bench.spin(0.05)
-    assert node.get_clock().now() - true_time() > Duration(seconds=6)
+    assert node.get_clock().now() - true_time() > Duration(seconds=600)
     assert not node.health.refused
 
 
@@ -200,8 +217,9 @@ def test_stopping_the_autopilot_stops_the_vehicle(bench: Bench) -> None:
     assert bench.values(topics.RUDDER_CMD)[-1] == 0.0
 
 
-def test_one_forged_state_does_not_stop_the_vehicle(bench: Bench) -> None:
+def test_one_forged_state_does_not_stop_the_vehicle(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
     """Guidance repeats its own once a second; the forged one is counted and named."""
+    monkeypatch.setattr(mission_word, "ALONE", 60.0)  # on a busy machine a repetition may be late
     node = bench.start(HeadingAutopilotNode, reference_timeout=0.3)
     bench.send(topics.MISSION_STATE, String(data="running"))
     begin = time.monotonic()
@@ -214,7 +232,8 @@ def test_one_forged_state_does_not_stop_the_vehicle(bench: Bench) -> None:
         bench.odometry(1.0 + at, Navigation(at, 0.0, 0.0, 0.0))
         bench.reference(math.pi / 2, 0.0, 6.0)
         bench.spin(0.05)
+    bench.until(lambda: node.health.refused["mission_state"] == 1)
+    bench.until(lambda: len(bench.values(topics.THRUST_CMD)) == 24)
     assert bench.values(topics.THRUST_CMD)[-1] == 6.0
     assert 0.0 not in bench.values(topics.THRUST_CMD)[1:]
-    assert node.health.refused["mission_state"] == 1
     bench.until(lambda: bench.diagnosed("found 'idle' once among 'running'"))

@@ -22,6 +22,9 @@ from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
 #: Duration of a look, s of wall time: discovery on one machine takes 0.1 to 0.2 s. A process that was killed
 #: no longer announces itself, so a new participant does not see it.
 LOOK = 0.5
+#: Most time between two calls of `ended` that counts as looking, s: a process without processor time
+#: discovers nothing.
+_MOST_AT_ONCE = 0.1
 #: Name that rclpy gives to a node of which only an endpoint has been discovered.
 _UNKNOWN = "_NODE_NAME_UNKNOWN_"
 #: Most claims that are kept.
@@ -39,7 +42,7 @@ class GraphLook:
         node: whose publisher and subscription are used; spin it.
         claim: what the process will publish; `process`, `since` and `token` are filled in here.
         own: full names of nodes of this process that are in the graph and publish /clock.
-        length: duration of the look, s of wall time.
+        length: duration of the look, s of wall time without pauses of this process.
     """
 
     def __init__(self, node: Node, claim: Claim, own: tuple[str, ...] = (), length: float = LOOK) -> None:
@@ -52,7 +55,7 @@ class GraphLook:
         )
         self._own = Counter(own)
         self._others: dict[str, Claim] = {}
-        self._begin = time.monotonic()
+        self._looked, self._called = 0.0, time.monotonic()
         topic = topics.GRAPH_CLAIMS
         self._decode = generated_decoder(topic)
         self._publisher = node.create_publisher(String, topic.name, qos.offered(topic))
@@ -67,7 +70,7 @@ class GraphLook:
                 self._others[other.token] = other
 
     def ended(self, ready: bool = True) -> bool:
-        """Return whether the look is over without a conflict; from then on the claim is held.
+        """Return whether the look is over without a conflict; from then on the claim is held. Call it often.
 
         Args:
             ready: whether the nodes have loaded; until then a longer look costs no time.
@@ -77,7 +80,9 @@ class GraphLook:
         """
         if self.claim.held:
             return True
-        over = ready and time.monotonic() - self._begin >= self._length
+        before, self._called = self._called, time.monotonic()
+        self._looked += min(self._called - before, _MOST_AT_ONCE)
+        over = ready and self._looked >= self._length
         self.check()
         self._check_graph(over)
         if over:
