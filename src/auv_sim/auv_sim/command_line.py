@@ -144,6 +144,11 @@ def target(text: str) -> Path:
     raise argparse.ArgumentTypeError(f"found '{text}'{why}, expected a file that can be written")
 
 
+def add_overwrite(parser: argparse.ArgumentParser) -> None:
+    """Add the option that lets a command replace files that exist."""
+    parser.add_argument("--overwrite", action="store_true", help="replace files that exist")
+
+
 # argparse names the type in its message when float() itself fails.
 finite.__name__ = positive.__name__ = not_negative.__name__ = share.__name__ = "number"
 

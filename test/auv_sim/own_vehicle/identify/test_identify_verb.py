@@ -199,6 +199,20 @@ def test_no_file_is_lost(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> 
     check_target(tmp_path / "drawn.yaml", [mine], True)
 
 
+def test_a_study_replaces_no_result_unasked_and_begins_with_no_page_that_it_cannot_renew(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    result, page = tmp_path / "mine.json", tmp_path / "page.md"
+    result.write_text("of an hour")
+    page.write_text("no marks")
+    words = ["identify", "--study", "1", "--program", "none_such", "--out", str(tmp_path / "mine.yaml")]
+    assert "mine.json, which exists" in _refused(words, capsys)
+    assert "which is read" in _refused([*words, "--overwrite", "--page", str(result)], capsys)
+    assert "a part to renew" in _refused([*words, "--overwrite", "--page", str(page)], capsys)
+    assert "none_such" in _refused([*words, "--overwrite"], capsys)
+    assert result.read_text() == "of an hour"
+
+
 def _refused(words: list[str], capsys: pytest.CaptureFixture[str]) -> str:
     assert vehicle_command.main(words) == 2
     (line,) = capsys.readouterr().err.splitlines()

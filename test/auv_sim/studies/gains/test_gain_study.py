@@ -50,6 +50,10 @@ def test_an_unknown_hull_is_refused_before_any_flight(study, tmp_path, capsys) -
     assert "remus100_table2" in said[0]
     assert "drawn 0" in said[0]
     assert not out.exists()
+    out.write_text("of an hour")
+    assert study.main(["--drawn", "1", "--hulls", "drawn 1", "--out", str(out)]) == 2
+    assert "which exists, expected a new file, or --overwrite" in capsys.readouterr().err
+    assert out.read_text() == "of an hour"
 
 
 def test_hulls_are_chosen_by_name() -> None:

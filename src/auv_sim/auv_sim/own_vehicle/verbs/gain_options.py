@@ -7,7 +7,7 @@ import os
 from collections.abc import Mapping, Sequence
 
 from auv_path_following import config_files
-from auv_sim.command_line import at_least_one, finite, whole
+from auv_sim.command_line import add_overwrite, at_least_one, finite, whole
 
 #: Word for `--spread` where the vehicle file's comments state the uncertainty.
 FROM_FILE = "file"
@@ -87,5 +87,5 @@ def add_conditions(p: argparse.ArgumentParser, several: Sequence[str] = ()) -> N
         "--threads", type=at_least_one, default=os.cpu_count() or 1, metavar="N",
         help="flights at the same time (default: all cores)",
     )  # fmt: skip
-    p.add_argument("--overwrite", action="store_true", help="replace files that exist")
+    add_overwrite(p)
     p.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")

@@ -16,11 +16,12 @@ from auv_msgs_py.settings.result_files import write_text
 from auv_sim.command_line import at_least_one, whole
 from auv_sim.own_vehicle.identify.study.identified_cases import Case, Judged, outcome_of
 from auv_sim.own_vehicle.identify.study.identified_dives import DiveCase, JudgedDive, dive_outcome_of
+from auv_sim.own_vehicle.output_files import check_outputs
 from auv_sim.own_vehicle.verbs.study_figures import Row, dive_figures, figures
 from auv_sim.studies.pool import each
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import headed_table, progress_bar, wrote
-from auv_sim.views.doc_pages import markdown_table, renew
+from auv_sim.views import doc_pages
 
 
 class Timed(NamedTuple):
@@ -52,51 +53,61 @@ def add_study_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--page", type=Path, metavar="FILE", help="page with the study's figures, to renew")
 
 
-def study(
-    count: int, first: int, program: str | None, sea: str, workers: int, out: Path, page: Path | None,
-    quiet: bool = False, dive: bool = False,
-) -> int:  # fmt: skip
-    """Identify vehicles of seeds `first` on; print and write the figures.
-
-    In the plane every second one is stable in yaw.
+def study(options: argparse.Namespace) -> int:
+    """Identify vehicles of seeds from `options.first` on; print and write the figures.
 
     Args:
-        count: vehicles.
-        first: seed of the first one.
-        program: of manoeuvres.
-        sea: their conditions.
-        workers: processes.
-        out: JSON file with every outcome.
-        page: Markdown page whose part named by the program is renewed.
-        quiet: whether nothing is printed.
-        dive: whether heave and pitch are identified, of vehicles that dive.
+        options: those of `add_study_arguments`; also `out`, which gives the JSON file with every outcome its
+            name, `overwrite` and `quiet`.
+
+    Returns:
+        0 if every target is met, else 1.
+
+    Raises:
+        ConfigurationError: the JSON file exists, the page has no part named by the program, or there is no
+            such program or sea.
     """
-    console, seeds = terminal(quiet), range(first, first + count)
-    program = program or ("eight_minutes_dive" if dive else "eight_minutes")
-    cases: list[Case | DiveCase] = [
-        DiveCase(seed, program, sea) if dive else Case(seed, seed % 2 == 1, program, sea) for seed in seeds
-    ]
-    found: list[Timed] = []
-    with progress_bar(console, quiet) as bar:
-        task = bar.add_task("vehicles", total=count)
-        for _, timed in each(_timed, cases, min(workers, count), lambda: bar.advance(task)):
-            found.append(timed)
-            found.sort(key=lambda one: one.outcome.case.seed)
-            write_text(out, json.dumps([_plain(one) for one in found], indent=1))
+    console, out, page = terminal(options.quiet), options.out.with_suffix(".json"), options.page
+    check_outputs([out], [] if page is None else [page], options.overwrite)
+    program = options.program or ("eight_minutes_dive" if options.dive else "eight_minutes")
+    if page is not None:
+        doc_pages.check(page, program)
+    found = _identified(_cases(options, program), options.workers, out, options.quiet)
     rows = _judged([one.outcome for one in found], program)
     seconds = [one.seconds for one in found]
-    title = f"{count} vehicles of seeds {first} to {first + count - 1}, {program} in {sea}"
+    last = options.first + options.study - 1
+    title = f"{options.study} vehicles of seeds {options.first} to {last}, {program} in {options.sea}"
     console.print(_table(title, rows))
     console.print(f"{np.median(seconds):.1f} s each (median), {max(seconds):.1f} s at most", highlight=False)
     wrote(console, out, "every outcome")
     if page is not None:
-        renew(page, program, _markdown(rows))
+        doc_pages.renew(page, program, _markdown(rows))
     return 0 if all(row.met for row in rows) else 1
+
+
+def _cases(options: argparse.Namespace, program: str) -> Sequence[Case | DiveCase]:
+    """Return what to identify; in the plane every second vehicle is stable in yaw."""
+    seeds = range(options.first, options.first + options.study)
+    if options.dive:
+        return [DiveCase(seed, program, options.sea) for seed in seeds]
+    return [Case(seed, seed % 2 == 1, program, options.sea) for seed in seeds]
+
+
+def _identified(cases: Sequence[Case | DiveCase], workers: int, out: Path, quiet: bool) -> list[Timed]:
+    """Return the outcomes by seed; those so far are written after each identification."""
+    found: list[Timed] = []
+    with progress_bar(terminal(quiet), quiet) as bar:
+        task = bar.add_task("vehicles", total=len(cases))
+        for _, timed in each(_timed, cases, min(workers, len(cases)), lambda: bar.advance(task)):
+            found.append(timed)
+            found.sort(key=lambda one: one.outcome.case.seed)
+            write_text(out, json.dumps([_plain(one) for one in found], indent=1))
+    return found
 
 
 def _markdown(rows: Sequence[Row]) -> str:
     cells = [(row.name, row.median, row.worst, row.target, "yes" if row.met else "**no**") for row in rows]
-    return markdown_table(("", "median", "worst", "target", "met"), cells)
+    return doc_pages.markdown_table(("", "median", "worst", "target", "met"), cells)
 
 
 def _timed(case: Case | DiveCase) -> Timed:

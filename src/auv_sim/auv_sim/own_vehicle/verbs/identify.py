@@ -17,7 +17,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_path_following import vehicle as vehicle_file
 from auv_path_following.vehicle import Vehicle
-from auv_sim.command_line import not_negative, positive, say, target, to_type
+from auv_sim.command_line import add_overwrite, not_negative, positive, say, target, to_type
 from auv_sim.own_vehicle.identify.combinations import COUNT
 from auv_sim.own_vehicle.identify.dive.dive_combinations import DiveCombinations
 from auv_sim.own_vehicle.identify.hull_abilities import abilities_of
@@ -75,9 +75,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     parser.add_argument(
         "--out", type=target, metavar="FILE", default=Path("identified.yaml"),
-        help="vehicle file to write, and a picture beside it (default: %(default)s)",
+        help="vehicle file to write, and a picture beside it; of a study FILE.json (default: %(default)s)",
     )  # fmt: skip
-    parser.add_argument("--overwrite", action="store_true", help="replace files that exist")
+    add_overwrite(parser)
     parser.add_argument(
         "--log-latency", type=not_negative, metavar="S",
         help="age of a velocity through the water at its stamp (default: found from the data)",
@@ -119,9 +119,7 @@ def run(arguments: argparse.Namespace) -> int:
         ConfigurationError: no recordings, or such as show nothing.
     """
     if arguments.study is not None:
-        o = arguments
-        out = o.out.with_suffix(".json")
-        return study(o.study, o.first, o.program, o.sea, o.workers, out, o.page, o.quiet, o.dive)
+        return study(arguments)
     if not arguments.bag:
         raise ConfigurationError("BAG", "no recording", "at least one, or --study N")
     vehicle = vehicle_file.load(arguments.vehicle)

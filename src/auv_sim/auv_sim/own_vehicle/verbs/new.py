@@ -14,7 +14,16 @@ import sys
 from typing import Any
 
 from auv_msgs_py.values.errors import ConfigurationError, printable
-from auv_sim.command_line import EXIT_DONE, Parser, finite, not_negative, positive, say, target
+from auv_sim.command_line import (
+    EXIT_DONE,
+    Parser,
+    add_overwrite,
+    finite,
+    not_negative,
+    positive,
+    say,
+    target,
+)
 
 _PAIR = r"[0-9.eE+-]+"
 
@@ -30,7 +39,7 @@ def pair(text: str) -> tuple[float, float]:
 def add_arguments(parser: Parser) -> None:
     """Add the options."""
     parser.add_argument("--out", type=target, metavar="FILE", help="the file to write (default: NAME.yaml)")
-    parser.add_argument("--overwrite", action="store_true", help="replace files that exist")
+    add_overwrite(parser)
     parser.add_argument("--name", help="of the vehicle")
     parser.add_argument("--length", type=positive, metavar="M", help="of the hull")
     parser.add_argument("--diameter", type=positive, metavar="M", help="of the hull")

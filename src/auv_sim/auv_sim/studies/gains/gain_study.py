@@ -16,7 +16,8 @@ from auv_msgs_py.settings import params_file
 from auv_msgs_py.settings.result_files import write_text
 from auv_path_following import config_files
 from auv_path_following.vehicle import Vehicle
-from auv_sim.command_line import EXIT_DONE, Parser, at_least_one, command, target, whole
+from auv_sim.command_line import EXIT_DONE, Parser, add_overwrite, at_least_one, command, target, whole
+from auv_sim.own_vehicle.output_files import check_outputs
 from auv_sim.own_vehicle.tune import tuned_file
 from auv_sim.own_vehicle.tune.ensemble import planar
 from auv_sim.own_vehicle.tune.gain_space import GainSet, GainSpace
@@ -53,6 +54,7 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--seed", type=whole, default=0, metavar="N", help="of the searches (0)")
     p.add_argument("--rule-only", action="store_true", help="the table of limit cycles alone")
     p.add_argument("--out", type=target, default=Path("gain_study.json"), metavar="FILE", help="figures")
+    add_overwrite(p)
     return p
 
 
@@ -60,6 +62,7 @@ def parser() -> argparse.ArgumentParser:
 def main(argv: Sequence[str] | None = None) -> int:
     """Measure, print and write; return 0 done, 2 bad input."""
     options = parser().parse_args(argv)
+    check_outputs([options.out], (), options.overwrite)
     console = terminal()
     base = params_file.load(config_files.find("params", "robust"), SUITE)
     robust = tuned_file.flown_of(base)

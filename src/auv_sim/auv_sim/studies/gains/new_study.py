@@ -22,12 +22,13 @@ from auv_path_following.guidance.path_follower import PathFollowerConfig
 from auv_path_following.guidance.ruled_guidance import with_gains
 from auv_path_following.missions import mission_file
 from auv_path_following.vehicle import Vehicle
-from auv_sim.command_line import EXIT_DONE, Parser, at_least_one, command, target, whole
+from auv_sim.command_line import EXIT_DONE, Parser, add_overwrite, at_least_one, command, target, whole
 from auv_sim.flight.batch import engine
 from auv_sim.flight.metrics import under_way
 from auv_sim.flight.scenario import Scenario
 from auv_sim.own_vehicle.new.trial_flight import trial_text
 from auv_sim.own_vehicle.new.vehicle_text import EFFECT_FACTOR
+from auv_sim.own_vehicle.output_files import check_outputs
 from auv_sim.own_vehicle.tune.gain_space import GainSet
 from auv_sim.own_vehicle.tune.trial_flights import LINE, PATIENCE, Flight, start_at, with_laws
 from auv_sim.studies.gains.gain_flights import STARTS, STEPS
@@ -92,6 +93,7 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--seeds", type=at_least_one, default=2, metavar="N", help="surveys of each hull (2)")
     p.add_argument("--no-allowance", action="store_true", help="gains as if the coefficients were known")
     p.add_argument("--out", type=target, default=Path("new_study.json"), metavar="FILE", help="figures")
+    add_overwrite(p)
     return p
 
 
@@ -99,6 +101,7 @@ def parser() -> argparse.ArgumentParser:
 def main(argv: Sequence[str] | None = None) -> int:
     """Fly, print and write; return 0 done, 2 bad input."""
     options = parser().parse_args(argv)
+    check_outputs([options.out], (), options.overwrite)
     console = terminal()
     found = [
         known(name, hull, options.seeds, not options.no_allowance)
