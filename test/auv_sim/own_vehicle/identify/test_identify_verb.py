@@ -80,6 +80,18 @@ def test_a_frame_id_of_another_maker_is_refused_until_its_axes_are_given(
     given = ["identify", str(bag), *words, "--frame", "base_footprint=flu"]
     assert "10 s of manoeuvres" in _refused(given, capsys)  # read, and too short
     assert "--frame: found flu" in _refused([*given, "--frame", "flu"], capsys)
+    with pytest.raises(ConfigurationError, match="or their axes by --frame ID=AXES"):
+        manoeuvres_in(bag)
+
+
+def test_only_unknown_frame_ids_are_answered_with_the_option_for_them(
+    flown: Manoeuvred, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bag = write_manoeuvres(tmp_path / "bag", _first(flown, 200))
+    words = ["identify", str(bag), "--out", str(tmp_path / "x.yaml"), "--topic", "rudder_cmd=/frame/rudder"]
+    refused = _refused(words, capsys)
+    assert "found /frame/rudder" in refused
+    assert "--frame" not in refused
 
 
 def test_commands_may_be_whole_numbers(flown: Manoeuvred, tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,9 +14,9 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.frames import Convention, FrameIds, FrameTable
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
+from auv_sim.bags.content.recorded_commands import TimedCommands, timed_commands
 from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.columns import Columns, decode
-from auv_sim.bags.reading.deserialize import deserializer
 from auv_sim.bags.reading.load import run_of
 from auv_sim.bags.reading.recording import Bag, RecordedTopic
 from auv_sim.flight.run_record import Run, SpatialRun
@@ -27,17 +27,8 @@ READ = (
     topics.ODOM, topics.WATER_VELOCITY, topics.RUDDER_CMD, topics.THRUST_CMD, topics.STERNPLANE_CMD,
 )  # fmt: skip
 _COMMANDS = (topics.RUDDER_CMD, topics.THRUST_CMD, topics.STERNPLANE_CMD)
-#: Types of commands: one number named `data`. The contract's is the first.
-_NUMBERS = tuple(f"std_msgs/msg/{kind}" for kind in ("Float64", "Float32", "Int16", "Int32", "UInt16"))
 #: Stamps that go back by more, in the order of the log, come from a clock that was set, s.
 _SET_BACK = 1.0
-
-
-class TimedCommands(NamedTuple):
-    """TimedCommands of one kind: times of the odometry's clock (s), and values (rad, N or per cent)."""
-
-    t: Column
-    value: Column
 
 
 class Manoeuvring(NamedTuple):
@@ -86,15 +77,20 @@ def manoeuvres_in(
     if planes is not None:  # makes a run in three dimensions
         motion[planes.name] = dataclasses.replace(planes, type=topics.STERNPLANE_CMD.type)
     frames = frames or FrameIds()
-    run = run_of(dataclasses.replace(bag, topics=motion), namespace, frames)
     odom = _columns(bag, found[topics.ODOM], topics.ODOM)
+    log = _columns(bag, found[topics.WATER_VELOCITY], topics.WATER_VELOCITY)
+    odom_axes = _convention(bag, topics.ODOM, frames, odom.columns.frames)
+    log_axes = _convention(bag, topics.WATER_VELOCITY, frames, log.columns.frames)
+    run = run_of(dataclasses.replace(bag, topics=motion), namespace, frames)
     _check_clock(path, odom)
-    water_t, water = _water(bag, found[topics.WATER_VELOCITY], frames)
-    rudder, thrust, sternplanes = (_commands(bag, found[topic], odom) for topic in _COMMANDS)
+    water_t, water = _water(bag, log, log_axes)
+    rudder, thrust, sternplanes = (
+        timed_commands(bag, found[topic], odom.log_ns, odom.columns.stamp_ns) for topic in _COMMANDS
+    )
     if rudder is None or thrust is None:
         raise _missing(bag, topics.RUDDER_CMD if rudder is None else topics.THRUST_CMD)
     spatial = sternplanes if isinstance(run, SpatialRun) else None
-    return Manoeuvring(run, _over(run, odom, frames), water_t, water, rudder, thrust, spatial)
+    return Manoeuvring(run, _over(run, odom, odom_axes), water_t, water, rudder, thrust, spatial)
 
 
 def _missing(bag: Bag, topic: Topic) -> ConfigurationError:
@@ -165,12 +161,18 @@ def _check_clock(path: Path, odom: _Decoded) -> None:
 
 
 def _convention(bag: Bag, topic: Topic, ids: FrameIds, frames: tuple[tuple[str, ...], ...]) -> Convention:
+    """Return the axes of a topic's messages.
+
+    Raises:
+        ConfigurationError: frame ids that are unknown, with the option that gives their axes, or that change.
+    """
     table = FrameTable(ids)
     try:
         (names,) = frames
         return table.of_pose(topic.name, *names) if len(names) == 2 else table.of_body(topic.name, *names)
     except MessageRefused as refused:
-        raise ConfigurationError(f"{bag.path}: {refused.topic}", refused.found, refused.expected) from None
+        expected = f"{refused.expected}, or their axes by --frame ID=AXES"
+        raise ConfigurationError(f"{bag.path}: {refused.topic}", refused.found, expected) from None
     except ValueError:
         listed = " and ".join(map(repr, frames)) or "no frame id"
         raise ConfigurationError(
@@ -178,12 +180,21 @@ def _convention(bag: Bag, topic: Topic, ids: FrameIds, frames: tuple[tuple[str, 
         ) from None
 
 
-def _water(bag: Bag, topic: RecordedTopic | None, ids: FrameIds) -> tuple[Column, Column]:
-    """Return stamps and values of new samples: a repeated one is no sample."""
-    _, columns = _columns(bag, topic, topics.WATER_VELOCITY)
-    down = _convention(bag, topics.WATER_VELOCITY, ids, columns.frames) is Convention.NED_FRD
-    values = np.array([columns.column(f"twist.twist.linear.{axis}") for axis in "xyz"]).T
-    values[:, 1:] *= 1.0 if down else -1.0
+def _velocity(columns: Columns, axes: Convention) -> Column:
+    """Return the linear velocity of every message, FRD, (n, 3), m/s."""
+    velocity = np.array([columns.column(f"twist.twist.linear.{axis}") for axis in "xyz"]).T
+    velocity[:, 1:] *= 1.0 if axes is Convention.NED_FRD else -1.0
+    return velocity
+
+
+def _water(bag: Bag, log: _Decoded, axes: Convention) -> tuple[Column, Column]:
+    """Return stamps (s) and values (FRD, m/s) of new samples: a repeated one is no sample.
+
+    Raises:
+        ConfigurationError: no message has a finite velocity.
+    """
+    columns = log.columns
+    values = _velocity(columns, axes)
     t = columns.stamp_ns * 1e-9
     order = np.argsort(t, kind="stable")
     t, values = t[order], values[order]
@@ -197,53 +208,11 @@ def _water(bag: Bag, topic: RecordedTopic | None, ids: FrameIds) -> tuple[Column
     return t[new], values[new]
 
 
-def _over(run: Run, odom: _Decoded, ids: FrameIds) -> Column:
+def _over(run: Run, odom: _Decoded, axes: Convention) -> Column:
     """Return the velocity over ground at the run's stamps, FRD, (n, 3), m/s."""
-    over = np.array([odom.columns.column(f"twist.twist.linear.{axis}") for axis in "xyz"]).T
-    ned = FrameTable(ids).of_pose(topics.ODOM.name, *odom.columns.frames[0]) is Convention.NED_FRD
-    over[:, 1:] *= 1.0 if ned else -1.0
+    over = _velocity(odom.columns, axes)
     stamps = odom.columns.stamp_ns * 1e-9
     order = np.argsort(stamps, kind="stable")
     rows = np.clip(np.searchsorted(stamps[order], run.t), 0, stamps.size - 1)
     found: Column = over[order][rows]
     return found
-
-
-def _commands(bag: Bag, topic: RecordedTopic | None, odom: _Decoded) -> TimedCommands | None:
-    """Return commands on the odometry's clock; None where there are none while the odometry runs.
-
-    Where one command is logged after each odometry and before the next one, it belongs to that odometry's
-    stamp (lockstep); others to the time by the log's clock, between the odometries around it.
-    """
-    if topic is None or not topic.count:
-        return None
-    if topic.type not in _NUMBERS:
-        expected = f"one of {', '.join(_NUMBERS)}"
-        raise ConfigurationError(f"{bag.path}: {topic.name.rsplit('/', 1)[-1]}", topic.type, expected)
-    decoder = deserializer(topic)
-    log_ns, values = [], []
-    for at in np.argsort(np.array(topic.log_ns, np.int64), kind="stable"):
-        data: Any = topic.messages[at]
-        if data is not None:
-            log_ns.append(topic.log_ns[at])
-            values.append(float(decoder(data).data))
-    value, stamps = np.array(values), odom.columns.stamp_ns * 1e-9
-    if _answers_each(np.array(log_ns, np.int64), odom.log_ns):
-        t = stamps
-    else:
-        logged = (np.array(log_ns) - odom.log_ns[0]) * 1e-9
-        own = (odom.log_ns - odom.log_ns[0]) * 1e-9
-        growing = np.append(True, np.diff(np.maximum.accumulate(own)) > 0.0)
-        t = np.interp(logged, own[growing], stamps[growing], left=np.nan, right=np.nan)
-    kept = np.isfinite(t) & np.isfinite(value)
-    if not kept.any():
-        return None
-    order = np.argsort(t[kept], kind="stable")
-    return TimedCommands(t[kept][order], value[kept][order])
-
-
-def _answers_each(commands_ns: NDArray[np.int64], odometry_ns: NDArray[np.int64]) -> bool:
-    """Return whether each odometry has one command, logged between it and the next odometry."""
-    if commands_ns.size != odometry_ns.size:
-        return False
-    return bool((commands_ns >= odometry_ns).all() and (commands_ns[:-1] < odometry_ns[1:]).all())

@@ -76,13 +76,7 @@ def read(options: argparse.Namespace, vehicle: Vehicle, hull: Hull) -> list[Reco
         names[name] = other
     frames, found = frames_with(options.frame), []
     for path in options.bag:
-        try:
-            recorded = manoeuvres_in(path, names, options.namespace, frames=frames)
-        except ConfigurationError as error:
-            if "frame" not in error.found:
-                raise
-            expected = f"{error.expected}, or their axes by --frame ID=AXES"
-            raise ConfigurationError(error.where, error.found, expected) from None
+        recorded = manoeuvres_in(path, names, options.namespace, frames=frames)
         check_commands(recorded.rudder.value, recorded.thrust.value, vehicle, str(path))
         found.append(Recorded(planar(recorded, vehicle, hull, str(path)), diving(recorded, vehicle, hull)))
     return found

@@ -1,0 +1,80 @@
+"""Commands of a recording: numbers, on the clock of the odometry's stamps."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.bags.reading.deserialize import deserializer
+from auv_sim.bags.reading.recording import Bag, RecordedTopic
+
+Column = NDArray[np.float64]
+Times = NDArray[np.int64]
+#: Types of commands: one number named `data`. The contract's is the first.
+_NUMBERS = tuple(f"std_msgs/msg/{kind}" for kind in ("Float64", "Float32", "Int16", "Int32", "UInt16"))
+
+
+class TimedCommands(NamedTuple):
+    """Commands of one kind: times of the odometry's clock (s), and values (rad, N or per cent)."""
+
+    t: Column
+    value: Column
+
+
+def timed_commands(
+    bag: Bag, topic: RecordedTopic | None, odom_log_ns: Times, odom_stamp_ns: Times
+) -> TimedCommands | None:
+    """Return commands on the odometry's clock; None where there are none while the odometry runs.
+
+    Where one command is logged after each odometry and before the next one, it belongs to that odometry's
+    stamp (lockstep); others to the time by the log's clock, between the odometries around it.
+
+    Args:
+        bag: the recording.
+        topic: of the commands; None if there is none.
+        odom_log_ns, odom_stamp_ns: log times and stamps of the odometries by log time, ns, (n,).
+
+    Raises:
+        ConfigurationError: the topic's messages hold no number.
+    """
+    if topic is None or not topic.count:
+        return None
+    if topic.type not in _NUMBERS:
+        expected = f"one of {', '.join(_NUMBERS)}"
+        raise ConfigurationError(f"{bag.path}: {topic.name.rsplit('/', 1)[-1]}", topic.type, expected)
+    log_ns, value = _logged(topic)
+    stamps = odom_stamp_ns * 1e-9
+    if _answers_each(log_ns, odom_log_ns):
+        t = stamps
+    else:
+        logged = (log_ns - odom_log_ns[0]) * 1e-9
+        own = (odom_log_ns - odom_log_ns[0]) * 1e-9
+        growing = np.append(True, np.diff(np.maximum.accumulate(own)) > 0.0)
+        t = np.interp(logged, own[growing], stamps[growing], left=np.nan, right=np.nan)
+    kept = np.isfinite(t) & np.isfinite(value)
+    if not kept.any():
+        return None
+    order = np.argsort(t[kept], kind="stable")
+    return TimedCommands(t[kept][order], value[kept][order])
+
+
+def _logged(topic: RecordedTopic) -> tuple[Times, Column]:
+    """Return log times (ns) and numbers of a topic's messages, by log time."""
+    decoder = deserializer(topic)
+    log_ns, values = [], []
+    for at in np.argsort(np.array(topic.log_ns, np.int64), kind="stable"):
+        data: Any = topic.messages[at]
+        if data is not None:
+            log_ns.append(topic.log_ns[at])
+            values.append(float(decoder(data).data))
+    return np.array(log_ns, np.int64), np.array(values)
+
+
+def _answers_each(commands_ns: Times, odometry_ns: Times) -> bool:
+    """Return whether each odometry has one command, logged between it and the next odometry."""
+    if commands_ns.size != odometry_ns.size:
+        return False
+    return bool((commands_ns >= odometry_ns).all() and (commands_ns[:-1] < odometry_ns[1:]).all())
