@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import signal
@@ -15,8 +16,7 @@ import pytest
 from auv_path_following.missions import mission_file
 from auv_sim.bags.reading.growing_bag import has_message
 from auv_sim.cli.mission import main
-from auv_sim.launch import mission_plan
-from auv_sim.launch.launcher import domain_of
+from auv_sim.launch import launcher, mission_plan
 from auv_sim.launch.options import Options
 
 CommandLine = Callable[..., list[str]]
@@ -206,8 +206,14 @@ def test_a_vehicles_ros_domain_is_the_shells(
     monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)
     if named is not None:
         monkeypatch.setenv("ROS_DOMAIN_ID", named)
-    with domain_of(mission_plan.make(Options(no_sim=True), tmp_path)) as found:
+    with launcher.domain_of(mission_plan.make(Options(no_sim=True), tmp_path)) as found:
         assert found == number
+    simulated = mission_plan.make(Options(), tmp_path)
+    with launcher.domain_of(simulated, nodes_are_launched=True) as found:
+        assert found == number
+    monkeypatch.setattr(launcher, "free_domain", lambda: contextlib.nullcontext(99))
+    with launcher.domain_of(simulated) as found:
+        assert found == 99
 
 
 def test_a_plan_is_flown_and_leaves_a_mission_file_that_flies_the_same(

@@ -27,20 +27,21 @@ from auv_sim.launch.vehicle_driver import EMULATOR, EMULATOR_MODULE
 _COMPOSED = "composed"
 
 
-def domain_of(plan: Plan, domain: int | None = None) -> AbstractContextManager[int]:
-    """Return a context of the ROS domain: asked for; without a simulator that of the environment; else free.
+def domain_of(plan: Plan, nodes_are_launched: bool = False) -> AbstractContextManager[int]:
+    """Return a context of a flight's ROS domain.
 
-    A free domain is claimed until the context ends.
+    The domain is that of `--domain`; else that of the environment where others share it, which are a vehicle
+    or the processes of `ros2 launch`; else a free one, claimed until the context ends.
 
     Args:
-        plan: of a mission.
-        domain: asked for in place of the plan's; None: not.
+        plan: of the flight.
+        nodes_are_launched: whether `ros2 launch` starts the nodes.
 
     Raises:
-        ConfigurationError: ROS_DOMAIN_ID is not a domain.
+        ConfigurationError: ROS_DOMAIN_ID is not a domain, or none is free.
     """
-    asked = plan.options.domain if domain is None else domain
-    if asked is None and plan.options.no_sim:
+    asked = plan.options.domain
+    if asked is None and (plan.options.no_sim or nodes_are_launched):
         asked = domain_of_environment()
     return free_domain() if asked is None else nullcontext(asked)
 

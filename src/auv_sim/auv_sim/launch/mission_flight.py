@@ -29,20 +29,20 @@ _EXIT = {
 }
 
 
-def fly(options: Options, loader: Starter, domain: int | None = None) -> int:
+def fly(options: Options, loader: Starter, nodes_are_launched: bool = False) -> int:
     """Fly a mission from its files to its picture; returns the exit code.
 
     Args:
         options: the command line.
         loader: of the nodes.
-        domain: ROS domain; None for the launcher's choice.
+        nodes_are_launched: whether `ros2 launch` starts the nodes.
 
     Raises:
         SuiteError: from the launcher or the mission check.
     """
     directory = run_directory(options)
     resolved = prepare(options, directory)
-    with launcher.domain_of(resolved, domain) as chosen:
+    with launcher.domain_of(resolved, nodes_are_launched) as chosen:
         return _fly(resolved, directory, chosen, loader)
 
 

@@ -23,14 +23,14 @@ def run_directory(fleet: str, options: Options) -> Path:
     return mission_flight.run_directory(dataclasses.replace(options, mission=Path(fleet).stem))
 
 
-def fly(fleet: str, options: Options, loader: Starter, domain: int | None = None) -> int:
+def fly(fleet: str, options: Options, loader: Starter, nodes_are_launched: bool = False) -> int:
     """Fly a fleet from its file to its picture.
 
     Args:
         fleet: its file, or the name of a shipped one.
         options: the command line; each vehicle's mission has further ones from the file.
         loader: of the nodes.
-        domain: ROS domain; None for the launcher's choice.
+        nodes_are_launched: whether `ros2 launch` starts the nodes.
 
     Returns:
         0 if every mission is complete, 1 if one is not, 130 after an interruption.
@@ -41,7 +41,7 @@ def fly(fleet: str, options: Options, loader: Starter, domain: int | None = None
     directory = run_directory(fleet, options)
     plan = fleet_plan.make(fleet, options, directory)
     any_member = next(iter(plan.members.values()))  # all of a fleet are in one domain
-    with launcher.domain_of(any_member, domain) as chosen:
+    with launcher.domain_of(any_member, nodes_are_launched) as chosen:
         return _fly(plan, directory, chosen, options.quiet, loader)
 
 

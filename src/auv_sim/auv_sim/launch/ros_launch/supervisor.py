@@ -56,22 +56,22 @@ def main(argv: Sequence[str] | None = None) -> int:
         given["no_sim"] = True
     options = checked_options(given)
     directory = mission_flight.run_directory(options)
-    domain = launcher.domain_of_environment() if options.domain is None else options.domain
     options = dataclasses.replace(options, out=directory)
     nodes = NodesFile(directory)
     if not nodes_only:
-        return mission_flight.fly(options, nodes, domain)
+        return mission_flight.fly(options, nodes, nodes_are_launched=True)
     plan = mission_flight.prepare(options, directory)
     if no_recorder:
         kept = {name: settings for name, settings in plan.parameters.items() if name != topics.RECORDER}
         plan = dataclasses.replace(plan, parameters=kept)
-    make_directory(directory, new=True)
-    mission_flight.announce(plan, domain, console())
-    try:
-        _stand_by(plan, directory, domain, nodes, ends)
-    except GraphTaken:
-        shutil.rmtree(directory)  # nothing was started: the same command must work again
-        raise
+    with launcher.domain_of(plan, nodes_are_launched=True) as domain:
+        make_directory(directory, new=True)
+        mission_flight.announce(plan, domain, console())
+        try:
+            _stand_by(plan, directory, domain, nodes, ends)
+        except GraphTaken:
+            shutil.rmtree(directory)  # nothing was started: the same command must work again
+            raise
     return EXIT_DONE
 
 
@@ -80,9 +80,8 @@ def _fly_fleet(fleet: str, given: dict[str, Any]) -> int:
     from auv_sim.launch.fleet import fleet_flight
 
     directory = fleet_flight.run_directory(fleet, options)
-    domain = launcher.domain_of_environment() if options.domain is None else options.domain
     options = dataclasses.replace(options, out=directory)
-    return fleet_flight.fly(fleet, options, NodesFile(directory), domain)
+    return fleet_flight.fly(fleet, options, NodesFile(directory), nodes_are_launched=True)
 
 
 def _stand_by(plan: Plan, directory: Path, domain: int, nodes: NodesFile, ends: bool) -> None:
