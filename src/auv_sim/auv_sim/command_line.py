@@ -21,6 +21,7 @@ from auv_msgs_py.values.errors import (
     printable,
     printable_lines,
 )
+from auv_msgs_py.values.ros_domain import EXPECTED, is_ros_domain
 
 P = ParamSpec("P")
 A = TypeVar("A", bound=argparse.Action)
@@ -163,8 +164,8 @@ def ros_namespace(text: str) -> str:
 
 def ros_domain(text: str) -> int:
     """Parse a ROS domain."""
-    if not text.isdecimal() or int(text) > 232:
-        raise argparse.ArgumentTypeError(f"found '{text}', expected a ROS domain from 0 to 232")
+    if not is_ros_domain(text):
+        raise argparse.ArgumentTypeError(f"found '{text}', expected {EXPECTED}")
     return int(text)
 
 

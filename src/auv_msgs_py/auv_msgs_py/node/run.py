@@ -22,6 +22,7 @@ from auv_msgs_py.node.ros_arguments import check_parameter_files
 from auv_msgs_py.node.runtime import SuiteNode
 from auv_msgs_py.node.start_gate import is_gated, pass_gate
 from auv_msgs_py.values.errors import SuiteError, printable
+from auv_msgs_py.values.ros_domain import domain_of_environment
 
 try:
     from rclpy.experimental import EventsExecutor
@@ -32,6 +33,20 @@ except ImportError:  # an rclpy without it: slower, otherwise the same
 EXIT_BAD_INPUT = 2
 #: Longest time that nodes may continue after a stop was requested, s of wall time.
 _GRACE = 5.0
+
+
+def start_ros(args: Sequence[str] | None = None) -> None:
+    """Initialise rclpy for its default context, without its signal handlers.
+
+    Args:
+        args: words with arguments for ROS; those of the process if None.
+
+    Raises:
+        ConfigurationError: ROS_DOMAIN_ID is not a domain.
+        RuntimeError: arguments that ROS does not understand.
+    """
+    domain_of_environment()  # on one that is none, rclpy raises an error or ends the process
+    rclpy.init(args=args if args is None else list(args), signal_handler_options=SignalHandlerOptions.NO)
 
 
 class StopRequest:
@@ -126,7 +141,7 @@ def run_nodes(factories: Sequence[Callable[[], SuiteNode]], args: Sequence[str] 
     ensure_log_directory()
     try:
         check_parameter_files(sys.argv if args is None else args)
-        rclpy.init(args=args if args is None else list(args), signal_handler_options=SignalHandlerOptions.NO)
+        start_ros(args)
     except (SuiteError, RuntimeError) as error:  # RuntimeError: arguments that ROS does not understand
         print(printable(str(error)), file=sys.stderr)
         return EXIT_BAD_INPUT

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 from contextlib import AbstractContextManager, nullcontext
@@ -10,8 +9,7 @@ from pathlib import Path
 
 from auv_msgs_py.contract import topics
 from auv_msgs_py.node.run import StopRequest
-from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.command_line import ros_domain
+from auv_msgs_py.values.ros_domain import domain_of_environment
 from auv_sim.launch.composed import NODES
 from auv_sim.launch.mission_plan import Plan
 from auv_sim.launch.operation import console_child
@@ -44,19 +42,6 @@ def domain_of(plan: Plan, nodes_are_launched: bool = False) -> AbstractContextMa
     if asked is None and (plan.options.no_sim or nodes_are_launched):
         asked = domain_of_environment()
     return free_domain() if asked is None else nullcontext(asked)
-
-
-def domain_of_environment() -> int:
-    """Return the ROS domain of the environment; as in ROS, an empty or missing variable means 0.
-
-    Raises:
-        ConfigurationError: ROS_DOMAIN_ID is not a domain.
-    """
-    try:
-        return ros_domain(os.environ.get("ROS_DOMAIN_ID") or "0")
-    except argparse.ArgumentTypeError:
-        found = repr(os.environ["ROS_DOMAIN_ID"])
-        raise ConfigurationError("ROS_DOMAIN_ID", found, "a ROS domain from 0 to 232") from None
 
 
 def fly(plan: Plan, directory: Path, domain: int, progress: ProgressDisplay, loader: Starter) -> Outcome:

@@ -13,7 +13,6 @@ from geometry_msgs.msg import Vector3Stamped
 from nav_msgs.msg import Odometry
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
-from rclpy.signals import SignalHandlerOptions
 from std_msgs.msg import Float64, String
 from std_srvs.srv import Trigger
 
@@ -24,6 +23,7 @@ from auv_msgs_py.contract.mission_word import PERIOD, MissionState, MissionWord
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.node.graph_look import GraphLook
 from auv_msgs_py.node.private_rclpy import take_polled
+from auv_msgs_py.node.run import start_ros
 from auv_msgs_py.values.errors import MessageRefused
 from auv_sim.launch.operation.flown_missions import FlownMissions
 
@@ -42,7 +42,7 @@ class Monitor:
 
     def __init__(self, namespace: str) -> None:
         if not rclpy.ok():  # another vehicle's monitor may have initialised it
-            rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+            start_ros([])
         self.node = Node(topics.LAUNCHER, namespace=namespace, start_parameter_services=False)
         self._executor = SingleThreadedExecutor()
         self._executor.add_node(self.node)

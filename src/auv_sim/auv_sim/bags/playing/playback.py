@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 import rclpy
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
-from rclpy.signals import SignalHandlerOptions
 from rich.console import Console
 from rosbags.interfaces import QosDurability, QosReliability
 from rosbags.rosbag2.metadata import parse_qos
@@ -20,6 +19,7 @@ from auv_msgs_py.contract.conversions import set_stamp
 from auv_msgs_py.contract.qos import message_class
 from auv_msgs_py.contract.topics import CLOCK
 from auv_msgs_py.node.graph_look import GraphLook, GraphTaken
+from auv_msgs_py.node.run import start_ros
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.playing.keyboard import Keyboard
 from auv_sim.bags.playing.play_bar import PlayBar
@@ -137,7 +137,7 @@ class Player:
 
     def __init__(self, selected: Selected, rate: float, clock: bool, console: Console) -> None:
         self._selected, self._rate, self._console = selected, rate, console
-        rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+        start_ros([])
         self._node = rclpy.create_node("replay")
         if clock or CLOCK.name in selected.topics:
             self._look_around()

@@ -18,11 +18,11 @@ from typing import Any
 
 import rclpy
 from aiohttp import web
-from rclpy.signals import SignalHandlerOptions
 
 from auv_msgs_py.contract import topics
-from auv_msgs_py.node.run import StopRequest
+from auv_msgs_py.node.run import StopRequest, start_ros
 from auv_msgs_py.values.errors import ConfigurationError
+from auv_msgs_py.values.ros_domain import domain_of_environment
 from auv_sim.command_line import EXIT_DONE, say
 from auv_sim.launch.processes import discovery
 from auv_sim.nodes.console.graph_feed import GraphFeed
@@ -96,7 +96,7 @@ class ConsoleSession:
         self._deeds = OperatorDeeds(node, self._caller, shelf, self._is_here)
         self._feeds: list[VehicleFeed] = []
         self._server: PageServer | None = None
-        domain = int(os.environ.get("ROS_DOMAIN_ID") or 0)
+        domain = domain_of_environment()
         self._graph = GraphFeed(
             node, options.namespaces, cache, domain, self._discovered, self._publish, self._faults
         )
@@ -175,7 +175,7 @@ def serve(options: ConsoleOptions) -> int:
     cache = _cache() if options.keep else None
     tokens = new_tokens(options.view_only)
     stop = StopRequest()
-    rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+    start_ros([])
     node = rclpy.create_node(topics.CONSOLE, start_parameter_services=False)
     try:
         session = ConsoleSession(options, node, shelf, tokens, port, cache)

@@ -16,7 +16,6 @@ from typing import Any
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
-from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from visualization_msgs.msg import MarkerArray
@@ -27,7 +26,7 @@ from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.node import params
 from auv_msgs_py.node.log_directory import ensure_log_directory
 from auv_msgs_py.node.ros_arguments import check_parameter_files
-from auv_msgs_py.node.run import EXIT_BAD_INPUT, StopRequest
+from auv_msgs_py.node.run import EXIT_BAD_INPUT, StopRequest, start_ros
 from auv_msgs_py.node.start_gate import pass_gate
 from auv_msgs_py.values.errors import MessageRefused, SuiteError, printable
 from auv_path_following import vehicle as vehicles
@@ -119,7 +118,7 @@ def main(args: Sequence[str] | None = None) -> int:
         check_parameter_files(sys.argv if args is None else args)
         if not pass_gate(lambda: stop.requested):
             return 0
-        rclpy.init(args=args if args is None else list(args), signal_handler_options=SignalHandlerOptions.NO)
+        start_ros(args)
         node = DisplayNode()
         _poll(node, stop)
         return 0

@@ -137,16 +137,15 @@ def serve(namespace: str, address: str, port: int, domain: int | None) -> int:
     foxglove = sdk()
     import rclpy
     from rclpy.experimental import EventsExecutor
-    from rclpy.signals import SignalHandlerOptions
     from rclpy.task import Future
 
     from auv_msgs_py.contract.frames import FrameIds, FrameTable
-    from auv_msgs_py.node.run import StopRequest
+    from auv_msgs_py.node.run import StopRequest, start_ros
 
     if domain is not None:
         os.environ["ROS_DOMAIN_ID"] = str(domain)
     stop = StopRequest()
-    rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+    start_ros([])
     node = rclpy.create_node("live_view", namespace=namespace, start_parameter_services=False)
     try:
         bridge = Bridge(node, foxglove, FrameTable(FrameIds()))

@@ -13,9 +13,8 @@ import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from rclpy.signals import SignalHandlerOptions
 
-from auv_msgs_py.node.run import StopRequest
+from auv_msgs_py.node.run import StopRequest, start_ros
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import vehicle
 from auv_path_following.vehicle import Vehicle
@@ -86,7 +85,7 @@ def _ask(consent: bool, consent_option: str, hull: Vehicle) -> None:
 
 
 def _check(options: argparse.Namespace, arguments: list[str], hull: Vehicle) -> int:
-    rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
+    start_ros(arguments)
     stop = StopRequest()
     node = Node("check_vehicle", start_parameter_services=False)
     if options.namespace is None:
