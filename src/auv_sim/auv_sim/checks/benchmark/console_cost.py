@@ -23,7 +23,7 @@ from auv_sim.checks.benchmark.usage import memory
 
 _MODULE = "auv_sim.cli.console"
 #: Longest wall time for the nodes to find each other, and for an answer, s.
-_PATIENCE = 90.0
+_PATIENCE = 180.0
 _BEFORE = "console: "
 
 

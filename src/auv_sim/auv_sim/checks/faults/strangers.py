@@ -37,7 +37,7 @@ from auv_sim.nodes.mavlink.transport.datagrams import Codec
 LEAST_SHARE = 0.95
 _DRIVER_MODULE = "auv_sim.nodes.mavlink.driver"
 #: For the first odometry, and for the strangers to be sure of a start after it, s of wall time.
-_PATIENCE, _SETTLING = 60.0, 2.0
+_PATIENCE, _SETTLING = 180.0, 2.0
 #: Beyond this the generator stops whatever happens, s.
 _LONGEST = 600.0
 

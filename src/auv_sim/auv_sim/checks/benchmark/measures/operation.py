@@ -20,7 +20,7 @@ from auv_sim.launch.composed import NODES
 from auv_sim.launch.options import Options
 
 #: Longest wall time for the nodes to find each other, and for an answer, s.
-_PATIENCE = 90.0
+_PATIENCE = 180.0
 
 
 def abort_figures(scale: Scale, tick: Tick) -> dict[str, Any]:

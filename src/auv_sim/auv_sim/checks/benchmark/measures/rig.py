@@ -31,7 +31,7 @@ _GRAPH = tuple(name for name in NODES if name not in (topics.MAVLINK_DRIVER, top
 _TIMED = "auv_sim.checks.benchmark.measures.timed_plant"
 _FLOOR = "auv_sim.checks.benchmark.measures.floor"
 #: Wall time for the nodes to find each other, and for a measurement that is expected to take no time, s.
-_PATIENCE = 90.0
+_PATIENCE = 180.0
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from auv_sim.bags.reading.growing_bag import has_message
 from auv_sim.checks.benchmark.measures.children import BenchmarkFailed, interruptible
 from auv_sim.checks.benchmark.measures.rig import NAMESPACE
 
-_PATIENCE = 90.0
+_PATIENCE = 180.0
 #: The launcher's module, by today's name and by its former one.
 _LAUNCHERS = ("auv_sim.cli.mission", "auv_sim.mission")
 _TOPIC = topics.full_name(NAMESPACE, topics.RUDDER_CMD.name)
