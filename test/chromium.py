@@ -22,6 +22,8 @@ _FLAGS = (
     "--disable-extensions", "--disable-background-networking", "--disable-component-update",
     "--disable-dev-shm-usage", "--mute-audio", "--hide-scrollbars",
 )  # fmt: skip
+#: How long anything may take on a busy machine, s.
+_PATIENCE = 180.0
 
 
 class Tab:
@@ -60,7 +62,7 @@ class Tab:
         self._next += 1
         future = self._pending[self._next] = asyncio.get_running_loop().create_future()
         await self._socket.send_str(json.dumps({"id": self._next, "method": method, "params": params}))
-        data = await asyncio.wait_for(future, 30.0)
+        data = await asyncio.wait_for(future, _PATIENCE)
         assert "error" not in data, f"{method}: {data.get('error')}"
         return data["result"]
 
@@ -72,7 +74,7 @@ class Tab:
         assert "exceptionDetails" not in found, json.dumps(found["exceptionDetails"])[:800]
         return found["result"].get("value")
 
-    async def until(self, expression: str, seconds: float = 10.0) -> None:
+    async def until(self, expression: str, seconds: float = _PATIENCE) -> None:
         """Wait until an expression is true."""
         for _ in range(int(seconds / 0.05)):
             if await self.value(f"(async () => !!(await ({expression})))()"):
@@ -115,15 +117,22 @@ class Tab:
         await self.call("Input.dispatchMouseEvent", type=f"mouse{kind}", x=x, y=y, **held)
 
     async def click(self, selector: str, seconds: float = 0.0) -> None:
-        """Press the left button on an element for a time."""
+        """Press the left button on an element, for a time or as shortly as possible."""
         at, before = await self.middle(selector), None
         while at != before:  # what is above it may still grow
             await asyncio.sleep(0.03)
             at, before = await self.middle(selector), at
         await self.mouse("Moved", *at)
+        if not seconds:  # both at once: nothing that this process waits for makes the press longer
+            await asyncio.gather(self.mouse("Pressed", *at), self.mouse("Released", *at))
+            return
         await self.mouse("Pressed", *at)
         await asyncio.sleep(seconds)
         await self.mouse("Released", *at)
+
+    async def stroke(self, name: str) -> None:
+        """Press a key as shortly as possible."""
+        await asyncio.gather(self.key("Down", name), self.key("Up", name))
 
     async def type(self, selector: str, text: str) -> None:
         """Replace the text of a field by typing, and leave it."""
@@ -161,7 +170,7 @@ class Chromium:
     async def begin(self) -> None:
         """Wait until the browser listens."""
         port_file = self.profile / "DevToolsActivePort"
-        for _ in range(400):
+        for _ in range(int(_PATIENCE / 0.05)):
             if port_file.is_file() and (lines := port_file.read_text().splitlines()):
                 self._address = f"http://127.0.0.1:{lines[0]}"
                 self._session = aiohttp.ClientSession()
@@ -210,7 +219,7 @@ class Background:
         self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
         self._thread.start()
 
-    def __call__(self, work: Coroutine[Any, Any, Any], seconds: float = 90.0) -> Any:
+    def __call__(self, work: Coroutine[Any, Any, Any], seconds: float = 4 * _PATIENCE) -> Any:
         """Run some work; return its result."""
         return asyncio.run_coroutine_threadsafe(work, self._loop).result(seconds)
 

@@ -16,7 +16,7 @@ from aiohttp import ClientWebSocketResponse
 from auv_sim.views.console.record.track_columns import NAMES, PLACE
 from auv_sim.views.console.record.wire_messages import ROWS_HEADER
 
-_PATIENCE = 30.0
+_PATIENCE = 180.0
 
 
 class ConsoleBrowser:

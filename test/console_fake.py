@@ -10,6 +10,7 @@ import asyncio
 import json
 import math
 import struct
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -103,6 +104,7 @@ class FakeConsole:
         self.browsers.append(socket)
         for message in self._first():
             await _send(socket, message)
+        beat = asyncio.create_task(_beat(socket))
         async for message in socket:
             if message.type == aiohttp.WSMsgType.TEXT:
                 request = json.loads(message.data)
@@ -110,6 +112,7 @@ class FakeConsole:
                 answer = {"ok": True, "message": "", **self._answer(request)}
                 await _send(socket, {"kind": "answer", "id": request.get("id"), **answer})
                 await self.publish()
+        beat.cancel()
         if socket in self.browsers:
             self.browsers.remove(socket)
         return socket
@@ -167,8 +170,7 @@ class FakeConsole:
             "covariance": [1.6, 0.4, 0.7], "health": health,
             "preflight": {"ready": self.ready, "items": [
                 {"name": "nodes heard", "ok": True, "text": "5 of 5"},
-                {"name": "navigation fresh", "ok": self.ready,
- "text": "0.1 s" if self.ready else "2.4 s old"},
+                {"name": "navigation fresh", "ok": self.ready, "text": f"{0.1 if self.ready else 2.4} s old"},
                 {"name": "plan check", "ok": True, "text": "flyable"}]},
             "can": {"start": not running, "hold": self.state == "running",
                     "resume": self.state == "holding", "abort": True},
@@ -189,10 +191,8 @@ class FakeConsole:
                 return self._checked(request["text"])
             case "load":
                 running = self.state == "running"
-                return {
-                    "ok": not running,
-                    "message": "mission_text: not while running" if running else "loaded",
-                }
+                message = "mission_text: not while running" if running else "loaded"
+                return {"ok": not running, "message": message}
             case "parameters":
                 return {"nodes": [{"node": "heading_autopilot", "parameters": self.gains}]}
             case "set":
@@ -233,6 +233,19 @@ class FakeConsole:
             await self.send(self._packed(k, first, self.flown))
         await self.publish()
 
+    async def until(self, condition: Callable[[], bool]) -> None:
+        """Wait until the page has made a condition true."""
+        for _ in range(9000):
+            if condition():
+                return
+            await asyncio.sleep(0.02)
+        raise AssertionError(f"not true within 180 s, last requests: {self.asked[-3:]}")
+
+    @property
+    def now(self) -> float:
+        """The time in the newest tick, s."""
+        return float(self._tick(0)["now"])
+
     async def publish(self) -> None:
         """Send the state, the events and the alarms to every browser."""
         for k in range(self.vehicles):
@@ -245,6 +258,13 @@ class FakeConsole:
         for browser in list(self.browsers):
             if not browser.closed:
                 await _send(browser, message)
+
+
+async def _beat(socket: web.WebSocketResponse) -> None:
+    """Send every second an answer that the page does not wait for: it gives up a server silent for 5 s."""
+    while not socket.closed:
+        await _send(socket, {"kind": "answer", "id": None})
+        await asyncio.sleep(1.0)
 
 
 async def _send(socket: web.WebSocketResponse, message: Any) -> None:

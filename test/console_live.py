@@ -62,7 +62,7 @@ class Live:
     def _end(process: subprocess.Popen[str]) -> None:
         process.send_signal(signal.SIGINT)
         try:
-            process.wait(20)
+            process.wait(180)
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()
@@ -90,13 +90,13 @@ async def opened(browser: Chromium, address: str) -> Tab:
     tab = await browser.tab()
     await tab.size(*SIZE)
     await tab.open(address)
-    await tab.until("document.getElementById('mission-name').textContent !== 'no mission'", 60.0)
+    await tab.until("document.getElementById('mission-name').textContent !== 'no mission'")
     return tab
 
 
-async def state(tab: Tab, expected: str, seconds: float = 20.0) -> None:
+async def state(tab: Tab, expected: str) -> None:
     """Wait until the badge shows a state."""
-    await tab.until(f"document.getElementById('state').dataset.state === {expected!r}", seconds)
+    await tab.until(f"document.getElementById('state').dataset.state === {expected!r}")
 
 
 async def start(tab: Tab) -> None:
@@ -106,12 +106,12 @@ async def start(tab: Tab) -> None:
     """
     said = "document.getElementById('answer').textContent"
     for _ in range(5):
-        await tab.until("document.getElementById('start').getAttribute('aria-disabled') === 'false'", 60.0)
+        await tab.until("document.getElementById('start').getAttribute('aria-disabled') === 'false'")
         await tab.value(f"{said} = ''")
         at = await tab.middle("#start")
         await tab.mouse("Moved", *at)
         await tab.mouse("Pressed", *at)
-        await tab.until(f"/^Start: .*[^…]$/.test({said})", 20.0)
+        await tab.until(f"/^Start: .*[^…]$/.test({said})")
         await tab.mouse("Released", *at)
         answer = str(await tab.value(said))
         if "nothing was sent" not in answer:
@@ -128,5 +128,5 @@ async def flown(tab: Tab, share: float, seconds: float) -> None:
 async def load_gains(tab: Tab) -> None:
     """Open the list of gains and wait until it is there."""
     await tab.click("#open-gains")
-    await tab.until("document.querySelector('.gain')", 20.0)
+    await tab.until("document.querySelector('.gain')")
     await asyncio.sleep(0.2)

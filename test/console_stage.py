@@ -77,6 +77,23 @@ def on_page(**options: Any) -> Callable[[Callable[[Tab, FakeConsole], Awaitable[
     return decorate
 
 
+async def settled(tab: Tab, fake: FakeConsole) -> None:
+    """Wait until the page has the newest rows and the tick behind them, and has painted what it has.
+
+    It paints 0.1 s after something has changed at the latest, in its own time: however late that is.
+    """
+    await tab.until(
+        "import('/page/flights.js').then(({ flights: { vehicles } }) => vehicles.length > 0 &&"
+        f" vehicles.every(v => v.tick?.now === {fake.now!r} && v.table.n === {fake.flown}))"
+    )
+    await tab.value(
+        "import('/page/painting.js').then(async ({ painting }) => { let count; do { count = painting.count;"
+        " await new Promise(done => setTimeout(done, 160));"
+        " await new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)));"
+        " } while (painting.count !== count); })"
+    )
+
+
 def by_day() -> dict[str, tuple[int, int, int]]:
     """Return the colours of the page by day: name -> red, green, blue."""
     text = (PAGE / "colours.css").read_text(encoding="utf-8")

@@ -26,7 +26,7 @@ EXECUTABLES = [
     ("auv_sim", "recorder"),
 ]
 NAMESPACE = "/colcon_test"
-PATIENCE = 30.0  # s, for a node to appear; it takes about one on an idle machine
+PATIENCE = 180.0  # s, for a node to appear; it takes about one on an idle machine
 
 
 def colcon(base: Path, *words: str | Path) -> str:

@@ -56,18 +56,18 @@ async def text(tab: Tab, name: str) -> str:
 
 async def said(tab: Tab, word: str) -> None:
     """Wait until the last answer contains a word."""
-    await tab.until(f"document.getElementById('answer').textContent.includes({word!r})", 60.0)
+    await tab.until(f"document.getElementById('answer').textContent.includes({word!r})")
 
 
 async def _drill(browser: Chromium, live: Live) -> None:
     tab = await opened(browser, live.address)
     await _load(tab)
-    await tab.until("document.getElementById('mission-name').textContent.startsWith('drill')", 60.0)
+    await tab.until("document.getElementById('mission-name').textContent.startsWith('drill')")
     await start(tab)
-    await tab.until("parseFloat(document.getElementById('lengths').textContent) > 20", 60.0)
+    await tab.until("parseFloat(document.getElementById('lengths').textContent) > 20")
     await _check(tab, MISSION.format(thrust=5.0))
     await tab.click("#load")
-    await tab.until("document.getElementById('check-lines').className === 'bad'", 60.0)
+    await tab.until("document.getElementById('check-lines').className === 'bad'")
     assert "running" in await text(tab, "check-lines")
     await tab.click("#hold")
     await state(tab, "holding")
@@ -86,8 +86,8 @@ async def _drill(browser: Chromium, live: Live) -> None:
     live.stop_console()
     await tab.until("!document.getElementById('banner').hidden")
     await asyncio.to_thread(live.serve)
-    await state(tab, "running", 60.0)
-    await tab.until(f"{rows}.then(n => n >= {before})", 60.0)
+    await state(tab, "running")
+    await tab.until(f"{rows}.then(n => n >= {before})")
     await tab.click("#abort")
     await tab.until("/^Abort: .*[^…]$/.test(document.getElementById('answer').textContent)")
     assert await text(tab, "answer") == "Abort: abort was called"
@@ -106,19 +106,19 @@ async def _load(tab: Tab) -> None:
     await tab.click("#open-mission")
     await tab.type("#mission-text", MISSION.format(thrust=-6.0))
     await tab.click("#check")
-    await tab.until("document.getElementById('check-lines').className === 'bad'", 60.0)
+    await tab.until("document.getElementById('check-lines').className === 'bad'")
     assert "thrust" in await text(tab, "check-lines")
     assert await tab.value("document.getElementById('load').disabled")
     await _check(tab, MISSION.format(thrust=6.0))
     await tab.click("#load")
-    await tab.until("document.getElementById('mission-name').textContent.startsWith('drill')", 60.0)
+    await tab.until("document.getElementById('mission-name').textContent.startsWith('drill')")
 
 
 async def _check(tab: Tab, mission: str) -> None:
     """Write a mission and check it until it may be sent."""
     await tab.type("#mission-text", mission)
     await tab.click("#check")
-    await tab.until("!document.getElementById('load').disabled", 60.0)
+    await tab.until("!document.getElementById('load').disabled")
     draft = await tab.value("import('/page/chart.js').then(m => [m.view.draft.north, m.view.draft.east])")
     end = [3000.0 * math.cos(math.radians(30.0)), 3000.0 * math.sin(math.radians(30.0))]
     assert [line[-1] for line in draft] == pytest.approx(end)

@@ -183,7 +183,7 @@ def test_a_mission_flies(line: Line, tmp_path: Path, domain: int) -> None:
         mission_cli.__name__.removesuffix(".cli"),
         *shortened(line, tmp_path / "run"),
     ]
-    done = subprocess.run(program, capture_output=True, text=True, check=False, timeout=120)
+    done = subprocess.run(program, capture_output=True, text=True, check=False, timeout=180)
     assert done.returncode == 0, done.stdout + done.stderr
 
 
@@ -200,7 +200,7 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A run directory."""
     run = tmp_path_factory.mktemp("docs") / "run"
     words = ["--mission", str(SHORT_MISSION), "--composed", "--quiet", "--out", str(run)]
-    subprocess.run([sys.executable, "-m", "auv_sim.cli.mission", *words], check=True, timeout=120)
+    subprocess.run([sys.executable, "-m", "auv_sim.cli.mission", *words], check=True, timeout=180)
     return run
 
 

@@ -120,7 +120,7 @@ def fly(mission: Path, rate: float, frames: tuple[str, str] = ("map", "base_link
     for node in (foreign.node, *nodes):
         executor.add_node(node)
 
-    def until(condition: Any, patience: float) -> bool:
+    def until(condition: Any, patience: float = 180.0) -> bool:
         deadline = time.monotonic() + patience
         while not condition():
             if time.monotonic() > deadline:
@@ -129,11 +129,11 @@ def fly(mission: Path, rate: float, frames: tuple[str, str] = ("map", "base_link
         return True
 
     try:
-        assert until(foreign.ready, 30.0)
+        assert until(foreign.ready)
         start = foreign.node.create_client(Trigger, "start")
-        assert until(start.service_is_ready, 30.0)
+        assert until(start.service_is_ready)
         start.call_async(Trigger.Request())
-        assert until(lambda: foreign.state == "running", 30.0)
+        assert until(lambda: foreign.state == "running")
         unanswered = 0
         while foreign.state == "running":
             foreign.sense()

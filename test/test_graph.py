@@ -58,12 +58,12 @@ def fly_beside_another(run: Path, domain: int) -> None:
         while not (run / "bag").exists():
             time.sleep(0.05)
         command = [sys.executable, "-m", "auv_sim.cli.mission", "--namespace", "/auv2", *asked, f"{run}2"]
-        second.append(subprocess.run(command, capture_output=True, text=True, timeout=120, check=False))
+        second.append(subprocess.run(command, capture_output=True, text=True, timeout=180, check=False))
 
     intruder = threading.Thread(target=intrude, daemon=True)
     intruder.start()
     assert main(["--params", "paper", "--current", "0.1", "0.2", *asked, str(run)]) == 0
-    intruder.join(120.0)
+    intruder.join(180.0)
     assert [(one.returncode, "/clock" in one.stderr) for one in second] == [(2, True)]
 
 
@@ -106,6 +106,12 @@ def test_two_runs_are_bit_identical_in_one_process_or_five(
     assert five == one
 
 
+def usual_distance(run: Path) -> float:
+    """The median distance from the path, m: pauses of the machine, in which nothing steers, hardly show."""
+    flown = load(run / "bag")
+    return float(np.nanmedian(np.hypot(flown.xe, flown.ye)))
+
+
 #: Says in the middle of a mission, once each, that it is over.
 FORGER = """
 import rclpy
@@ -119,22 +125,24 @@ def forge(message):
     if words and message.data > 2 - len(words) + 0.5 and state.get_subscription_count() >= 4:
         state.publish(String(data=words.pop(0)))
 node.create_subscription(Float64, "path_parameter", forge, 10)
+print("ready", flush=True)
 rclpy.spin(node)
 """
 
 
 def test_free_running_follows_the_mission_too_and_one_forged_state_ends_nothing(
-    short_mission: Path, tmp_path: Path, domain: int, spawn: Callable[..., object]
+    short_mission: Path, tmp_path: Path, domain: int, spawn: Callable[..., subprocess.Popen[str]]
 ) -> None:
-    """Against the wall clock: how near the track is depends on the machine, so the bound is wide."""
-    spawn([sys.executable, "-c", FORGER])
+    """Against the wall clock: how near the track is at its worst depends on the machine."""
+    forger = spawn([sys.executable, "-c", FORGER])
+    assert forger.stdout is not None and forger.stdout.readline() == "ready\n"
     asked = ["--mission", str(short_mission), "--quiet", "--domain", str(domain)]
     before = signal.getsignal(signal.SIGINT)
-    assert main([*asked, "--out", str(tmp_path / "free"), "--speed", "4", "--flown", "0.9"]) == 0
+    assert main([*asked, "--out", str(tmp_path / "free"), "--speed", "4", "--flown", "0.5"]) == 0
     assert signal.getsignal(signal.SIGINT) is before  # Ctrl-C is the caller's again
     summary = json.loads((tmp_path / "free" / "summary.json").read_text())
     assert (summary["completed"], summary["timing"]) == (True, "free running")
-    assert summary["largest_distance"] < 5.0
+    assert usual_distance(tmp_path / "free") < 1.0
     said = [message.data for _, message in load_messages(tmp_path / "free" / "bag", "mission_state")]
     assert {"complete", "idle"} <= set(said[said.index("running") : len(said) - said[::-1].index("running")])
 
@@ -146,8 +154,8 @@ def test_a_vehicle_of_another_project_is_driven_through_the_same_mission(
     overrides = {"speed": "4.0", "hold_until_running": "false", "initial.surge": "0.0"}
     parameters = [word for name, value in overrides.items() for word in ("-p", f"{name}:={value}")]
     spawn(command_line("auv_sim.nodes.plant_node", "--ros-args", "-r", "__ns:=/auv", *parameters))
-    asked = ["--mission", str(short_mission), "--no-sim", "--use-sim-time", "--quiet"]
+    asked = ["--mission", str(short_mission), "--no-sim", "--use-sim-time", "--quiet", "--flown", "0.5"]
     assert main([*asked, "--domain", str(domain), "--out", str(tmp_path / "run")]) == 0
     summary = json.loads((tmp_path / "run" / "summary.json").read_text())
     assert (summary["completed"], summary["timing"]) == (True, "free running")
-    assert summary["largest_distance"] < 5.0  # how near depends on the machine, see test_foreign_vehicle
+    assert usual_distance(tmp_path / "run") < 1.0

@@ -42,7 +42,7 @@ def launch(
     return command_line("auv_sim.cli.mission", *fixed, *KINDS[kind])
 
 
-def until(condition: Callable[[], object], patience: float = 120.0) -> None:
+def until(condition: Callable[[], object], patience: float = 180.0) -> None:
     deadline = time.monotonic() + patience
     while not condition():
         assert time.monotonic() < deadline, "what was waited for did not happen"
@@ -81,25 +81,32 @@ def test_the_first_mission_ends_as_if_alone(
     spawn: Callable[..., subprocess.Popen[str]],
     request: pytest.FixtureRequest,
 ) -> None:
+    vehicle = None
     if first == "no-sim":  # the vehicle: a simulator that was started by hand
         overrides = ("speed:=5.0", "initial.surge:=0.0")
         parameters = [word for value in overrides for word in ("-p", value)]
-        spawn(command_line("auv_sim.nodes.plant_node", "--ros-args", "-r", "__ns:=/auv", *parameters))
+        vehicle = spawn(
+            command_line("auv_sim.nodes.plant_node", "--ros-args", "-r", "__ns:=/auv", *parameters)
+        )
     # In lockstep long enough for a second launcher to come up beside it.
     mission = Path("paper_composite") if first == "lockstep" else short_mission
     flying = spawn(launch(command_line, mission, domain, tmp_path / "one", first, "/auv"))
     until(lambda: (tmp_path / "one" / "bag").exists() or flying.poll() is not None)
+    if vehicle is not None:  # its time stands still: the mission is still under way when the other looks
+        vehicle.send_signal(signal.SIGSTOP)
     other = spawn(launch(command_line, short_mission, domain, tmp_path / "two", second, namespace))
     if (first, second, namespace) in BESIDE:
         assert flying.wait(180) == 0
         assert other.poll() is None
         other.send_signal(signal.SIGINT)
-        assert other.wait(60) == 130
+        assert other.wait(180) == 130
     else:
         _, err = other.communicate(timeout=180)
         assert (other.returncode, len(err.splitlines())) == (2, 1), err
         assert "mission_launcher: found" in err and "nothing that runs was touched" in err
         assert not (tmp_path / "two").exists()
+        if vehicle is not None:
+            vehicle.send_signal(signal.SIGCONT)
         _, err = flying.communicate(timeout=180)
         assert flying.returncode == 0, err
     summary = json.loads((tmp_path / "one" / "summary.json").read_text())

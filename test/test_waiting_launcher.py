@@ -139,6 +139,8 @@ def test_missions_follow_each_other_until_ctrl_c(
     operator.until(lambda: operator.is_it("short", "complete") and not operator.status["begun at [s]"])
     assert operator.trigger("start")
     operator.until(lambda: operator.is_it("short", "complete") and operator.status["begun at [s]"])
+    # Guidance answers after it has reported, so that the launcher has the report as well.
+    assert not operator.trigger("hold")
     assert launcher.poll() is None
     launcher.send_signal(signal.SIGINT)
     out, err = launcher.communicate(timeout=180)

@@ -31,7 +31,7 @@ def test_what_grows_is_found_and_the_warm_up_does_not_count() -> None:
 
 
 def test_memory_of_a_child_is_read_and_drawn(tmp_path: Path) -> None:
-    sleeper = subprocess.Popen([sys.executable, "-m", "timeit", "-n", "1", "import time; time.sleep(20)"])
+    sleeper = subprocess.Popen([sys.executable, "-m", "timeit", "-n", "1", "import time; time.sleep(600)"])
     try:
         held: dict[str, int] = {}
         while held.get("timeit", 0) < 1000:  # the interpreter needs more than that once it has begun

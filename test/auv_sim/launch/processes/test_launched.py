@@ -13,7 +13,7 @@ import pytest
 from auv_sim.launch.processes.launched import Launched
 from auv_sim.launch.processes.process_group import UNKNOWN_CODE, Children
 
-SLEEPS = "import time; time.sleep(30)"
+SLEEPS = "import time; time.sleep(600)"
 
 
 @pytest.fixture
@@ -34,8 +34,8 @@ def test_it_is_found_by_its_command_line_and_ends(tmp_path: Path, process: subpr
     with pytest.raises(subprocess.TimeoutExpired):
         found.wait(0.01)
     found.send_signal(signal.SIGTERM)
-    assert found.wait(10.0) == UNKNOWN_CODE == found.poll()
-    assert process.wait(10.0) == -signal.SIGTERM
+    assert found.wait(180.0) == UNKNOWN_CODE == found.poll()
+    assert process.wait(180.0) == -signal.SIGTERM
     found.kill()  # it has ended: nothing happens, also to another process with its number
 
 

@@ -62,7 +62,7 @@ def test_a_node_that_has_died_meanwhile_is_left_to_who_watches_it() -> None:
 def sleepers() -> Iterator[dict[str, int]]:
     """A recorder and a guidance with two threads each, as processes."""
     code = (
-        "import threading, time\nthreading.Thread(target=time.sleep, args=[60]).start(); print(1, flush=True)"
+        "import threading, time\nthreading.Thread(target=time.sleep, args=[99]).start(); print(1, flush=True)"
     )
     names = (topics.RECORDER, topics.GUIDANCE)
     processes = {

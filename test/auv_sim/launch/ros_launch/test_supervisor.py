@@ -46,7 +46,7 @@ def test_it_flies_a_mission_whose_nodes_another_process_starts(
     table, errors = supervisor.communicate(timeout=180)
     assert supervisor.returncode == 0, errors
     assert "short: complete" in table
-    assert nodes.wait(10.0) == 0  # stopped by the supervisor, after the recorder has closed the bag
+    assert nodes.wait(180.0) == 0  # stopped by the supervisor, after the recorder has closed the bag
     assert json.loads((run / "summary.json").read_text())["outcome"] == "complete"
     assert (run / "bag" / "metadata.yaml").is_file() and (run / "overview.png").is_file()
     assert re.search(r"messages of \d+ topics, 0 dropped", nodes.communicate()[0])
@@ -80,7 +80,7 @@ def test_a_node_that_has_ended_is_reported_once_or_ends_all(
     children = Children(tmp_path, {})
     children.start("recorder", "no_such_module", [])
     (child,) = children
-    child.process.wait(20.0)
+    child.process.wait(180.0)
     reported: set[str] = set()
     for _ in range(3):
         _report_ended(children, reported, ends=False)

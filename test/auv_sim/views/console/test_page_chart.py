@@ -14,7 +14,7 @@ from auv_path_following.missions.geodesy import Origin
 from chromium import Tab
 from console_fake import FakeConsole
 from console_flight import COLUMNS
-from console_stage import Stage, by_day, on_page, pixels, stages
+from console_stage import Stage, by_day, on_page, pixels, settled, stages
 
 ROWS = "(await import('/page/flights.js')).flights.vehicles[0].table.n"
 PAINTS = "import('/page/painting.js').then(m => m.painting.count)"
@@ -23,15 +23,6 @@ PAINTS = "import('/page/painting.js').then(m => m.painting.count)"
 @pytest.fixture(scope="module")
 def stage() -> Iterator[Stage]:
     yield from stages()
-
-
-async def settled(tab: Tab) -> None:
-    """Wait until what has arrived is painted."""
-    count = None
-    while count != (now := await tab.value(PAINTS)):
-        count = now
-        await asyncio.sleep(0.16)
-        await tab.value("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
 
 def degrees(fake: FakeConsole, north: float, east: float) -> tuple[float, float]:
@@ -47,7 +38,7 @@ async def test_path_track_fence_and_vehicle_are_where_they_are(tab: Tab, fake: F
     colours, column = by_day(), list(COLUMNS).index
     fake.state = "running"
     await fake.advance(5)
-    await settled(tab)
+    await settled(tab, fake)
     x, y = fake.rows[600, column("x")], fake.rows[600, column("y")]
     assert colours["blue"] in await pixels(tab, float(y), float(x), 1)
     ahead = fake.rows[2000]
@@ -62,7 +53,7 @@ async def test_path_track_fence_and_vehicle_are_where_they_are(tab: Tab, fake: F
 
 @on_page()
 async def test_the_pointer_reads_degrees_range_and_bearing(tab: Tab, fake: FakeConsole) -> None:
-    await settled(tab)
+    await settled(tab, fake)
     place = await tab.value(
         "import('/page/chart.js').then(async m => {"
         " const r = document.getElementById('chart').getBoundingClientRect();"
@@ -71,7 +62,7 @@ async def test_the_pointer_reads_degrees_range_and_bearing(tab: Tab, fake: FakeC
         " return [x, y, ...placeAt(m.view, r.width, r.height, x - r.x, y - r.y)]; })"
     )
     await tab.mouse("Moved", place[0], place[1])
-    await settled(tab)
+    await settled(tab, fake)
     said = await tab.value("document.getElementById('pointer').textContent")
     latitude, longitude = degrees(fake, place[2], place[3])
     found = [float(word) for word in said.rpartition("·")[2].split(",")]
@@ -85,11 +76,11 @@ async def test_the_pointer_reads_degrees_range_and_bearing(tab: Tab, fake: FakeC
 
 @on_page()
 async def test_follow_course_up_and_the_ruler(tab: Tab, fake: FakeConsole) -> None:
-    await settled(tab)
+    await settled(tab, fake)
     for name in ("follow", "course-up", "ruler"):
         await tab.click(f"#{name}")
     await fake.advance(3)
-    await settled(tab)
+    await settled(tab, fake)
     row = dict(zip(COLUMNS, fake.rows[fake.flown - 1].tolist(), strict=True))
     view = await tab.value("import('/page/chart.js').then(m => m.view)")
     assert (view["x"], view["y"]) == pytest.approx((row["y"], row["x"]))
@@ -112,7 +103,7 @@ async def test_an_overlay_of_degrees_is_placed_by_the_origin(tab: Tab, fake: Fak
     line = {"type": "LineString", "coordinates": [[lon, lat] for lat, lon in places]}
     await choose(tab, json.dumps({"type": "Feature", "geometry": line}))
     await tab.until("document.getElementById('overlay-words').textContent.includes('1 lines')")
-    await settled(tab)
+    await settled(tab, fake)
     # Between two legs, where nothing else is drawn.
     assert by_day()["brown"] in [p for k in range(-2, 3) for p in await pixels(tab, 300.0, 250.0 + k, 2)]
     await choose(tab, '{"type": "Point", "coordinates": [630000, 103000]}')
@@ -130,7 +121,7 @@ async def choose(tab: Tab, text: str) -> None:
 
 @on_page()
 async def test_all_strips_share_one_cursor(tab: Tab, fake: FakeConsole) -> None:
-    await settled(tab)
+    await settled(tab, fake)
     titles = await tab.value(
         "[...document.querySelectorAll('.strip:not([hidden]) strong')].map(e => e.textContent)"
     )
@@ -138,7 +129,7 @@ async def test_all_strips_share_one_cursor(tab: Tab, fake: FakeConsole) -> None:
     assert "Planes (°)" not in titles
     x, y = await tab.middle(".strip:not([hidden]) canvas")
     await tab.mouse("Moved", x, y)
-    await settled(tab)
+    await settled(tab, fake)
     time = await tab.value("import('/page/strips.js').then(m => m.cursor.at)")
     assert await tab.value("document.getElementById('cursor-time').textContent") == f"at {time:.1f} s"
     row = fake.rows[fake.rows[:, 0] <= time][-1]
@@ -148,7 +139,7 @@ async def test_all_strips_share_one_cursor(tab: Tab, fake: FakeConsole) -> None:
 
 @on_page(mission="helix")
 async def test_a_dive_has_depth_and_planes(tab: Tab, fake: FakeConsole) -> None:
-    await settled(tab)
+    await settled(tab, fake)
     titles = await tab.value(
         "[...document.querySelectorAll('.strip:not([hidden]) strong')].map(e => e.textContent)"
     )
@@ -160,7 +151,7 @@ async def test_a_dive_has_depth_and_planes(tab: Tab, fake: FakeConsole) -> None:
 
 @on_page(vehicles=2)
 async def test_two_vehicles_share_the_chart(tab: Tab, fake: FakeConsole) -> None:
-    await settled(tab)
+    await settled(tab, fake)
     column = list(COLUMNS).index
     x, y = float(fake.rows[600, column("x")]), float(fake.rows[600, column("y")])
     assert by_day()["orange"] in await pixels(tab, y, x + 90.0, 1)
@@ -177,7 +168,6 @@ async def vehicles_do_not_share_what_is_prepared(tab: Tab, fake: FakeConsole) ->
     """Leave a vehicle during a press of Start, with a checked mission, and with its gains in sight."""
     at = await tab.middle("#start")
     await tab.mouse("Pressed", *at)
-    await asyncio.sleep(0.2)
     await tab.key("Down", "1")
     await asyncio.sleep(1.0)
     await tab.click("#open-mission")
@@ -195,14 +185,14 @@ async def vehicles_do_not_share_what_is_prepared(tab: Tab, fake: FakeConsole) ->
     await tab.click("#vehicles button:nth-child(1)")
     await tab.until(f"document.querySelector({field!r})")
     await tab.type(field, "0.5")
-    await asyncio.sleep(0.8)
+    await fake.until(lambda: fake.asked[-1]["do"] == "set")
     found = [(one["do"], one["namespace"]) for one in fake.asked if one["do"] not in ("abort", "missions")]
     assert found == [("check", "/auv1"), ("parameters", "/auv2"), ("parameters", "/auv1"), ("set", "/auv1")]
 
 
 @on_page()
 async def test_it_paints_ten_times_a_second_on_new_data_only(tab: Tab, fake: FakeConsole) -> None:
-    await settled(tab)
+    await settled(tab, fake)
     await asyncio.sleep(0.3)
     before = await tab.value(PAINTS)
     await asyncio.sleep(0.7)
@@ -211,27 +201,26 @@ async def test_it_paints_ten_times_a_second_on_new_data_only(tab: Tab, fake: Fak
     for _ in range(60):
         await fake.advance(1)
         await asyncio.sleep(0.01)
-    await settled(tab)
+    await settled(tab, fake)
+    await fake.advance(1)
+    await settled(tab, fake)
     seconds = (await tab.value("performance.now()") - begun) / 1000
     assert 2 <= await tab.value(PAINTS) - before <= 10 * seconds + 1
-    assert await tab.value(f"(async () => {ROWS})()") == fake.flown
 
 
 @on_page()
 async def test_a_hidden_page_paints_nothing_and_misses_nothing(tab: Tab, fake: FakeConsole) -> None:
-    await settled(tab)
+    await settled(tab, fake)
     await tab.window("minimized")
     await tab.until("document.hidden")
-    await asyncio.sleep(0.2)
     before = await tab.value(PAINTS)
     for _ in range(5):
         await fake.advance(4)
-        await asyncio.sleep(0.05)
+    await tab.until(f"(async () => {ROWS})().then(n => n === {fake.flown})")
     await asyncio.sleep(0.3)
     assert await tab.value(PAINTS) == before
     await tab.window("normal")
     await tab.until(f"{PAINTS}.then(n => n > {before})")
-    assert await tab.value(f"(async () => {ROWS})()") == fake.flown
 
 
 @on_page()
@@ -239,7 +228,7 @@ async def test_a_server_that_comes_back_shows_the_track_again(tab: Tab, fake: Fa
     port = fake.port
     await fake.stop()
     await tab.until("!document.getElementById('banner').hidden")
-    assert await tab.value("document.getElementById('state').dataset.state") == "silent"
+    await tab.until("document.getElementById('state').dataset.state === 'silent'")
     await tab.click("#abort")
     await tab.until("document.getElementById('answer').textContent === 'Abort: no link: nothing was sent'")
     fake.started = "second"
@@ -254,9 +243,10 @@ async def test_a_server_that_comes_back_shows_the_track_again(tab: Tab, fake: Fa
 @on_page()
 async def test_the_policy_against_foreign_code_is_in_force(tab: Tab, fake: FakeConsole) -> None:
     await tab.value("document.body.setAttribute('style', 'color: red')")
-    await asyncio.sleep(0.2)
-    assert "Content Security Policy" in tab.complaints.pop()
+    await fake.until(lambda: "Content Security Policy" in "".join(tab.complaints))
+    tab.complaints.clear()
     assert not await tab.value("fetch('http://127.0.0.1:9/').then(() => true, () => false)")
+    await fake.until(lambda: "Content Security Policy" in "".join(tab.complaints))
     await asyncio.sleep(0.2)
     tab.complaints.clear()
     tab.requests[:] = [url for url in tab.requests if ":9/" not in url]
@@ -265,7 +255,7 @@ async def test_the_policy_against_foreign_code_is_in_force(tab: Tab, fake: FakeC
 @on_page()
 async def test_a_phone_shows_everything_in_its_width(tab: Tab, fake: FakeConsole) -> None:
     await tab.size(390, 844, mobile=True)
-    await settled(tab)
+    await settled(tab, fake)
     assert await tab.value("document.documentElement.scrollWidth") <= 390
     for name in ("abort", "start"):
         box = await tab.value(f"document.getElementById('{name}').getBoundingClientRect().toJSON()")
@@ -275,13 +265,13 @@ async def test_a_phone_shows_everything_in_its_width(tab: Tab, fake: FakeConsole
 
 @on_page()
 async def test_night_changes_the_drawing_too(tab: Tab, fake: FakeConsole) -> None:
-    await settled(tab)
+    await settled(tab, fake)
     column = list(COLUMNS).index
     place = float(fake.rows[2000, column("y")]), float(fake.rows[2000, column("x")])
     assert await pixels(tab, *place) == [by_day()["path"]]
     await tab.click("#light")
     await tab.click("#light")
-    await settled(tab)
+    await settled(tab, fake)
     assert await tab.value("document.documentElement.dataset.light") == "night"
     assert await pixels(tab, *place) not in ([by_day()["path"]], [(0, 0, 0)])
     await tab.click("#light")

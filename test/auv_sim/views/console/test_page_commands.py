@@ -43,22 +43,27 @@ async def test_start_is_pressed_for_a_second(tab: Tab, fake: FakeConsole) -> Non
     turned = "parseFloat(getComputedStyle(document.querySelector('.ring')).getPropertyValue('--turned'))"
     look = f"most = Math.max(most, {turned}); requestAnimationFrame(look)"
     await tab.value(f"window.most = 0; window.look = () => {{ {look} }}; look()")
-    begun = time.monotonic()
-    await tab.mouse("Pressed", *at)
-    await state(tab, "running")
+    for presses in range(1, 10):  # a page that is drawn too rarely may not show the turn
+        begun = time.monotonic()
+        await tab.mouse("Pressed", *at)
+        await state(tab, "running")
+        assert time.monotonic() - begun >= 1.0
+        await tab.mouse("Released", *at)
+        assert done(fake) == ["start"] * presses
+        if await tab.value("most > 90"):
+            break
+        fake.state = "idle"
+        await fake.publish()
+        await tab.until("document.getElementById('start').getAttribute('aria-disabled') === 'false'")
     assert await tab.value("most") > 90
-    assert time.monotonic() - begun >= 1.0
-    await tab.mouse("Released", *at)
-    assert done(fake) == ["start"]
     assert fake.asked[-1]["digest"] == fake.course["mission"]["digest"]
-    assert await text(tab, "answer") == "Start: running"
+    await tab.until("document.getElementById('answer').textContent === 'Start: running'")
 
 
 @on_page()
 async def test_start_is_pressed_for_a_second_on_the_keyboard(tab: Tab, fake: FakeConsole) -> None:
     await tab.value("document.getElementById('start').focus()")
-    await tab.key("Down", "Enter")
-    await tab.key("Up", "Enter")
+    await tab.stroke("Enter")
     await asyncio.sleep(1.1)
     assert done(fake) == []
     await tab.key("Down", "Enter")
@@ -78,8 +83,10 @@ async def test_the_preflight_line_locks_start(tab: Tab, fake: FakeConsole) -> No
     fake.ready = True
     await fake.publish()
     await tab.until("document.getElementById('start').getAttribute('aria-disabled') === 'false'")
-    await tab.click("#start", 1.2)
+    at = await tab.middle("#start")
+    await tab.mouse("Pressed", *at)
     await state(tab, "running")
+    await tab.mouse("Released", *at)
 
 
 @on_page()
@@ -98,9 +105,9 @@ async def test_hold_resume_and_abort_take_one_click(tab: Tab, fake: FakeConsole)
     await state(tab, "aborted")
     await tab.click("#abort")
     await tab.key("Down", "Escape", modifiers=8)
-    await asyncio.sleep(0.2)
+    await fake.until(lambda: len(done(fake)) == 5)
     assert done(fake) == ["hold", "resume", "abort", "abort", "abort"]
-    assert "browser 1: abort" in await text(tab, "events")
+    await tab.until("document.getElementById('events').textContent.includes('browser 1: abort')")
 
 
 @on_page()
@@ -142,27 +149,26 @@ async def test_gains_change_and_limits_ask_first(tab: Tab, fake: FakeConsole) ->
     field = "[data-name='autopilot.nism.k1'] input"
     await tab.until(f"document.querySelector({field!r})")
 
-    async def enter(selector: str, value: str) -> None:
-        await tab.type(selector, value)
-        await asyncio.sleep(0.2)
+    def values() -> list[tuple[str, float]]:
+        return [(one["name"], one["value"]) for one in fake.asked if one["do"] == "set"]
 
-    await enter(field, "-3")
-    said = await tab.value(
-        f"document.querySelector({field!r}).closest('.gain').querySelector('.said').textContent"
-    )
-    assert "out of range Min: 0.0" in said
+    gain = f"document.querySelector({field!r}).closest('.gain')"
+    await tab.type(field, "-3")
+    await tab.until(f"{gain}.querySelector('.said').textContent.includes('out of range Min: 0.0')")
     assert await tab.value(f"document.querySelector({field!r}).value") == "0.45"
-    await enter(field, "many")
-    await enter(field, "0.5")
-    assert await tab.value(f"document.querySelector({field!r}).closest('.gain').className") == "gain changed"
+    await tab.type(field, "many")
+    await tab.type(field, "0.5")
+    await tab.until(f"{gain}.className === 'gain changed'")
     await tab.click("[data-name='autopilot.nism.k1'] .back")
+    await tab.until(f"{gain}.className === 'gain'")
     await tab.value("document.getElementById('limits-box').open = true")
-    await enter("#p-heading_autopilot-odometry_timeout", "2")
-    values = [(request["name"], request["value"]) for request in fake.asked if request["do"] == "set"]
-    assert values == [("autopilot.nism.k1", -3), ("autopilot.nism.k1", 0.5), ("autopilot.nism.k1", 0.45)]
-    await tab.click("[data-name='odometry_timeout'] .yes")
-    await asyncio.sleep(0.2)
-    assert fake.gains[2]["value"] == 2
+    await tab.type("#p-heading_autopilot-odometry_timeout", "2")
+    limit = "[data-name='odometry_timeout']"
+    await tab.until(f"!document.querySelector({limit + ' .confirm'!r}).hidden")
+    assert values() == [("autopilot.nism.k1", -3), ("autopilot.nism.k1", 0.5), ("autopilot.nism.k1", 0.45)]
+    await tab.click(f"{limit} .yes")
+    await fake.until(lambda: fake.gains[2]["value"] == 2)
+    assert values()[3:] == [("odometry_timeout", 2)]
     changed = {"vehicle": 0, "node": "heading_autopilot", "name": "autopilot.nism.k1", "value": 0.7}
     await fake.send({"kind": "parameters_changed", **changed})
     await tab.until(f"document.querySelector({field!r}).value === '0.7'")

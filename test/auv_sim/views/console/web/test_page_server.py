@@ -178,7 +178,7 @@ def test_a_browser_that_never_reads_is_cut_and_delays_no_other(monkeypatch: pyte
             await asyncio.sleep(0.01)
         begin, rounds = loop.time(), 0
         while bench.server.viewers == 2:
-            assert loop.time() - begin < 60.0
+            assert loop.time() - begin < 180.0
             bench.server.publish(['{"kind": "filler", "text": "' + "x" * 50_000 + '"}'] * 2)
             rounds += 1
             for _ in range(2):
