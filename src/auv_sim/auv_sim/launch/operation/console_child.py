@@ -14,7 +14,7 @@ _MODULE = "auv_sim.cli.console"
 #: Words with which the console prints its addresses.
 _ADDRESSES = ("console: ", "to look only: ", "warning ")
 #: Longest wall time until it prints them, s, in looks of `_LOOK` s.
-_PATIENCE, _LOOK = 30.0, 0.1
+_PATIENCE, _LOOK = 60.0, 0.1
 
 
 def require_library() -> None:

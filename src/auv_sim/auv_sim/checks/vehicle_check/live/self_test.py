@@ -34,13 +34,33 @@ from auv_sim.terminal import headed_table
 
 _BEGIN, _STEP = 100.0, 0.05
 #: Wall time for all to find each other, and for one step's messages to arrive, s.
-_DISCOVERY, _ARRIVAL = 30.0, 2.0
+_DISCOVERY, _ARRIVAL = 180.0, 10.0
 #: A subscription that was matched just now may miss the first message.
 _ATTEMPTS = 10
 
 
 #: A driver in the plane, or one that dives.
 AnyPlanted = Planted | PlantedDiver
+
+
+class Arrivals:
+    """Messages on their way to the other end.
+
+    Args:
+        sent: returns how many were sent.
+        heard: returns how many have arrived.
+    """
+
+    def __init__(self, sent: Callable[[], int], heard: Callable[[], int]) -> None:
+        self._sent, self._heard, self._lost = sent, heard, 0
+
+    def are_complete(self) -> bool:
+        """Return whether all have arrived but those that count as lost."""
+        return self._heard() >= self._sent() - self._lost
+
+    def give_up(self) -> None:
+        """Count as lost what has not arrived: no later step waits for it."""
+        self._lost = max(0, self._sent() - self._heard())
 
 
 class _Examinee:
@@ -55,21 +75,18 @@ class _Examinee:
             self.driver = PlantedDriver(drivers, planted, hull, _BEGIN)
         self.listener = VehicleListener(checks, self.driver.namespace, False, hull.dives)
         self.test = SmallTest(self.listener, hull)
+        self.measured = Arrivals(lambda: self.driver.sent, self._measurements)
+        self.commanded = Arrivals(self._commands, lambda: self.driver.heard)
 
-    def is_measured(self) -> bool:
-        """Whether all that the driver sent has arrived."""
-        heard, sent = self.listener.recording, self.driver.sent
+    def _measurements(self) -> int:
+        heard = self.listener.recording
         state = heard.sternplane_state if isinstance(self.planted, PlantedDiver) else heard.rudder_state
-        return len(heard.odom) >= sent and (self.planted.bare or len(state) >= sent)
+        return min(len(heard.odom), len(heard.odom if self.planted.bare else state))
 
-    def is_commanded(self) -> bool:
-        """Whether all commands have arrived, as far as the mistake allows."""
-        sent = len(self.listener.recording.thrust_cmd)
-        return self.driver.heard >= sent or self._is_deaf
-
-    @property
-    def _is_deaf(self) -> bool:
-        return isinstance(self.planted, Planted) and self.planted.latched_commands
+    def _commands(self) -> int:
+        """Return how many commands were sent that the driver can hear with its mistake."""
+        deaf = isinstance(self.planted, Planted) and self.planted.latched_commands
+        return 0 if deaf else len(self.listener.recording.thrust_cmd)
 
 
 def _look_around(node: Node, executor: EventsExecutor) -> None:
@@ -169,12 +186,19 @@ def _drive(
                 break
         for one in examinees:
             one.driver.live(now)
-        _until(lambda: all(one.is_measured() for one in examinees), _ARRIVAL, graph.checking)
+        _arrive([one.measured for one in examinees], graph.checking)
         ticks = [one.test.tick() for one in examinees]
         is_going = all(ticks)
-        _until(lambda: all(one.is_commanded() for one in examinees), _ARRIVAL, graph.driving)
+        _arrive([one.commanded for one in examinees], graph.driving)
         now += _STEP
         progress((now - _BEGIN) / (END_OF_DIVE + FAREWELL))
+
+
+def _arrive(messages: Sequence[Arrivals], executor: EventsExecutor) -> None:
+    """Spin until all messages have arrived; what is late counts as lost."""
+    _until(lambda: all(one.are_complete() for one in messages), _ARRIVAL, executor)
+    for one in messages:
+        one.give_up()
 
 
 def self_test(console: Console, hull: Vehicle) -> int:
