@@ -72,6 +72,12 @@ SHARE = "install/auv_path_following/share/auv_path_following/"
 NODES = SUITE | {"fault_relay": FaultRelayParameters, "manoeuvres": ManoeuvresParameters}
 
 
+@pytest.fixture(autouse=True)
+def _where_pages_begin(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The commands of the pages are typed in the repository."""
+    monkeypatch.chdir(ROOT)
+
+
 def test_there_is_nothing_that_no_test_looks_at() -> None:
     rest = [line for line in LINES if not line.text.startswith(FOREIGN)]
     others = [
@@ -205,8 +211,11 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize("line", [line for line in chosen("bag") if "replay" not in line.text], ids=str)
-def test_a_bag_is_looked_into(line: Line, recorded: Path) -> None:
+def test_a_bag_is_looked_into(
+    line: Line, recorded: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """replay takes as long as the flight: test_recorder_process.py runs it."""
+    monkeypatch.chdir(tmp_path)  # some of them write a picture there
     assert bag_cli.main(words_of(line, recorded)) == 0
 
 
