@@ -11,23 +11,24 @@ from std_msgs.msg import Float64
 
 
 class MinimalDriver(Node):
-    """Publish ENU odometry at 20 Hz, turn by the rudder, move under thrust, stop after 1 s of silence."""
+    """Publish ENU odometry at 20 Hz, turn and move as commanded, stop if either command is silent for 1 s."""
 
     def __init__(self) -> None:
         super().__init__("minimal_driver")
-        self.x = self.y = self.yaw = self.rudder = self.thrust = self.heard = 0.0
+        self.x = self.y = self.yaw = 0.0
+        self.rudder = self.thrust = 0.0, 0.0  # value, time of arrival
         self.odom = self.create_publisher(Odometry, "odom", 10)
         self.water = self.create_publisher(TwistWithCovarianceStamped, "velocity_through_water", 10)
-        self.create_subscription(Float64, "rudder_cmd", lambda m: setattr(self, "rudder", m.data), 10)
-        self.create_subscription(Float64, "thrust_cmd", self.on_thrust, 10)
+        for name in ("rudder", "thrust"):
+            self.create_subscription(Float64, f"{name}_cmd", lambda m, n=name: self.on_command(n, m.data), 10)
         self.create_timer(0.05, self.step)
 
-    def on_thrust(self, message: Float64) -> None:
-        self.thrust, self.heard = message.data, time.monotonic()
+    def on_command(self, name: str, value: float) -> None:
+        setattr(self, name, (value, time.monotonic()))
 
     def step(self) -> None:
-        moving = self.thrust > 0.0 and time.monotonic() - self.heard < 1.0
-        u, r = (1.8, 0.8 * self.rudder) if moving else (0.0, 0.0)  # m/s, rad/s
+        moving = self.thrust[0] > 0.0 and time.monotonic() - min(self.rudder[1], self.thrust[1]) < 1.0
+        u, r = (1.8, 0.8 * self.rudder[0]) if moving else (0.0, 0.0)  # m/s, rad/s
         self.yaw += r * 0.05
         self.x, self.y = self.x + u * math.cos(self.yaw) * 0.05, self.y + u * math.sin(self.yaw) * 0.05
         water, odom = TwistWithCovarianceStamped(), Odometry()

@@ -60,7 +60,11 @@ class MavlinkDriverParameters(NodeParameters):
         2, "output that moves the stern planes, for sternplane_state; 0: none", ge=0, le=8
     )
     command_timeout: float = setting(
-        1.0, "age of the newest command after which the vehicle is stopped", unit="s", ge=0.1, le=10.0
+        1.0,
+        "age of the newest command of a kind after which the vehicle stops",
+        unit="s",
+        ge=0.1,
+        le=10.0,
     )
     link_timeout: float = setting(
         1.0, "silence of the vehicle after which /diagnostics shows an error", unit="s", ge=0.1, le=60.0

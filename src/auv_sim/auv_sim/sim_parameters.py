@@ -91,7 +91,11 @@ class PlantParameters(NodeParameters):
         True, "free running: publish the state while it is held, for checks before the mission"
     )
     command_timeout: float = setting(
-        1.0, "age of the newest command after which rudder and thrust are 0", unit="s", ge=0.1, le=60.0
+        1.0,
+        "age of the newest command of a kind after which fins and thrust are 0",
+        unit="s",
+        ge=0.1,
+        le=60.0,
     )
     answer_timeout: float = setting(
         10.0,

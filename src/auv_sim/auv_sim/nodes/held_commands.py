@@ -1,14 +1,17 @@
-"""The commands in force until newer ones arrive. ROS-free."""
+"""The commands in force until newer ones arrive, or one is missing. ROS-free."""
 
 from __future__ import annotations
 
 from typing import Any, NamedTuple
 
 from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.mission_word import MissionState, MissionWord
 from auv_msgs_py.values.errors import MessageRefused
 from auv_msgs_py.values.types import SPATIAL_STOP, STOP
 from auv_path_following.vehicle import Vehicle
 
+#: States of a mission in which no command moves the vehicle, whatever its sender.
+_OVER = (MissionState.HOLDING, MissionState.COMPLETE, MissionState.ABORTED)
 #: Rounding by which a command may exceed a limit.
 _ROUNDING = 1e-9
 
@@ -36,22 +39,32 @@ def orders_of(vehicle: Vehicle) -> Orders:
 
 
 class HeldCommands:
-    """Keeps the newest command of each kind and its time.
+    """Keeps the newest command of each kind; the vehicle stops where one is missing or the mission is over.
 
     Args:
         orders: the commands and their limits.
+
+    Attributes:
+        mission: the state of the mission by its messages.
     """
 
     def __init__(self, orders: Orders) -> None:
-        self._limits, self._command = orders.limits, type(orders.stop)
+        self._limits, self._stop = orders.limits, orders.stop
         self._held: dict[str, tuple[float, int]] = {}
+        self._first = 0
+        self.mission = MissionWord()
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether a command of each kind has arrived."""
+        return len(self._held) == len(self._limits)
 
     def clear(self) -> None:
         """Forget all commands."""
         self._held.clear()
 
-    def put(self, topic: str, value: float, stamp: int) -> None:
-        """Keep a command of time `stamp`, ns.
+    def put(self, topic: str, value: float, now: int) -> None:
+        """Keep a command that arrives at `now`, ns.
 
         Raises:
             MessageRefused: it is beyond the actuator's limits, or NaN.
@@ -59,10 +72,34 @@ class HeldCommands:
         lowest, highest = self._limits[topic]
         if not lowest - _ROUNDING <= value <= highest + _ROUNDING:  # NaN fails this
             raise MessageRefused(topic, f"{value:g}", f"from {lowest:g} to {highest:g}")
-        self._held[topic] = value, stamp
+        if not self._held:
+            self._first = now
+        self._held[topic] = value, now
 
-    def at(self, stamp: int, bound: float) -> tuple[Any, list[str]]:
-        """Return the commands in force at `stamp` (ns), and the topics silent for more than `bound` s."""
-        held = {name: self._held.get(name, (0.0, stamp)) for name in self._limits}
-        silent = [name for name, (_, at) in held.items() if at < stamp - bound * 1e9]
-        return self._command(*(value for value, _ in held.values())), silent
+    def silent(self, now: int, timeout: float) -> list[str]:
+        """Return the topics without a command for more than `timeout` s, once any has arrived.
+
+        A topic that has never had one is silent since the first command of another. An arrival after `now`
+        (ns) is that of a clock which was set back, and counts as old.
+        """
+        if not self._held:
+            return []
+        arrivals = {name: self._held.get(name, (0.0, self._first))[1] for name in self._limits}
+        return [name for name, at in arrivals.items() if abs(now - at) > timeout * 1e9]
+
+    def in_force(self, now: int, timeout: float, wall: float) -> Any:
+        """Return the newest commands; a stop where one is overdue or the mission is over.
+
+        Args:
+            now: time of the arrivals' clock, ns.
+            timeout: age beyond which a command is overdue, s.
+            wall: steady time of the messages of the mission, s.
+        """
+        if self.mission.at(wall) in _OVER or self.silent(now, timeout):
+            return self._stop
+        return type(self._stop)(*(self._held.get(name, (0.0, 0))[0] for name in self._limits))
+
+    def complaint(self, now: int, timeout: float) -> str:
+        """Return the line for `/diagnostics`; empty where no command is overdue."""
+        silent = self.silent(now, timeout)
+        return f"no {', '.join(silent)} for {timeout:g} s: stopped" if silent else ""

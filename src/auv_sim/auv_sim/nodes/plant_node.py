@@ -12,7 +12,7 @@ from std_srvs.srv import Trigger
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.claim import Claim, of_simulator
 from auv_msgs_py.contract.conversions import finite
-from auv_msgs_py.contract.mission_word import MissionState, MissionWord
+from auv_msgs_py.contract.mission_word import MissionState
 from auv_msgs_py.contract.wire import Float64
 from auv_msgs_py.node.run import run_nodes
 from auv_msgs_py.node.runtime import SuiteNode
@@ -24,9 +24,6 @@ from auv_sim.nodes.vehicle_outputs import outputs_of
 from auv_sim.sim_parameters import PlantParameters
 from auv_sim.vehicle import sea
 from auv_sim.vehicle.diving.simulated_diver import simulated_vehicle
-
-#: States of a mission in which the free-running vehicle obeys no command: one may arrive late.
-_OVER = (MissionState.HOLDING, MissionState.COMPLETE, MissionState.ABORTED)
 
 
 class RemusPlantNode(SuiteNode):
@@ -46,9 +43,8 @@ class RemusPlantNode(SuiteNode):
         )
         self.steps = 0
         self.mission_running = False
-        self._mission = MissionWord()
         orders = orders_of(self.vehicle)
-        self.command = self._stop = orders.stop
+        self.command = orders.stop
         self._commands = HeldCommands(orders)
         self.reset_requested = False
         p.check_frames(self.get_name())
@@ -112,7 +108,7 @@ class RemusPlantNode(SuiteNode):
             self._lockstep.on_command(topic, value)
 
     def _on_mission_state(self, message: String) -> None:
-        refused = self._mission.hear(message.data, time.monotonic())
+        refused = self._commands.mission.hear(message.data, time.monotonic())
         self.mission_running = message.data == MissionState.RUNNING
         if self.free_run is not None and self.mission_running:
             self.free_run.at_rest = False
@@ -128,12 +124,10 @@ class RemusPlantNode(SuiteNode):
         return response
 
     def held_command(self) -> Any:
-        """Return the newest commands; a stop when one is overdue, as every vehicle has to do on its own."""
-        bound = self.parameters.command_timeout
-        command, silent = self._commands.at(self.stamp, bound)
-        self.health.warn("commands", f"no {', '.join(silent)} for {bound:g} s: stopped" if silent else "")
-        over = self._mission.at(time.monotonic()) in _OVER
-        return self._stop if silent or over else command
+        """Return the command in force while running free; see `HeldCommands.in_force`."""
+        timeout = self.parameters.command_timeout
+        self.health.warn("commands", self._commands.complaint(self.stamp, timeout))
+        return self._commands.in_force(self.stamp, timeout, time.monotonic())
 
 
 def main(args: Sequence[str] | None = None) -> int:

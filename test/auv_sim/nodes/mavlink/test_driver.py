@@ -120,10 +120,31 @@ def test_commands_are_handed_on_and_a_missing_one_is_a_stop(
 
     def diagnosed() -> bool:
         vehicle.measure(next(boot_ms))
-        return bench.diagnosed("no commands: the vehicle is stopped")
+        return bench.diagnosed("no rudder_cmd, thrust_cmd for 0.4 s: stopped")
 
     boot_ms = itertools.count(5_050, 50)
     bench.until(diagnosed)
+
+
+def test_a_silent_thrust_alone_is_a_stop_that_reaches_the_vehicle(
+    bench: Bench, vehicle_and_driver: tuple[Vehicle, SuiteNode]
+) -> None:
+    vehicle, _ = vehicle_and_driver
+    vehicle.measure(5_000)
+    bench.until(lambda: bench.received["odom"])
+
+    def moves() -> bool:
+        bench.send(topics.RUDDER_CMD, Float64(data=0.2))
+        bench.send(topics.THRUST_CMD, Float64(data=6.48 / 4.0))
+        return any(command.x == 250 for command in vehicle.commands())
+
+    bench.until(moves)
+
+    def stopped() -> bool:
+        bench.send(topics.RUDDER_CMD, Float64(data=0.2))
+        return any((command.x, command.r) == (0, 0) for command in vehicle.commands())
+
+    bench.until(stopped)
 
 
 def test_a_ground_station_that_talks_as_well_gets_no_commands(

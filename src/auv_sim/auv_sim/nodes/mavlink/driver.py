@@ -20,8 +20,7 @@ from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
 from auv_msgs_py.values.types import Command, SpatialCommand
 from auv_path_following import vehicle
 from auv_sim.driver_parameters import MavlinkDriverParameters
-from auv_sim.nodes.held_commands import orders_of
-from auv_sim.nodes.mavlink.commands import Commands
+from auv_sim.nodes.held_commands import HeldCommands, orders_of
 from auv_sim.nodes.mavlink.mapping import CommandLimits, heartbeat, manual_control
 from auv_sim.nodes.mavlink.transport.link import MavlinkLink
 from auv_sim.nodes.mavlink.transport.link_watch import LinkWatch
@@ -56,7 +55,7 @@ class MavlinkDriverNode(SuiteNode):
         self._vehicle = VehicleMessages(self, self.limits)
         orders = orders_of(hull)
         self._stop = orders.stop
-        self._commands = Commands(orders, p.command_timeout)
+        self._commands = HeldCommands(orders)
         self._due = dict.fromkeys((_HEARTBEAT, _TIMESYNC), 0)
         for topic in (topics.RUDDER_CMD, topics.THRUST_CMD, topics.STERNPLANE_CMD):
             if topic.name in orders.limits:
@@ -94,17 +93,19 @@ class MavlinkDriverNode(SuiteNode):
                     self.health.refuse(error)
 
     def _on_command(self, topic: str, message: Float64) -> None:
-        if self._commands.put(topic, finite(message.data, topic), self.time_ns()):
+        self._commands.put(topic, finite(message.data, topic), self.time_ns())
+        if topic == topics.THRUST_CMD.name and self._commands.is_complete:  # the autopilot sends it last
             self._send_command()
 
     def _on_mission_state(self, message: Any) -> None:
-        self._commands.mission_is(message.data, time.monotonic())
+        refused = self._commands.mission.hear(message.data, time.monotonic())
+        if refused is not None:
+            raise refused
 
     def _send_command(self) -> None:
-        now = self.time_ns()
-        silent = self._commands.silent(now)
-        self.health.error("commands", "no commands: the vehicle is stopped" if silent else "")
-        self._order(self._commands.command(now, time.monotonic()))
+        now, timeout = self.time_ns(), self.parameters.command_timeout
+        self.health.error("commands", self._commands.complaint(now, timeout))
+        self._order(self._commands.in_force(now, timeout, time.monotonic()))
 
     def _order(self, command: Command | SpatialCommand) -> None:
         """Send a command to the vehicle."""
@@ -117,7 +118,7 @@ class MavlinkDriverNode(SuiteNode):
         p, now, time_of_vehicle = self.parameters, self.time_ns(), self._vehicle.time
         if isinstance(time_of_vehicle, FollowedClock) and time_of_vehicle.pass_silence(time.monotonic_ns()):
             self._vehicle.topics.clock(time_of_vehicle.now)
-        if self._commands.none_since(now):
+        if self._commands.silent(now, p.command_timeout):
             self._send_command()
         heard_at = self._vehicle.heard_at
         if heard_at is not None:
