@@ -57,6 +57,14 @@ def domain(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
         yield number
 
 
+@pytest.fixture(scope="module")
+def module_domain() -> Iterator[int]:
+    """A ROS domain of the tests of one module alone, and of the processes that they start."""
+    with free_domain(skip=next(_ASKED)) as number, pytest.MonkeyPatch.context() as environment:
+        environment.setenv("ROS_DOMAIN_ID", str(number))
+        yield number
+
+
 @pytest.fixture
 def command_line() -> Callable[..., list[str]]:
     """`command_line("auv_sim.cli.mission", "--help")`: run a module of the suite with this interpreter."""

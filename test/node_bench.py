@@ -30,6 +30,7 @@ _PATIENT = {
     "CurrentObserverNode": _NAVIGATED,
     "GuidanceNode": {**_NAVIGATED, "holding__hold_after": 60.0},
     "HeadingAutopilotNode": {**_NAVIGATED, "reference_timeout": 10.0},
+    "ManoeuvresNode": _NAVIGATED,
 }
 NORTHWARD = Navigation(0.0, 0.0, 0.0, 0.0)
 

@@ -11,10 +11,13 @@ from typing import Any
 from auv_msgs_py.contract import topics
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.driver_parameters import MavlinkDriverParameters
+from auv_sim.launch.processes.claims import claim
 from auv_sim.sim_parameters import PlantParameters
 
 #: UDP ports below those of DDS (from 7400) and the ephemeral ports of Linux.
 _PORTS = range(6000, 7400)
+#: Claims of this process on the ports that it has chosen: whatever binds them may be up only much later.
+_CLAIMS: list[socket.socket] = []
 #: The emulated vehicle's name among the mission's processes, and its module.
 EMULATOR, EMULATOR_MODULE = "vehicle_emulator", "auv_sim.nodes.mavlink.emulator"
 
@@ -84,13 +87,21 @@ def _diving(plant: PlantParameters) -> tuple[str, ...]:
 
 
 def free_port() -> int:
-    """Return a free UDP port outside the ranges of DDS and of Linux's ephemeral ports."""
+    """Return a free UDP port outside the ranges of DDS and of Linux's ephemeral ports.
+
+    No other caller on this machine gets it until this process ends.
+    """
     ports = random.sample(_PORTS, len(_PORTS))
     for port in ports:
+        held = claim(f"udp_port/{port}")
+        if held is None:
+            continue
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
             try:
                 probe.bind(("127.0.0.1", port))
             except OSError:
+                held.close()
                 continue
+        _CLAIMS.append(held)
         return port
     raise ConfigurationError("--vehicle-driver", "no free UDP port", f"one of {_PORTS}")

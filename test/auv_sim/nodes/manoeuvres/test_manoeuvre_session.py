@@ -32,7 +32,7 @@ def test_a_rehearsal_is_recorded_for_identification(tmp_path: Path) -> None:
     words += ["--program", str(tmp_path / "short.yaml"), "--sea", "moderate", "--out", str(tmp_path / "run")]
     words += ["--speed", "1000"]  # more than the machine can do: each odometry still has its own answer
     done = subprocess.run(
-        [sys.executable, "-c", CODE, *words], capture_output=True, text=True, check=False, timeout=120
+        [sys.executable, "-c", CODE, *words], capture_output=True, text=True, check=False, timeout=600
     )
     assert done.returncode == 0, done.stderr
     assert "all manoeuvres are flown" in done.stdout

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -37,7 +38,7 @@ def started(bench: Bench, tmp_path: Path, seconds: float, farewell: float = 0.3,
     file = tmp_path / "short.yaml"
     file.write_text(PROGRAM.replace("SECONDS", str(seconds)))
     bench._listen(topics.MISSION_STATE)
-    settings = {"program": str(file), "consent": True, "lateness": 60.0, "look_around": 0.0, **parameters}
+    settings = {"program": str(file), "consent": True, "look_around": 0.0, **parameters}
     node: Any = bench.start(ManoeuvresNode, role=topics.AUTOPILOT, **settings)
     node.farewell = farewell
     return node
@@ -99,7 +100,7 @@ def test_commands_of_another_node_stop_it(bench: Bench, tmp_path: Path) -> None:
 
 
 def test_lost_navigation_and_its_own_end_stop_it(bench: Bench, tmp_path: Path) -> None:
-    node = started(bench, tmp_path, 60.0)
+    node = started(bench, tmp_path, 60.0, odometry_timeout=0.5)
     fly(bench, 3)
     bench.until(lambda: bool(node.run.over))
     assert node.run.over == "no usable odometry"
@@ -150,6 +151,7 @@ def test_an_altimeter_that_falls_silent_stops_a_diver(
     bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     node = started(bench, tmp_path, 60.0, vehicle="remus100_6dof")
+    monkeypatch.setattr(manoeuvres_node, "_ALTITUDE_AGE", 60.0)
     for seconds in (math.nan, 20.0, math.nan):
         node._on_altitude(Range(range=seconds))
     bench.diving(10.0, SpatialNavigation(0.0, 0.0, 10.0, 0.0, 0.0, 0.0, 0.0, 0.0), None)
@@ -161,11 +163,19 @@ def test_an_altimeter_that_falls_silent_stops_a_diver(
     assert "no altitude any more" in node.run.over
 
 
-def test_it_sends_zeros_when_it_is_closed(bench: Bench, tmp_path: Path) -> None:
+def test_it_sends_zeros_when_it_is_closed(
+    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     node = started(bench, tmp_path, 60.0)
     fly(bench, 3)
     before = len(bench.received["thrust_cmd"])
     bench.executor.remove_node(node)  # what comes after an error: no timer of it runs any more
+    now = [100.0]
+
+    def sleep(seconds: float) -> None:
+        now[0] += seconds
+
+    monkeypatch.setattr(manoeuvres_node, "time", SimpleNamespace(monotonic=lambda: now[0], sleep=sleep))
     node.close()
     bench.until(lambda: len(bench.received["thrust_cmd"]) >= before + 3)
     assert {message.data for message in bench.received["thrust_cmd"][before:]} == {0.0}
@@ -206,7 +216,8 @@ def test_a_stop_request_sends_zeros_while_odometry_comes_and_another_node_is_bus
 ) -> None:
     rclpy.init(args=[], domain_id=domain)
     (tmp_path / "short.yaml").write_text(PROGRAM.replace("SECONDS", "60"))
-    values = {"program": str(tmp_path / "short.yaml"), "consent": True, "lateness": 60.0, "look_around": 0.0}
+    values = {"program": str(tmp_path / "short.yaml"), "consent": True, "look_around": 0.0}
+    values |= {"lateness": 60.0, "odometry_timeout": 10.0}
     overrides = [Parameter(name, value=value) for name, value in values.items()]
     flyer = ManoeuvresNode(namespace="/auv", parameter_overrides=overrides, use_global_arguments=False)
     flyer.farewell = 0.3

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterator
 from pathlib import Path
@@ -89,10 +90,19 @@ def test_covariances_of_odometry_are_passed_on_in_the_contracts_frames(
     numbers: list[Any] = [0.0, 0.0, 0.0, [1.0, 0.0, 0.0, 0.0], *[0.0] * 6]
     measure(link, 5_000)
     bench.until(lambda: bench.received["odom"])
-    link.send(mavlink.MAVLink_odometry_message(5_010_000, *frames, *numbers, pose, twist))
-    measure(link, 5_050)
-    bench.until(lambda: len(bench.received["odom"]) == 2)
-    before, after = bench.received["odom"]
+    (before,) = bench.received["odom"]
+    boot_ms = itertools.count(5_050, 50)
+
+    def has_covariance() -> bool:
+        """Send both once more: the covariances count for 1 s, and a pause may be longer."""
+        now = next(boot_ms)
+        link.send(mavlink.MAVLink_odometry_message(1000 * now, *frames, *numbers, pose, twist))
+        measure(link, now)
+        bench.spin(0.05)
+        return bool(bench.received["odom"][-1].pose.covariance.any())
+
+    bench.until(has_covariance)
+    after = bench.received["odom"][-1]
     assert not before.pose.covariance.any() and not before.twist.covariance.any()
     found, of_twist = after.pose.covariance.reshape(6, 6), after.twist.covariance.reshape(6, 6)
     # ENU: east first; yaw counts the other way.
@@ -101,7 +111,7 @@ def test_covariances_of_odometry_are_passed_on_in_the_contracts_frames(
     # FLU: to port.
     assert (of_twist[0, 0], of_twist[1, 1], of_twist[0, 1]) == pytest.approx((0.25, 0.04, -0.02))
     numbers[4:6] = [1.8, 0.3]
-    message = mavlink.MAVLink_odometry_message(5_060_000, *frames, *numbers, pose, twist)
+    message = mavlink.MAVLink_odometry_message(1000 * next(boot_ms), *frames, *numbers, pose, twist)
     link.send_bytes(link.pack(message, WATER_LOG))
     bench.until(lambda: bench.received["velocity_through_water"])
     water = bench.received["velocity_through_water"][0]
@@ -122,25 +132,31 @@ def test_planes_are_commanded_bow_down_and_silence_stops_them(
         return any((m.r, m.s, m.x, m.enabled_extensions) == (r, s, x, 1) for m in heard)
 
     def order(planes: float) -> None:
+        """Command; forget the answers to earlier commands."""
+        commanded(0, 0, 0)
+        heard.clear()
         bench.send(topics.RUDDER_CMD, Float64(data=0.0))
         bench.send(topics.STERNPLANE_CMD, Float64(data=planes))
         bench.spin(0.05)
         bench.send(topics.THRUST_CMD, Float64(data=6.48 / 4.0))
+        bench.spin(0.05)
 
-    order(HALF_PLANES)
-    bench.until(lambda: commanded(0, 500, 250))
+    def obeyed(planes: float, s: int) -> bool:
+        order(planes)  # once more: a pause in between is longer than commands count
+        return commanded(0, s, 250)
+
+    bench.until(lambda: obeyed(HALF_PLANES, 500))
     bench.until(lambda: commanded(0, 0, 0))  # silence
-    order(-HALF_PLANES)
-    bench.until(lambda: commanded(0, -500, 250))
+    bench.until(lambda: obeyed(-HALF_PLANES, -500))
     order(0.4)  # beyond the stops
     bench.until(lambda: node.health.refused)
     bench.send(topics.MISSION_STATE, String(data="holding"))
-    bench.spin(0.1)
-    commanded(0, 0, 0)
-    heard.clear()
-    order(HALF_PLANES)
-    bench.until(lambda: commanded(0, 0, 0))
-    assert {(m.s, m.x) for m in heard} == {(0, 0)}
+
+    def stopped() -> bool:
+        order(HALF_PLANES)
+        return commanded(0, 0, 0) and {(m.s, m.x) for m in heard} == {(0, 0)}
+
+    bench.until(stopped)
 
 
 def test_a_dive_is_flown_through_the_driver(tmp_path: Path, domain: int) -> None:

@@ -111,11 +111,17 @@ def test_commands_are_handed_on_and_a_missing_one_is_a_stop(
         heard.extend(vehicle.commands())
         return any((command.x, command.r, command.target) == (x, r, 1) for command in heard)
 
-    bench.send(topics.RUDDER_CMD, Float64(data=FULL_RUDDER / 2.0))
-    bench.spin(0.05)
-    bench.send(topics.THRUST_CMD, Float64(data=6.48 / 4.0))
-    bench.until(lambda: hears(250, -500))
-    assert not hears(0, 0)
+    def obeyed() -> bool:
+        """Command once more: a pause between the two commands is longer than they count."""
+        vehicle.commands()
+        heard.clear()
+        bench.send(topics.RUDDER_CMD, Float64(data=FULL_RUDDER / 2.0))
+        bench.spin(0.05)
+        bench.send(topics.THRUST_CMD, Float64(data=6.48 / 4.0))
+        bench.spin(0.05)
+        return hears(250, -500) and not hears(0, 0)
+
+    bench.until(obeyed)
     bench.until(lambda: hears(0, 0))
 
     def diagnosed() -> bool:

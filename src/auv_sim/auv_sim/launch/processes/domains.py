@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.launch.processes.claims import claim
 
 #: Higher domains use ports that Linux assigns to others; 0 is the default of every program.
 LAST = 101
@@ -34,10 +35,10 @@ def free_domain(skip: int = 0) -> Iterator[int]:
     """
     begin = os.getpid() + skip
     for number in (1 + (begin + k) % LAST for k in range(LAST)):
-        claim = _claim(number)
-        if claim is None:
+        held = _claim(number)
+        if held is None:
             continue
-        with claim:
+        with held:
             if has_participants(number):
                 continue
             yield number
@@ -51,18 +52,8 @@ def has_participants(domain: int) -> bool:
 
 
 def _claim(domain: int) -> socket.socket | None:
-    """Return what holds a claim until it is closed, None if another caller holds it.
-
-    It is a name of Linux's abstract namespace. Like the ports of the participants it belongs to the network
-    namespace, and the kernel releases it however the process ends.
-    """
-    claim = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
-    try:
-        claim.bind(f"\0auv_path_following/ros_domain/{domain}")
-    except OSError:
-        claim.close()
-        return None
-    return claim
+    """Return what holds a claim on a domain until it is closed, None if another caller holds it."""
+    return claim(f"ros_domain/{domain}")
 
 
 def _is_taken(domain: int, participant: int) -> bool:
