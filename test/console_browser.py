@@ -78,9 +78,10 @@ class ConsoleBrowser:
                 await self._receive(socket, condition)
 
     async def _receive(self, socket: ClientWebSocketResponse, condition: Callable[[], object]) -> None:
-        t0 = 0.0
-        while not ("tick" in self.texts and condition()):
-            message = await socket.receive()
+        """Receive until the condition holds at the end of a look: a tick follows what has changed with it."""
+        t0, kind = 0.0, ""
+        while not (kind in ("tick", "answer") and "tick" in self.texts and condition()):
+            message, kind = await socket.receive(), ""
             if message.type is aiohttp.WSMsgType.BINARY:
                 values = np.frombuffer(message.data[ROWS_HEADER.size :], "<f4").astype(float)
                 rows = values.reshape(-1, len(NAMES))
@@ -89,10 +90,11 @@ class ConsoleBrowser:
                 continue
             assert message.type is aiohttp.WSMsgType.TEXT, message
             found = json.loads(message.data)
-            self.texts[found["kind"]] = found
-            if found["kind"] == "begin":
+            kind = found["kind"]
+            self.texts[kind] = found
+            if kind == "begin":
                 t0, self.rows = found["t0"] or 0.0, self.rows[:0]
-            elif found["kind"] == "events":
+            elif kind == "events":
                 self.events += [event["text"] for event in found["events"]]
 
 
