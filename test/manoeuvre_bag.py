@@ -61,7 +61,7 @@ def _odometry(flown: Manoeuvred, k: int, at: int, ned: bool, body: str) -> Any:
 def write_manoeuvres(
     directory: Path, flown: Manoeuvred, names: Mapping[str, str] = NAMES, ned: bool = False,
     repeated: bool = True, late: float = 0.0, set_back: float = 0.0, body: str = "",
-    command: str = "std_msgs/msg/Float64",
+    command: str = "std_msgs/msg/Float64", silent: tuple[float, float] = (0.0, 0.0),
 ) -> Path:  # fmt: skip
     """Write a recording; return its directory.
 
@@ -75,6 +75,7 @@ def write_manoeuvres(
         set_back: time by which the clock of the stamps is set back in the middle, s.
         body: frame id of the body; by default as `ned` says.
         command: type of the commands, which are rounded where it holds whole numbers.
+        silent: interval of the odometry's time without commands, s; its ends are not part of it.
     """
     side, body = 1.0 if ned else -1.0, body or ("base_link_frd" if ned else "base_link")
     number = int if "Int" in command else float
@@ -97,5 +98,7 @@ def write_manoeuvres(
                 stamped = "geometry_msgs/msg/TwistWithCovarianceStamped"
                 put("velocity_through_water", at, _made(stamped, _header(stamp, body), twist))
             for name, column in (("rudder_cmd", flown.rudder), ("thrust_cmd", flown.thrust)):
+                if silent[0] < flown.t[k] < silent[1]:
+                    continue
                 put(name, at + 1_000_000 + round(late * 1e9), _made(command, number(column[k])))
     return directory

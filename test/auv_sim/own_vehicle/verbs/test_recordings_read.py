@@ -1,47 +1,38 @@
-"""What is read of a recording: axes of its frame ids, motion of its planes, the part that is left out."""
+"""What is read of a recording: axes of its frame ids, silent commands, motion of its planes."""
 
 from __future__ import annotations
+
+import argparse
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from auv_msgs_py.contract.frames import Convention, FrameTable
-from auv_sim.own_vehicle.identify.time_grid import PlanarData
-from auv_sim.own_vehicle.verbs.recordings_read import LAST, divided, frames_with, motion_within, turning_part
+from auv_path_following import vehicle as vehicle_file
+from auv_sim.own_vehicle.identify.results.known_vehicle import known_hull
+from auv_sim.own_vehicle.identify.time_grid import FOLLOWED, passage_of
+from auv_sim.own_vehicle.manoeuvres import program_file
+from auv_sim.own_vehicle.manoeuvres.manoeuvre_flight import simulate
+from auv_sim.own_vehicle.verbs.recordings_read import frames_with, motion_within, read
+from manoeuvre_bag import write_manoeuvres
 
 
-def turning(begin: float, end: float, rate: float) -> PlanarData:
-    """Return 300 s that turn between two times, with the noise of a gyro."""
-    t = np.arange(0.0, 300.0, 0.05)
-    r = np.where((t >= begin) & (t < end), rate, 0.0) + np.random.default_rng(0).normal(0.0, 1e-3, t.size)
-    water, zeros = t[::4], np.zeros(t.size)
-    u = np.ones(water.size)
-    return PlanarData("r", t, r, water, u, 0.0 * u, t, zeros, t, zeros, zeros, zeros, zeros, zeros)
-
-
-@pytest.mark.parametrize("rate", [0.2, -0.2])
-def test_a_straight_at_the_end_is_not_what_the_model_is_judged_by(rate: float) -> None:
-    data = turning(60.0, 180.0, rate)
-    begin, end = turning_part(data)
-    assert end - begin == pytest.approx(LAST)
-    assert 60.0 < end <= 225.0
-    used, left_out = divided([data], None)
-    assert left_out is not None
-    assert np.mean(left_out.r**2) >= np.mean(data.r**2)
-    assert [round(part.t[-1] - part.t[0]) for part in used] == [round(begin), round(data.t[-1] - end)]
-
-
-def test_the_last_part_is_left_out_where_it_turns() -> None:
-    data = turning(100.0, 300.0, 0.2)
-    assert turning_part(data)[1] == pytest.approx(data.t[-1])
-
-
-def test_the_only_turn_of_a_recording_is_not_left_out_of_its_identification() -> None:
-    for data in (turning(150.0, 165.0, 0.2), turning(150.0, 180.0, 0.2)):
-        used, _ = divided([data], None)
-        assert sum(np.sum(part.r**2) for part in used) > 0.4 * np.sum(data.r**2)
-    again = turning(150.0, 165.0, 0.2)
-    assert divided([again, data], None)[1] is not None  # the other recording turns as well
+def test_what_a_vehicle_does_without_commands_is_not_used(tmp_path: Path) -> None:
+    vehicle = vehicle_file.load("remus100")
+    flown = simulate(vehicle, None, program_file.load("two_minutes"))
+    begin, end = flown.t[0] + 40.0, flown.t[0] + 46.0
+    bag = write_manoeuvres(tmp_path / "bag", flown, silent=(begin, end))
+    options = argparse.Namespace(topic=[], frame=[], bag=[bag], namespace=None)
+    (recorded,) = read(options, vehicle, known_hull(vehicle))
+    data = recorded.plane
+    for t in (data.t, data.water_t, data.rudder_t, data.thrust_t):
+        assert not ((t > begin + 0.1) & (t < end - 0.1)).any()
+        assert ((t > begin - 1.0) & (t < begin)).any() and ((t > end) & (t < end + 1.0)).any()
+    assert recorded.silence == pytest.approx(6.0, abs=0.2)
+    passage = passage_of(data, 0.0)
+    starts = passage.times[:-1][passage.grid.begins]
+    assert starts[1:] == pytest.approx([end + FOLLOWED], abs=0.3)
 
 
 @pytest.mark.parametrize(("begin", "moves"), [(-5.0, True), (400.0, False)])

@@ -22,7 +22,7 @@ from auv_sim.own_vehicle.identify.results.identification_tables import (
 )
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
 from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, LATENCY, RATE
-from auv_sim.own_vehicle.verbs.recordings_read import SHORTEST
+from auv_sim.own_vehicle.verbs.left_out import SHORTEST
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import progress_bar
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 from auv_msgs_py.settings.result_files import write_text
@@ -45,19 +46,14 @@ from auv_sim.own_vehicle.identify.results.plausibility import (
     doubts,
     latency_doubts,
 )
-from auv_sim.own_vehicle.identify.time_grid import PlanarData, shared_time
+from auv_sim.own_vehicle.identify.time_grid import FOLLOWED, PlanarData, shared_time
 from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, RATE, DataSheet, typed
 from auv_sim.own_vehicle.identify.water_current import mean_current
 from auv_sim.own_vehicle.verbs.dive_report import IdentifiedDive, identified_dive, print_dive, reporter
 from auv_sim.own_vehicle.verbs.identification_study import add_study_arguments, study
 from auv_sim.own_vehicle.verbs.identify_checks import check_options, check_target
-from auv_sim.own_vehicle.verbs.recordings_read import (
-    ENOUGH,
-    LAST,
-    add_reading_arguments,
-    divided,
-    read,
-)
+from auv_sim.own_vehicle.verbs.left_out import ENOUGH, LAST, divided
+from auv_sim.own_vehicle.verbs.recordings_read import Recorded, add_reading_arguments, read
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, progress_bar, wrote
 
@@ -128,6 +124,7 @@ def run(arguments: argparse.Namespace) -> int:
     check_options(arguments, vehicle)
     hull = known_hull(vehicle)
     recorded = read(arguments, vehicle, hull)
+    _report_silence(arguments.bag, recorded)
     recordings = [one.plane for one in recorded]
     where = ", ".join(map(str, arguments.bag))
     check_excitation(recordings, where)
@@ -149,6 +146,17 @@ def run(arguments: argparse.Namespace) -> int:
     dive = identified_dive(dives, vehicle, hull, found, left_out, arguments.quiet)
     report(arguments, vehicle, recordings, left_out, found, dive)
     return 0
+
+
+def _report_silence(paths: Sequence[Path], recorded: Sequence[Recorded]) -> None:
+    """Print how much of each recording has no commands."""
+    for path, one in zip(paths, recorded, strict=True):
+        if one.silence > 0.0:
+            say(
+                f"notice {path}: {one.silence:.0f} s without commands, and {FOLLOWED:g} s after each gap,"
+                " are not used: the angles of the fins are not known there",
+                error=True,
+            )
 
 
 def report(
