@@ -1,4 +1,4 @@
-"""The commands in force until newer ones arrive, or one is missing. ROS-free."""
+"""The commands in force until newer ones arrive, or one is overdue. ROS-free."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def orders_of(vehicle: Vehicle) -> Orders:
 
 
 class HeldCommands:
-    """Keeps the newest command of each kind; the vehicle stops where one is missing or the mission is over.
+    """Keeps the newest command of each kind; the vehicle stops where one is overdue or the mission is over.
 
     Args:
         orders: the commands and their limits.
@@ -51,7 +51,6 @@ class HeldCommands:
     def __init__(self, orders: Orders) -> None:
         self._limits, self._stop = orders.limits, orders.stop
         self._held: dict[str, tuple[float, int]] = {}
-        self._first = 0
         self.mission = MissionWord()
 
     @property
@@ -72,20 +71,15 @@ class HeldCommands:
         lowest, highest = self._limits[topic]
         if not lowest - _ROUNDING <= value <= highest + _ROUNDING:  # NaN fails this
             raise MessageRefused(topic, f"{value:g}", f"from {lowest:g} to {highest:g}")
-        if not self._held:
-            self._first = now
         self._held[topic] = value, now
 
     def silent(self, now: int, timeout: float) -> list[str]:
-        """Return the topics without a command for more than `timeout` s, once any has arrived.
+        """Return the topics whose newest command is older than `timeout` s at `now`, ns.
 
-        A topic that has never had one is silent since the first command of another. An arrival after `now`
-        (ns) is that of a clock which was set back, and counts as old.
+        A kind that has never been commanded is neutral, not silent: a simulator may be flown by thrust alone.
+        An arrival after `now` is that of a clock which was set back, and counts as old.
         """
-        if not self._held:
-            return []
-        arrivals = {name: self._held.get(name, (0.0, self._first))[1] for name in self._limits}
-        return [name for name, at in arrivals.items() if abs(now - at) > timeout * 1e9]
+        return [name for name, (_, at) in self._held.items() if abs(now - at) > timeout * 1e9]
 
     def in_force(self, now: int, timeout: float, wall: float) -> Any:
         """Return the newest commands; a stop where one is overdue or the mission is over.
