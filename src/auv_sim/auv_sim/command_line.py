@@ -150,6 +150,11 @@ def add_overwrite(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--overwrite", action="store_true", help="replace files that exist")
 
 
+def add_quiet(parser: argparse.ArgumentParser) -> None:
+    """Add the option that leaves errors and notices alone on the terminal."""
+    parser.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
+
+
 # argparse names the type in its message when float() itself fails.
 finite.__name__ = positive.__name__ = not_negative.__name__ = share.__name__ = "number"
 

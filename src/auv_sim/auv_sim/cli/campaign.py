@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from auv_path_following import config_files
-from auv_sim.command_line import Parser, at_least_one, command, to_type
+from auv_sim.command_line import Parser, add_quiet, at_least_one, command, to_type
 
 
 def parser() -> argparse.ArgumentParser:
@@ -34,7 +34,7 @@ def parser() -> argparse.ArgumentParser:
     )  # fmt: skip
     p.add_argument("--replay-run", type=_number, metavar="K", help="fly run K (from 0) again, and draw it")
     p.add_argument("--graph", action="store_true", help="with --replay-run: fly it over ROS 2, and record it")
-    p.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
+    add_quiet(p)
     return p
 
 

@@ -244,11 +244,3 @@ def _first(flown: Manoeuvred, rows: int) -> Manoeuvred:
         if isinstance(column, np.ndarray) and column.shape[0] == n
     }
     return flown._replace(**kept)
-
-
-@pytest.mark.parametrize("verb", ["manoeuvres", "identify", "tune", "prove"])
-def test_every_verb_that_works_for_long_can_be_quiet(verb: str) -> None:
-    known = {"manoeuvres": ["--vehicle", "remus100"], "identify": ["bag"]}
-    words = [verb, *known.get(verb, ["remus100"])]
-    parse = vehicle_command.parser().parse_args
-    assert parse([*words, "--quiet"]).quiet and not parse(words).quiet

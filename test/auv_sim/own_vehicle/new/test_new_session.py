@@ -173,7 +173,8 @@ def test_the_command_line_writes_the_file(tmp_path: Path, capsys: pytest.Capture
     assert vehicle_command.main([*in_newtons, "--out", file]) == 2
     assert "the largest thrust, N, or --thrust-unit percent" in capsys.readouterr().err
     words += ["--name", "two\nlines"]
-    assert vehicle_command.main([*words, "--radius", "6", "--out", file]) == 0
+    assert vehicle_command.main([*words, "--radius", "6", "--quiet", "--out", file]) == 0
+    assert capsys.readouterr().out == ""
     assert vehicle.load(file).name == "two lines"
     assert vehicle.load(file).thrust_table[-1][0] == 100.0
 
@@ -214,7 +215,7 @@ def test_length_speed_and_radius_are_enough_for_a_survey(hull: Vehicle) -> None:
 
 
 def test_a_survey_gets_wider_turns_where_the_vehicle_needs_them(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """A slow servo on a large slow hull; turns of 2.5 radii would have 23 m."""
     facts = OwnerFacts(
@@ -225,22 +226,21 @@ def test_a_survey_gets_wider_turns_where_the_vehicle_needs_them(
     monkeypatch.setattr(trial_flight, "fly_trials", lambda *_: ([TrialFlight(0.0, 0.9, 0.4, 1.7)], False))
     missed = trial_flight.trial_survey(own, "survey.yaml")
     assert not missed.is_flown and "turns of 51 m" in missed.text
-    out = console()
-    new_vehicle(facts, tmp_path / "slow.yaml", True, out)
-    assert "warning the survey is not flown within 1 m everywhere" in printed(out)
+    new_vehicle(facts, tmp_path / "slow.yaml", True, console())
+    assert "notice the survey is not flown within 1 m everywhere" in capsys.readouterr().err
 
 
 def test_a_hull_for_which_the_rule_does_not_hold_may_fly_manoeuvres(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """A large hull with a slow rudder, whose survey is flown in part: its file is what manoeuvres need."""
     facts = OwnerFacts("slow", 5.2, "rpm", 200.0, ((200.0, 2.0),), ((20.0, 28.0),), 20.0, rate_deg_s=4.0)
     monkeypatch.setattr(trial_flight, "fly_trials", lambda *_: ([TrialFlight(0.3, 0.93, 0.4, 1.7)], False))
-    out = console()
-    own = new_vehicle(facts, tmp_path / "slow.yaml", False, out)
+    own = new_vehicle(facts, tmp_path / "slow.yaml", False, console())
     assert own == vehicle.load(str(tmp_path / "slow.yaml"))
-    assert "too slow a fin for this hull" in printed(out)
-    assert "warning the survey is not flown within 1 m everywhere" in printed(out)
+    noticed = capsys.readouterr().err
+    assert "too slow a fin for this hull" in noticed
+    assert "notice the survey is not flown within 1 m everywhere" in noticed
 
 
 def test_a_vehicle_that_cannot_fly_leaves_no_file_and_says_why(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ from auv_msgs_py.settings import yaml_file
 from auv_msgs_py.settings.result_files import replacing
 from auv_path_following.control.rule.gain_rule import gains_for
 from auv_path_following.vehicle import Vehicle
-from auv_sim.command_line import to_type
+from auv_sim.command_line import say, to_type
 from auv_sim.own_vehicle.new.assumed_diver import assumed_diver
 from auv_sim.own_vehicle.new.assumed_hull import assumed_hull
 from auv_sim.own_vehicle.new.next_measurement import headline, worth_measuring
@@ -66,10 +66,10 @@ def _show(console: Console, survey: TrialSurvey) -> None:
         )
     console.print(table)
     if not survey.is_flown:
-        console.print(
-            "[yellow]warning[/yellow] the survey is not flown within 1 m everywhere; the rule's "
-            "gains on the assumed hull are slow: identify the hull, and tune",
-            highlight=False,
+        say(
+            "notice the survey is not flown within 1 m everywhere; the rule's gains on the assumed hull are "
+            "slow: identify the hull, and tune",
+            error=True,
         )
 
 
@@ -89,7 +89,7 @@ def described(facts: OwnerFacts, file: Path) -> tuple[Vehicle, str]:
 
 def _advise(console: Console, facts: OwnerFacts, vehicle: Vehicle, file: Path) -> None:
     for notice in gains_for(vehicle).notices:
-        console.print(f"[yellow]warning[/yellow] {notice}", highlight=False)
+        say(f"notice {notice}", error=True)
     measurements = worth_measuring(facts, vehicle)
     if measurements:
         console.print("\nWorth measuring, the most helpful first:")

@@ -12,7 +12,7 @@ from rich.console import Console
 from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.strict_json import without_nan
 from auv_path_following.vehicle import Vehicle
-from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, to_type
+from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, say, to_type
 from auv_sim.own_vehicle.output_files import survey_beside, vehicle_file_of
 from auv_sim.own_vehicle.prove import proof_page, proof_picture, proof_words, provenance
 from auv_sim.own_vehicle.prove.confidence import flights_needed
@@ -85,7 +85,7 @@ def conclude(
     console.print(sentence, soft_wrap=False)
     console.print(verdict, style="bold green" if holds else "bold red")
     if notice:
-        console.print(f"notice {notice}")
+        say(f"notice {notice}", error=True)
     worst = worst_of(claim, proof)
     refly = provenance.command_of(options, refly=worst)
     _draw(outputs, result, verdict, worst)

@@ -16,7 +16,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files, vehicle
 from auv_path_following.control import autopilot
 from auv_path_following.vehicle import Vehicle
-from auv_sim.command_line import EXIT_DONE, to_type
+from auv_sim.command_line import EXIT_DONE, say, to_type
 from auv_sim.flight.batch.compiled import COMPILED
 from auv_sim.own_vehicle.output_files import check_outputs
 from auv_sim.own_vehicle.tune import tuned_file
@@ -119,7 +119,7 @@ def _tuned_planes(
     """Tune the stern planes beside gains of the heading; return all gains, and paragraphs for the file."""
     if not can_be_tuned(own):
         why = "depth.max or the speed is too small to tune the stern planes"
-        console.print(f"notice {own.name}: {why}", markup=False)
+        say(f"notice {own.name}: {why}", error=True)
         return gains, [f"Pitch gains by the rule: {why}."]
     problem = pitch_problem(own, heading, gains)
     budget = Budget(math.ceil(DIVES * options.generations), POPULATION_OF_DIVES, options.threads)
@@ -238,7 +238,7 @@ def _explain(console: Console, problem: Problem, present: str) -> None:
         f"delay {late:.0f} ms, {rates} odometries a second"
     )
     for notice in space.ruled.notices:
-        console.print(f"notice {notice}", markup=False)
+        say(f"notice {notice}", error=True)
     others = "the rule" if problem.present is None else f"the rule and {present}"
     hulls = f"{len(problem.hulls)} hulls, the worst counts" if len(problem.hulls) > 1 else "one hull"
     console.print(

@@ -7,7 +7,7 @@ import os
 from collections.abc import Mapping, Sequence
 
 from auv_path_following import config_files
-from auv_sim.command_line import add_overwrite, at_least_one, finite, whole
+from auv_sim.command_line import add_overwrite, add_quiet, at_least_one, finite, whole
 
 #: Word for `--spread` where the vehicle file's comments state the uncertainty.
 FROM_FILE = "file"
@@ -61,7 +61,8 @@ def add_conditions(p: argparse.ArgumentParser, several: Sequence[str] = ()) -> N
     seas = ", ".join(config_files.shipped("seas"))
     p.add_argument(
         "--delay", type=delay, default=CONDITIONS["delay"], metavar="S",
-        help="further delay from a measurement to its command's arrival, besides the file's dead_time (0 s)",
+        help="further delay from a measurement to its command's arrival, besides the file's dead_time "
+        "(default: %(default)g)",
     )  # fmt: skip
     p.add_argument(
         "--rate", type=rate, default=CONDITIONS["rate"], metavar="HZ",
@@ -77,10 +78,11 @@ def add_conditions(p: argparse.ArgumentParser, several: Sequence[str] = ()) -> N
     else:
         text = f"file or one of: {seas} (default: moderate)"
         p.add_argument("--sea", default="moderate", metavar="FILE", help=text)
+    usual = "0" if several else "what that file states, else 0"
     p.add_argument(
         "--spread", type=spread, default=CONDITIONS["spread"], metavar="PERCENT",
-        help="uncertainty of coefficients, fin rates and dead times, half width (0); or `file`: of "
-        "each as the comments of the vehicle file state it",
+        help="uncertainty of coefficients, fin rates and dead times, half width; or `file`: of each as the "
+        f"comments of the vehicle file state it (default: {usual})",
     )  # fmt: skip
     p.add_argument("--seed", type=whole, default=CLAIM["seed"], metavar="N", help="of all draws (default: 0)")
     p.add_argument(
@@ -88,4 +90,4 @@ def add_conditions(p: argparse.ArgumentParser, several: Sequence[str] = ()) -> N
         help="flights at the same time (default: all cores)",
     )  # fmt: skip
     add_overwrite(p)
-    p.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
+    add_quiet(p)

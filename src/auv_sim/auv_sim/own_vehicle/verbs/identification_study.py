@@ -37,7 +37,9 @@ def add_study_arguments(parser: argparse.ArgumentParser) -> None:
         "--study", type=at_least_one, metavar="N",
         help="instead of recordings: identify N simulated vehicles with random hulls, and judge by the truth",
     )  # fmt: skip
-    parser.add_argument("--first", type=whole, default=0, metavar="SEED", help="of the study's first vehicle")
+    parser.add_argument(
+        "--first", type=whole, default=0, metavar="N", help="seed of the study's first vehicle (default: 0)"
+    )
     parser.add_argument(
         "--program", metavar="FILE", help="of the study (default: eight_minutes, or eight_minutes_dive)"
     )
@@ -48,7 +50,11 @@ def add_study_arguments(parser: argparse.ArgumentParser) -> None:
         "--sea", default="moderate", metavar="FILE", help="of the study (default: %(default)s)"
     )
     parser.add_argument(
-        "--workers", type=at_least_one, default=2, metavar="N", help="processes of the study (2)"
+        "--workers",
+        type=at_least_one,
+        default=2,
+        metavar="N",
+        help="processes of the study (default: %(default)d)",
     )
     parser.add_argument("--page", type=Path, metavar="FILE", help="page with the study's figures, to renew")
 

@@ -18,7 +18,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_path_following import vehicle as vehicle_file
 from auv_path_following.vehicle import Vehicle
-from auv_sim.command_line import add_overwrite, not_negative, positive, say, target, to_type
+from auv_sim.command_line import add_overwrite, add_quiet, not_negative, positive, say, target, to_type
 from auv_sim.own_vehicle.identify.combinations import COUNT
 from auv_sim.own_vehicle.identify.dive.dive_combinations import DiveCombinations
 from auv_sim.own_vehicle.identify.hull_abilities import abilities_of
@@ -90,7 +90,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _add_sheet(parser)
     add_study_arguments(parser)
     add_reading_arguments(parser)
-    parser.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
+    add_quiet(parser)
 
 
 def _add_sheet(parser: argparse.ArgumentParser) -> None:
@@ -103,7 +103,7 @@ def _add_sheet(parser: argparse.ArgumentParser) -> None:
         help="error of the thrust, which no data show (default: %(default)s)",
     )  # fmt: skip
     parser.add_argument(
-        "--rudder-rate", type=positive, metavar="DEG_S",
+        "--rudder-rate", type=positive, metavar="DEG/S",
         help="rate of the rudder within a factor of two (default: the vehicle file's)",
     )  # fmt: skip
 

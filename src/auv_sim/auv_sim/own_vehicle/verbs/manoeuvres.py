@@ -12,7 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from auv_msgs_py.values.errors import ConfigurationError
-from auv_sim.command_line import Parser, finite, not_negative, ros_namespace, whole
+from auv_sim.command_line import Parser, add_quiet, finite, not_negative, ros_namespace, whole
 
 _BOX, _DEPTH, _SPEED = 200.0, 10.0, 10.0
 #: Ranges of the parameters that the options set: box, m; current, m/s; speed.
@@ -38,32 +38,36 @@ def add_arguments(parser: Parser) -> None:
     parser.add_argument("--vehicle", required=True, metavar="FILE", help="vehicle file, or a shipped name")
     parser.add_argument(
         "--program", default="two_minutes", metavar="FILE",
-        help="two_minutes (default), eight_minutes, the same with _dive, or a file",
+        help="two_minutes, eight_minutes, the same with _dive, or a file (default: %(default)s)",
     )  # fmt: skip
     parser.add_argument(
         "--depth", type=not_negative, default=_DEPTH, metavar="M",
-        help=f"to hold, of a vehicle that dives (default {_DEPTH:g})",
+        help="to hold, of a vehicle that dives (default: %(default)g)",
     )  # fmt: skip
     parser.add_argument(
         "--box", type=within(*BOX), default=_BOX, metavar="M",
-        help=f"largest distance from the start to north and east (default {_BOX:g})",
+        help="largest distance from the start to north and east (default: %(default)g)",
     )  # fmt: skip
     parser.add_argument(
         "--out", type=Path, metavar="DIR", help="run directory (default: runs/manoeuvres-...)"
     )
-    parser.add_argument("--namespace", type=ros_namespace, default="/auv", help="of the vehicle's topics")
-    parser.add_argument("--quiet", action="store_true", help="print nothing unless something goes wrong")
+    parser.add_argument(
+        "--namespace", type=ros_namespace, default="/auv", metavar="NAME",
+        help="of the vehicle's topics (default: %(default)s)",
+    )  # fmt: skip
+    add_quiet(parser)
     rehearsal = parser.add_argument_group("on the simulator")
     rehearsal.add_argument(
         "--controller-model", metavar="FILE",
         help="file by which the manoeuvres are flown, where --vehicle is another hull in the water",
     )  # fmt: skip
     rehearsal.add_argument("--sea", metavar="FILE", help="sea file, or a shipped name")
-    rehearsal.add_argument("--seed", type=whole, default=REHEARSAL["seed"], help="of the sea")
+    rehearsal.add_argument("--seed", type=whole, default=REHEARSAL["seed"], metavar="N",
+                           help="of the sea (default: %(default)d)")  # fmt: skip
     rehearsal.add_argument("--current", type=within(*CURRENT), nargs=2, default=REHEARSAL["current"],
                            metavar=("VX", "VY"), help="constant, towards north and east, m/s")  # fmt: skip
     rehearsal.add_argument("--speed", type=within(*SPEED), default=_SPEED, metavar="N",
-                           help=f"times real time (default {_SPEED:g})")  # fmt: skip
+                           help="times real time (default: %(default)g)")  # fmt: skip
     real = parser.add_argument_group("on your vehicle")
     real.add_argument("--no-sim", action="store_true", help="fly the vehicle whose driver runs")
     real.add_argument("--yes-the-vehicle-may-move", action="store_true", dest="consent",

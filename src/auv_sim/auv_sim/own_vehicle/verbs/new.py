@@ -1,8 +1,8 @@
 """Write a vehicle file from what an owner has at hand, and a survey that the vehicle can fly.
 
-At a terminal it asks for what is not given as an option. What is not known is assumed: by similarity from
-the REMUS 100, bent to what is given, and marked in the file with the factor within which it may be wrong. The
-file is then checked and flown, and the measurements that would help most are listed.
+At a terminal it asks for what is not given as an option, but not with --quiet. What is not known is assumed:
+by similarity from the REMUS 100, bent to what is given, and marked in the file with the factor within which
+it may be wrong. The file is then checked and flown, and the measurements that would help most are listed.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from auv_sim.command_line import (
     EXIT_DONE,
     Parser,
     add_overwrite,
+    add_quiet,
     finite,
     not_negative,
     positive,
@@ -40,6 +41,7 @@ def add_arguments(parser: Parser) -> None:
     """Add the options."""
     parser.add_argument("--out", type=target, metavar="FILE", help="the file to write (default: NAME.yaml)")
     add_overwrite(parser)
+    add_quiet(parser)
     parser.add_argument("--name", help="of the vehicle")
     parser.add_argument("--length", type=positive, metavar="M", help="of the hull")
     parser.add_argument("--diameter", type=positive, metavar="M", help="of the hull")
@@ -82,14 +84,16 @@ def run(arguments: argparse.Namespace) -> int:
     Raises:
         ConfigurationError: a fact is missing, or contradicts another.
     """
-    if sys.stdin.isatty() and not _is_complete(arguments):
+    if sys.stdin.isatty() and not arguments.quiet and not _is_complete(arguments):
         _ask(arguments)
     from auv_sim.own_vehicle.new.new_session import new_vehicle
     from auv_sim.own_vehicle.output_files import vehicle_file_of
     from auv_sim.terminal import console
 
     facts = _facts(arguments)
-    new_vehicle(facts, arguments.out or vehicle_file_of(facts.name), arguments.overwrite, console())
+    new_vehicle(
+        facts, arguments.out or vehicle_file_of(facts.name), arguments.overwrite, console(arguments.quiet)
+    )
     return EXIT_DONE
 
 

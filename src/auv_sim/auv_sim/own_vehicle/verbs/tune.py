@@ -23,10 +23,13 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     p.add_argument(
         "--members", type=at_least_one, metavar="N",
-        help="hulls: the vehicle and N - 1 drawn within --spread (5 with a spread, else 1)",
+        help="hulls: the vehicle and N - 1 drawn within --spread (default: 5 with a spread, else 1)",
     )  # fmt: skip
     p.add_argument(
-        "--generations", type=at_least_one, metavar="N", help="of the search (80; 50 for several hulls)"
+        "--generations",
+        type=at_least_one,
+        metavar="N",
+        help="of the search (default: 80; 50 for several hulls)",
     )
     add_conditions(p)
     # By default the uncertainty is what the vehicle file states, if it states one.
