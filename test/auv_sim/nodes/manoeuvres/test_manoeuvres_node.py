@@ -71,8 +71,12 @@ def test_it_does_not_move_without_consent(bench: Bench) -> None:
 
 
 def test_a_program_is_flown_and_ends_with_zeros(bench: Bench, tmp_path: Path) -> None:
-    node = started(bench, tmp_path, 0.5, farewell=ManoeuvresNode.farewell)
+    assert ManoeuvresNode.farewell > 10 * manoeuvres_node._PERIOD
+    node = started(bench, tmp_path, 0.5, farewell=60.0)
     fly(bench, 12)
+    bench.until(lambda: bench.values(topics.THRUST_CMD)[-5:] == [0.0] * 5)
+    assert not node.finished
+    node.farewell = 0.0
     bench.until(lambda: node.finished)
     rudder = [message.data for message in bench.received["rudder_cmd"]]
     thrust = [message.data for message in bench.received["thrust_cmd"]]
