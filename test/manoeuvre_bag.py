@@ -62,6 +62,8 @@ def write_manoeuvres(
     directory: Path, flown: Manoeuvred, names: Mapping[str, str] = NAMES, ned: bool = False,
     repeated: bool = True, late: float = 0.0, set_back: float = 0.0, body: str = "",
     command: str = "std_msgs/msg/Float64", silent: tuple[float, float] = (0.0, 0.0),
+    command: str = "std_msgs/msg/Float64", velocity: str = topics.WATER_VELOCITY.type,
+    second: str = "",
 ) -> Path:  # fmt: skip
     """Write a recording; return its directory.
 
@@ -76,18 +78,23 @@ def write_manoeuvres(
         body: frame id of the body; by default as `ned` says.
         command: type of the commands, which are rounded where it holds whole numbers.
         silent: interval of the odometry's time without commands, s; its ends are not part of it.
+        velocity: type of the velocity through the water.
+        second: the topic that is recorded under the name of "second" too.
     """
     side, body = 1.0 if ned else -1.0, body or ("base_link_frd" if ned else "base_link")
     number = int if "Int" in command else float
-    types = _TYPES | {"rudder_cmd": command, "thrust_cmd": command}
+    types = _TYPES | {"rudder_cmd": command, "thrust_cmd": command, topics.WATER_VELOCITY.name: velocity}
     last = np.searchsorted(flown.water_t, flown.t + 1e-6) - 1
     with BagWriter(directory) as writer:
+        types["second"] = types.get(second, "")
         channels = {name: writer.add_topic(full, types[name], []) for name, full in names.items()}
 
         def put(name: str, at: int, message: Any) -> None:
             if name in channels:
                 data = bytes(typestore().serialize_cdr(message, types[name]))
                 writer.write(channels[name], at, at, data)
+                if name == second:
+                    writer.write(channels["second"], at, at, data)
 
         for k in range(flown.t.size):
             at, row = round(float(flown.t[k]) * 1e9), last[k]
@@ -95,8 +102,8 @@ def write_manoeuvres(
             put("odom", at, _odometry(flown, k, stamp, ned, body))
             if row >= 0 and (repeated or abs(flown.water_t[row] - flown.t[k]) < 1e-6):
                 twist = _twist(float(flown.water_u[row]), side * float(flown.water_v[row]), 0.0)
-                stamped = "geometry_msgs/msg/TwistWithCovarianceStamped"
-                put("velocity_through_water", at, _made(stamped, _header(stamp, body), twist))
+                measured = twist if "Covariance" in velocity else twist.twist
+                put("velocity_through_water", at, _made(velocity, _header(stamp, body), measured))
             for name, column in (("rudder_cmd", flown.rudder), ("thrust_cmd", flown.thrust)):
                 if silent[0] < flown.t[k] < silent[1]:
                     continue

@@ -7,14 +7,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.reading.deserialize import deserializer
-from auv_sim.bags.reading.recording import Bag, RecordedTopic
+from auv_sim.bags.reading.recording import RecordedTopic
 
 Column = NDArray[np.float64]
 Times = NDArray[np.int64]
-#: Types of commands: one number named `data`. The contract's is the first.
-_NUMBERS = tuple(f"std_msgs/msg/{kind}" for kind in ("Float64", "Float32", "Int16", "Int32", "UInt16"))
+#: Commands count from the last one that is older than the first odometry by this time, s.
+_BEFORE = 5.0
 
 
 class TimedCommands(NamedTuple):
@@ -25,26 +24,20 @@ class TimedCommands(NamedTuple):
 
 
 def timed_commands(
-    bag: Bag, topic: RecordedTopic | None, odom_log_ns: Times, odom_stamp_ns: Times
+    topic: RecordedTopic | None, odom_log_ns: Times, odom_stamp_ns: Times
 ) -> TimedCommands | None:
     """Return commands on the odometry's clock; None where there are none while the odometry runs.
 
     Where one command is logged after each odometry and before the next one, it belongs to that odometry's
-    stamp (lockstep); others to the time by the log's clock, between the odometries around it.
+    stamp (lockstep); others to the time by the log's clock, between the odometries around it. The last
+    commands before the first odometry count too: some vehicles send one only when it changes.
 
     Args:
-        bag: the recording.
-        topic: of the commands; None if there is none.
+        topic: of the commands, each one number named `data`; None if there is none.
         odom_log_ns, odom_stamp_ns: log times and stamps of the odometries by log time, ns, (n,).
-
-    Raises:
-        ConfigurationError: the topic's messages hold no number.
     """
     if topic is None or not topic.count:
         return None
-    if topic.type not in _NUMBERS:
-        expected = f"one of {', '.join(_NUMBERS)}"
-        raise ConfigurationError(f"{bag.path}: {topic.name.rsplit('/', 1)[-1]}", topic.type, expected)
     log_ns, value = _logged(topic)
     stamps = odom_stamp_ns * 1e-9
     if _answers_each(log_ns, odom_log_ns):
@@ -53,12 +46,14 @@ def timed_commands(
         logged = (log_ns - odom_log_ns[0]) * 1e-9
         own = (odom_log_ns - odom_log_ns[0]) * 1e-9
         growing = np.append(True, np.diff(np.maximum.accumulate(own)) > 0.0)
-        t = np.interp(logged, own[growing], stamps[growing], left=np.nan, right=np.nan)
+        t = np.interp(logged, own[growing], stamps[growing], right=np.nan) + np.minimum(logged, 0.0)
     kept = np.isfinite(t) & np.isfinite(value)
     if not kept.any():
         return None
     order = np.argsort(t[kept], kind="stable")
-    return TimedCommands(t[kept][order], value[kept][order])
+    t, value = t[kept][order], value[kept][order]
+    first = max(int(np.searchsorted(t, stamps[0] - _BEFORE, side="right")) - 1, 0)
+    return TimedCommands(t[first:], value[first:])
 
 
 def _logged(topic: RecordedTopic) -> tuple[Times, Column]:

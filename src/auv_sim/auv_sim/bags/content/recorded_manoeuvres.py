@@ -18,14 +18,11 @@ from auv_sim.bags.content.recorded_commands import TimedCommands, timed_commands
 from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.columns import Columns, decode
 from auv_sim.bags.reading.load import run_of
+from auv_sim.bags.reading.manoeuvre_topics import missing, renamed, topics_of
 from auv_sim.bags.reading.recording import Bag, RecordedTopic
 from auv_sim.flight.run_record import Run, SpatialRun
 
 Column = NDArray[np.float64]
-#: Topics that are read, by the names of the wire contract.
-READ = (
-    topics.ODOM, topics.WATER_VELOCITY, topics.RUDDER_CMD, topics.THRUST_CMD, topics.STERNPLANE_CMD,
-)  # fmt: skip
 _COMMANDS = (topics.RUDDER_CMD, topics.THRUST_CMD, topics.STERNPLANE_CMD)
 #: Stamps that go back by more, in the order of the log, come from a clock that was set, s.
 _SET_BACK = 1.0
@@ -67,11 +64,8 @@ def manoeuvres_in(
     Raises:
         ConfigurationError: no readable recording, a missing topic, one of another type, unknown frames.
     """
-    bag = _renamed(read_bag(path, odometry=odometry), names or {})
-    found = {topic: bag.find(topic.name, namespace) for topic in READ}
-    for topic in READ[:4]:
-        if found[topic] is None or not found[topic].count:  # type: ignore[union-attr]
-            raise _missing(bag, topic)
+    bag = renamed(read_bag(path, odometry=odometry), names or {})
+    found = topics_of(bag, namespace)
     motion = {t.name: t for t in (found[topics.ODOM], found[topics.WATER_VELOCITY]) if t is not None}
     planes = found[topics.STERNPLANE_CMD]
     if planes is not None:  # makes a run in three dimensions
@@ -85,47 +79,12 @@ def manoeuvres_in(
     _check_clock(path, odom)
     water_t, water = _water(bag, log, log_axes)
     rudder, thrust, sternplanes = (
-        timed_commands(bag, found[topic], odom.log_ns, odom.columns.stamp_ns) for topic in _COMMANDS
+        timed_commands(found[topic], odom.log_ns, odom.columns.stamp_ns) for topic in _COMMANDS
     )
     if rudder is None or thrust is None:
-        raise _missing(bag, topics.RUDDER_CMD if rudder is None else topics.THRUST_CMD)
+        raise missing(bag, topics.RUDDER_CMD if rudder is None else topics.THRUST_CMD)
     spatial = sternplanes if isinstance(run, SpatialRun) else None
     return Manoeuvring(run, _over(run, odom, odom_axes), water_t, water, rudder, thrust, spatial)
-
-
-def _missing(bag: Bag, topic: Topic) -> ConfigurationError:
-    listed = ", ".join(sorted(bag.topics)) or "no topic"
-    expected = (
-        f"messages ({topic.type}) while the odometry runs, or --topic {topic.name}=NAME with one of {listed}"
-    )
-    return ConfigurationError(str(bag.path), f"no {topic.name}", expected)
-
-
-def _renamed(bag: Bag, names: Mapping[str, str]) -> Bag:
-    """Return the bag with topics under their names of the wire contract.
-
-    Raises:
-        ConfigurationError: there is no such topic, or one has two names.
-    """
-    sources: dict[str, str] = {}
-    for name, other in names.items():
-        full = "/" + other.strip("/")
-        if full not in bag.topics:
-            listed = ", ".join(sorted(bag.topics)) or "none"
-            raise ConfigurationError(f"--topic {name}", full, f"a topic of {bag.path}: {listed}")
-        if full in sources.values():
-            raise ConfigurationError(f"--topic {name}", f"{full}, which is given twice", "a topic of its own")
-        sources[name] = full
-    odometry = sources.pop(topics.ODOM.name, bag.odometry)
-    renamed = {
-        key: topic
-        for key, topic in bag.topics.items()
-        if key not in sources.values() and key.rsplit("/", 1)[-1] not in sources
-    }
-    for name, full in sources.items():
-        own = full.rsplit("/", 1)[0] + "/" + name
-        renamed[own] = dataclasses.replace(bag.topics[full], name=own)
-    return dataclasses.replace(bag, topics=renamed, odometry=odometry)
 
 
 class _Decoded(NamedTuple):
@@ -137,8 +96,6 @@ class _Decoded(NamedTuple):
 
 def _columns(bag: Bag, topic: RecordedTopic | None, row: Topic) -> _Decoded:
     assert topic is not None
-    if topic.type != row.type:
-        raise ConfigurationError(f"{bag.path}: {row.name}", topic.type, row.type)
     order = np.argsort(np.array(topic.log_ns, np.int64), kind="stable")
     kept = [k for k in order if topic.messages[k] is not None]
     try:

@@ -13,7 +13,8 @@ from auv_msgs_py.contract.frames import FrameIds
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.vehicle import Hull, Vehicle
 from auv_sim.bags.content.recorded_commands import TimedCommands
-from auv_sim.bags.content.recorded_manoeuvres import READ, Manoeuvring, manoeuvres_in
+from auv_sim.bags.content.recorded_manoeuvres import Manoeuvring, manoeuvres_in
+from auv_sim.bags.reading.manoeuvre_topics import READ
 from auv_sim.flight.run_record import SpatialRun
 from auv_sim.own_vehicle.identify.combinations import Numbers
 from auv_sim.own_vehicle.identify.command_silence import outside, silences

@@ -17,9 +17,11 @@ from auv_sim.own_vehicle.identify.combinations import prior_of
 from auv_sim.own_vehicle.identify.innovations import channels_of
 from auv_sim.own_vehicle.identify.minimise import minimise
 from auv_sim.own_vehicle.identify.results import plausibility
+from auv_sim.own_vehicle.identify.results.excitation import check_excitation
 from auv_sim.own_vehicle.identify.results.plausibility import (
     check_commands,
     check_fit,
+    check_speed,
     check_yaw_rate,
     doubts,
     latency_doubts,
@@ -49,9 +51,11 @@ def slow_log() -> PlanarData:
 def test_the_contracts_units_pass(data: PlanarData) -> None:
     check_commands(data.rudder, data.thrust, REMUS, "bag")
     check_yaw_rate([data, data], "bag")
+    check_speed([data], REMUS, 1.62, "bag")
     assert doubts(_found(0.0), [data], REMUS, 1.62) == []
     spikes = data.rudder.copy()
     spikes[:5] = 20.0
+    spikes[5 : spikes.size // 5] = 0.8  # a controller that asks for more than there is
     check_commands(spikes, 1.05 * data.thrust, REMUS, "bag")
 
 
@@ -59,6 +63,10 @@ def test_the_contracts_units_pass(data: PlanarData) -> None:
     ("change", "found"),
     [
         (lambda rudder, thrust: (np.degrees(rudder), thrust), r"rudder_cmd: found angles up to 35, .*rad"),
+        (
+            lambda rudder, thrust: (2.5 * rudder, thrust),
+            r"rudder_cmd: found angles up to 1\.53, 35% of them beyond .*shares",
+        ),
         (lambda rudder, thrust: (rudder, 15.0 * thrust), r"thrust_cmd: found up to 97\.2, .*6\.48 N"),
     ],
 )
@@ -67,6 +75,13 @@ def test_commands_in_other_units_are_refused(
 ) -> None:
     with pytest.raises(ConfigurationError, match=found):
         check_commands(*change(data.rudder, data.thrust), REMUS, "bag")
+
+
+@pytest.mark.parametrize("factor", [0.0, 0.01, 100.0])
+def test_a_thrust_that_is_far_from_the_speed_is_refused(data: PlanarData, factor: float) -> None:
+    """Shares instead of per cent are a hundredth; so small a thrust leaves nothing of the drag."""
+    with pytest.raises(ConfigurationError, match=r"thrust_cmd: .*1\.\d+ m/s measured, expected thrust in N"):
+        check_speed([data._replace(thrust=factor * data.thrust)], REMUS, 1.62, "bag")
 
 
 @pytest.mark.parametrize(
@@ -83,6 +98,14 @@ def test_a_yaw_rate_that_is_not_the_headings_is_refused(
 ) -> None:
     with pytest.raises(ConfigurationError, match=found):
         check_yaw_rate([change(data)], "bag")
+
+
+def test_a_recording_without_a_yaw_rate_is_refused_by_its_name(data: PlanarData) -> None:
+    none = data._replace(name="second", t=data.t[:0], r=data.r[:0], psi=data.psi[:0])
+    with pytest.raises(ConfigurationError, match=r"^second: odom: found no finite yaw rate"):
+        check_excitation([data, none], "first, second")
+    with pytest.raises(ConfigurationError, match=r"^second: found 0 s with odometry, commands and"):
+        check_excitation([data, data._replace(name="second", water_t=data.water_t + 1e6)], "first, second")
 
 
 @pytest.mark.parametrize("error", [0.36, 1e200, math.nan])

@@ -26,10 +26,13 @@ def check_excitation(recordings: Sequence[PlanarData], where: str) -> None:
         ConfigurationError: too short, too few samples, or hardly any motion; names the missing manoeuvre.
     """
     for data in recordings:
+        if not data.t.size:
+            raise ConfigurationError(f"{data.name}: odom", "no finite yaw rate", "that of a gyro")
         together = shared_time(data)
         if together < _LEAST_TOGETHER:
-            found = f"{data.name}: {together:.0f} s with odometry, commands and velocity through the water"
-            raise ConfigurationError(where, found, f"at least {_LEAST_TOGETHER:.0f} s in each recording")
+            found = f"{together:.0f} s with odometry, commands and velocity through the water"
+            expected = f"at least {_LEAST_TOGETHER:.0f} s in each recording, by one clock"
+            raise ConfigurationError(data.name, found, expected)
     time = sum(_duration(data) for data in recordings)
     if time < _LEAST_TIME:
         found = f"{time:.0f} s of manoeuvres without gaps in the odometry"

@@ -20,12 +20,15 @@ from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, LATENCY
 _EXCEEDING = 0.02
 #: Largest thrust over the file's; largest angle of a rudder, rad.
 _MORE_THRUST, _LARGEST_ANGLE = 1.1, 0.5 * math.pi
+#: Largest share of commands beyond 1.1 of the largest angle: a controller may saturate at times.
+_SATURATED, _MORE_ANGLE = 0.25, 1.1
 #: Range of the heading's change over that by the yaw rate; changes in longer gaps (s) are left out.
 _RATE, _LONGEST_STEP = (0.7, 1.4), 0.5
 #: Horizon of predictions of the identified data (s), and their largest error over the rms yaw rate.
 _HORIZON, _LARGEST_ERROR = 2.0, 0.2
-#: Factor between the speed that the file expects at the recorded thrust, and the measured one.
-_SPEEDS = 2.5
+#: Factor between the speed that the file expects at the recorded thrust, and the measured one: that of a
+#: notice, and that of a thrust in another unit, whose square is the factor between the forces.
+_SPEEDS, _OTHER_UNIT = 2.5, 4.0
 #: Dead time below which the commands were recorded too late, s.
 _LATE = -0.01
 #: A given latency of the log is doubted where the data would move it by more than this (s), and by so many
@@ -42,11 +45,12 @@ def check_commands(rudder: Numbers, thrust: Numbers, vehicle: Vehicle, where: st
         where: name of the recording.
 
     Raises:
-        ConfigurationError: angles that no rudder has, or more thrust than the vehicle has.
+        ConfigurationError: angles that no rudder has, or this one, or more thrust than the vehicle has.
     """
-    if rudder.size and np.mean(np.abs(rudder) > _LARGEST_ANGLE) > _EXCEEDING:
-        found = f"angles up to {np.max(np.abs(rudder)):.3g}"
-        expected = f"radians, {vehicle.rudder.max_angle:.2g} at most, neither degrees nor per cent"
+    beyond = float(np.mean(np.abs(rudder) > _MORE_ANGLE * vehicle.rudder.max_angle)) if rudder.size else 0.0
+    if beyond > _SATURATED or (rudder.size and np.mean(np.abs(rudder) > _LARGEST_ANGLE) > _EXCEEDING):
+        found = f"angles up to {np.max(np.abs(rudder)):.3g}, {beyond:.0%} of them beyond the rudder's largest"
+        expected = f"radians, {vehicle.rudder.max_angle:.2g} at most, neither degrees, per cent nor shares"
         raise ConfigurationError(f"{where}: rudder_cmd", found, expected)
     if thrust.size and np.mean(thrust > _MORE_THRUST * vehicle.thrust_max) > _EXCEEDING:
         symbol = vehicle.thrust_symbol
@@ -73,6 +77,34 @@ def check_yaw_rate(recordings: Sequence[PlanarData], where: str) -> None:
         raise ConfigurationError(
             f"{where}: odom", f"a yaw rate of {shown} times that of the heading", expected
         )
+
+
+def check_speed(recordings: Sequence[PlanarData], vehicle: Vehicle, drag: float, where: str) -> None:
+    """Check that the measured speed is about that which the file expects at the recorded thrust.
+
+    Args:
+        recordings: with thrust in N.
+        vehicle: known beforehand.
+        drag: as for `doubts`.
+        where: name of the recordings.
+
+    Raises:
+        ConfigurationError: it is not, as with a thrust in another unit.
+    """
+    speed, expected = _speeds(recordings, drag)
+    if not expected / _OTHER_UNIT <= speed <= expected * _OTHER_UNIT:
+        raise ConfigurationError(
+            f"{where}: thrust_cmd",
+            f"thrust at which {vehicle.name} makes {expected:.2f} m/s, and {speed:.2f} m/s measured",
+            f"thrust in {vehicle.thrust_symbol}, up to {vehicle.thrust_max:g}",
+        )
+
+
+def _speeds(recordings: Sequence[PlanarData], drag: float) -> tuple[float, float]:
+    """Return the measured speed, and that by the file's drag at the recorded thrust, m/s: medians."""
+    thrust = float(np.median(np.concatenate([data.thrust for data in recordings])))
+    speed = float(np.median(np.concatenate([data.u for data in recordings])))
+    return speed, math.sqrt(max(thrust, 0.0) / drag)
 
 
 def check_fit(found: Identified, where: str) -> None:
@@ -108,9 +140,7 @@ def doubts(found: Identified, recordings: Sequence[PlanarData], vehicle: Vehicle
             f"a dead time of {dead_time:.3f} s: the commands are recorded later than they take effect. "
             "The file has 0: write its true rudder.dead_time into it"
         )
-    thrust = float(np.median(np.concatenate([data.thrust for data in recordings])))
-    speed = float(np.median(np.concatenate([data.u for data in recordings])))
-    expected = math.sqrt(max(thrust, 0.0) / drag)
+    speed, expected = _speeds(recordings, drag)
     if not expected / _SPEEDS <= speed <= expected * _SPEEDS:
         lines.append(
             f"{speed:.2f} m/s where {vehicle.name} makes {expected:.2f} m/s with the recorded thrust: "
