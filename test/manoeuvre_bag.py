@@ -62,8 +62,7 @@ def write_manoeuvres(
     directory: Path, flown: Manoeuvred, names: Mapping[str, str] = NAMES, ned: bool = False,
     repeated: bool = True, late: float = 0.0, set_back: float = 0.0, body: str = "",
     command: str = "std_msgs/msg/Float64", silent: tuple[float, float] = (0.0, 0.0),
-    command: str = "std_msgs/msg/Float64", velocity: str = topics.WATER_VELOCITY.type,
-    second: str = "",
+    velocity: str = topics.WATER_VELOCITY.type, second: str = "",
 ) -> Path:  # fmt: skip
     """Write a recording; return its directory.
 
