@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from rich.console import Console, ConsoleOptions, RenderableType
@@ -74,3 +74,13 @@ def progress_bar(console: Console, disable: bool = False) -> Progress:
     """Return a progress bar: task, count of total, elapsed time."""
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     return Progress(*columns, console=console, disable=disable)
+
+
+def steps_in(bar: Progress) -> Callable[[int, int, str], None]:
+    """Return what shows work of several kinds in a bar: (steps done, steps in all, kind of work)."""
+    task = bar.add_task("reading", total=None)
+
+    def update(done: int, total: int, what: str) -> None:
+        bar.update(task, completed=done, total=total, description=what)
+
+    return update

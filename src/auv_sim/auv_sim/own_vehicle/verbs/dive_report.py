@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from rich.console import Console
-from rich.progress import Progress
 
 from auv_path_following.vehicle import Hull, Vehicle
 from auv_sim.own_vehicle.identify.dive.dive_data import DiveData
@@ -16,7 +15,7 @@ from auv_sim.own_vehicle.identify.innovations import channels_of
 from auv_sim.own_vehicle.identify.predictions import Prediction, predictions_of
 from auv_sim.own_vehicle.identify.results.dive_tables import dive_table, diver_table
 from auv_sim.own_vehicle.identify.results.identification_tables import (
-    identified_count,
+    identified_line,
     predictions_table,
     whiteness_table,
 )
@@ -24,7 +23,7 @@ from auv_sim.own_vehicle.identify.time_grid import PlanarData
 from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, LATENCY, RATE
 from auv_sim.own_vehicle.verbs.left_out import SHORTEST
 from auv_sim.terminal import console as terminal
-from auv_sim.terminal import progress_bar
+from auv_sim.terminal import progress_bar, steps_in
 
 #: Fewest samples of what is left out.
 _FEWEST = 10
@@ -66,7 +65,7 @@ def identified_dive(
     )
     used, kept = _divided(dives, left_out)
     with progress_bar(terminal(quiet), quiet) as bar:
-        found = identify_dive(used, hull, hull.vertical, sheet, None, reporter(bar))
+        found = identify_dive(used, hull, hull.vertical, sheet, None, steps_in(bar))
     if kept is None:
         return IdentifiedDive(found, [])
     channels = channels_of([kept], found.scaling.sheet, found.dead_band)
@@ -99,18 +98,8 @@ def print_dive(console: Console, dive: IdentifiedDive, hull: Hull) -> None:
     assert hull.vertical is not None
     found = dive.found
     console.print(dive_table(found))
-    console.print(f"{identified_count(found)} of 14 have a standard deviation below 10 %", highlight=False)
+    console.print(identified_line(found), highlight=False)
     console.print(diver_table(found, hull, hull.vertical))
     console.print(whiteness_table(found))
     if dive.predictions:
         console.print(predictions_table(dive.predictions, "pitch rate", "pitch"))
-
-
-def reporter(bar: Progress) -> Callable[[int, int, str], None]:
-    """Return what shows the progress of an identification in a bar."""
-    task = bar.add_task("reading", total=None)
-
-    def update(done: int, total: int, what: str) -> None:
-        bar.update(task, completed=done, total=total, description=what)
-
-    return update

@@ -30,7 +30,7 @@ from auv_sim.own_vehicle.identify.results.identification_picture import draw_ide
 from auv_sim.own_vehicle.identify.results.identification_tables import (
     coefficients_table,
     figures_table,
-    identified_count,
+    identified_line,
     predictions_table,
     whiteness_table,
 )
@@ -50,13 +50,13 @@ from auv_sim.own_vehicle.identify.results.plausibility import (
 from auv_sim.own_vehicle.identify.time_grid import FOLLOWED, PlanarData, shared_time
 from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, RATE, DataSheet, typed
 from auv_sim.own_vehicle.identify.water_current import mean_current
-from auv_sim.own_vehicle.verbs.dive_report import IdentifiedDive, identified_dive, print_dive, reporter
+from auv_sim.own_vehicle.verbs.dive_report import IdentifiedDive, identified_dive, print_dive
 from auv_sim.own_vehicle.verbs.identification_study import add_study_arguments, study
 from auv_sim.own_vehicle.verbs.identify_checks import check_options, check_target
 from auv_sim.own_vehicle.verbs.left_out import ENOUGH, LAST, divided
 from auv_sim.own_vehicle.verbs.recordings_read import Recorded, add_reading_arguments, read
 from auv_sim.terminal import console as terminal
-from auv_sim.terminal import go_on, progress_bar, wrote
+from auv_sim.terminal import go_on, progress_bar, steps_in, wrote
 
 #: Latency of the log where it is found from the data: mean and deviation before them, s.
 _LATENCY = (0.1, 0.08)
@@ -139,7 +139,7 @@ def run(arguments: argparse.Namespace) -> int:
     sheet = _sheet(arguments, vehicle)
     band = None if arguments.dead_band is None else math.radians(arguments.dead_band)
     with progress_bar(terminal(arguments.quiet), arguments.quiet) as bar:
-        found = identify(used, hull, sheet, band, reporter(bar))
+        found = identify(used, hull, sheet, band, steps_in(bar))
     check_sign(found, where)
     check_fit(found, where)
     for doubt in (*doubts(found, used, vehicle, -hull.Xuu), *latency_doubts(found)):
@@ -174,7 +174,7 @@ def report(
     abilities = abilities_of(found.physical, found.spread, in_plane(vehicle, hull))
     kept, predictions = _predicted(left_out, found)
     console.print(coefficients_table(found))
-    console.print(f"{identified_count(found)} of 14 have a standard deviation below 10 %", highlight=False)
+    console.print(identified_line(found), highlight=False)
     console.print(figures_table(found, abilities, [mean_current(data) for data in recordings]))
     console.print(whiteness_table(found))
     if predictions:

@@ -27,6 +27,14 @@ def test_figures_judge_medians_and_the_coverage_of_what_counts_as_identified() -
     assert not rows["righting moment, pitch frequency squared"].met
 
 
+def test_targets_are_those_of_the_program_not_of_its_folder() -> None:
+    (effect, *_), (short, *_) = (
+        dive_figures([outcome(0.01, 1.0)], f"two/{program}.yaml")
+        for program in ("eight_minutes_dive", "two_minutes_dive")
+    )
+    assert (effect.target, short.target) == ("2 %", "4 %")
+
+
 def test_drawn_divers_are_of_all_lengths_heavy_and_light_and_their_planes_hold_them() -> None:
     divers = [random_diver(seed) for seed in range(40)]
     verticals = [diver.coefficients.vertical for diver in divers]

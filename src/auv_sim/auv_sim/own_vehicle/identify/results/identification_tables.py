@@ -71,10 +71,11 @@ def combinations_table(found: Identified, title: str, symbols: Sequence[str], un
     return table
 
 
-def identified_count(found: Identified) -> int:
-    """Return how many combinations have a standard deviation below `IDENTIFIED`."""
+def identified_line(found: Identified) -> str:
+    """Return how many combinations have a standard deviation below `IDENTIFIED`, in words."""
     shares = found.spread.deviations[:COUNT] / np.abs(found.physical[:COUNT])
-    return int((shares < IDENTIFIED).sum())
+    known = int((shares < IDENTIFIED).sum())
+    return f"{known} of {COUNT} have a standard deviation below {100.0 * IDENTIFIED:.0f} %"
 
 
 def servo_figures(found: Identified) -> list[Figure]:
