@@ -18,6 +18,7 @@ from auv_sim.bags.reading.growing_bag import has_message
 from auv_sim.cli.mission import main
 from auv_sim.launch import launcher, mission_plan
 from auv_sim.launch.options import Options
+from auv_sim.launch.processes import domains
 
 CommandLine = Callable[..., list[str]]
 Spawn = Callable[[list[str]], "subprocess.Popen[str]"]
@@ -211,7 +212,7 @@ def test_a_vehicles_ros_domain_is_the_shells(
     simulated = mission_plan.make(Options(), tmp_path)
     with launcher.domain_of(simulated, nodes_are_launched=True) as found:
         assert found == number
-    monkeypatch.setattr(launcher, "free_domain", lambda: contextlib.nullcontext(99))
+    monkeypatch.setattr(domains, "free_domain", lambda: contextlib.nullcontext(99))
     with launcher.domain_of(simulated) as found:
         assert found == 99
 

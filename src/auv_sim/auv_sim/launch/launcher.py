@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager
 from pathlib import Path
 
 from auv_msgs_py.contract import topics
@@ -16,7 +16,7 @@ from auv_sim.launch.operation import console_child
 from auv_sim.launch.operation.mission_stages import MissionStages
 from auv_sim.launch.outcome import Outcome
 from auv_sim.launch.processes import discovery
-from auv_sim.launch.processes.domains import free_domain
+from auv_sim.launch.processes.domains import domain_for
 from auv_sim.launch.processes.placement import Processor
 from auv_sim.launch.processes.process_group import Children, Starter
 from auv_sim.launch.progress_display import ProgressDisplay
@@ -41,7 +41,7 @@ def domain_of(plan: Plan, nodes_are_launched: bool = False) -> AbstractContextMa
     asked = plan.options.domain
     if asked is None and (plan.options.no_sim or nodes_are_launched):
         asked = domain_of_environment()
-    return free_domain() if asked is None else nullcontext(asked)
+    return domain_for(asked)
 
 
 def fly(plan: Plan, directory: Path, domain: int, progress: ProgressDisplay, loader: Starter) -> Outcome:

@@ -20,10 +20,9 @@ from auv_sim.checks.benchmark.measures.operation import start_nodes
 from auv_sim.checks.benchmark.measures.rig import NAMESPACE
 from auv_sim.checks.benchmark.scale import Scale
 from auv_sim.checks.benchmark.usage import memory
+from auv_sim.checks.patience import PATIENCE
 
 _MODULE = "auv_sim.cli.console"
-#: Longest wall time for the nodes to find each other, and for an answer, s.
-_PATIENCE = 180.0
 _BEFORE = "console: "
 
 
@@ -139,13 +138,13 @@ class _Rig:
         """Look until a condition holds.
 
         Raises:
-            BenchmarkFailed: a process has ended, or `_PATIENCE` has.
+            BenchmarkFailed: a process has ended, or `PATIENCE` has.
         """
-        deadline = time.monotonic() + _PATIENCE
+        deadline = time.monotonic() + PATIENCE
         while not condition():
             dead = self._children.dead()
             if dead is not None or time.monotonic() > deadline:
-                raise BenchmarkFailed(dead.obituary() if dead else f"no result within {_PATIENCE:g} s")
+                raise BenchmarkFailed(dead.obituary() if dead else f"no result within {PATIENCE:g} s")
             self._monitor.look(0.0)
             await asyncio.sleep(0.0005)
 

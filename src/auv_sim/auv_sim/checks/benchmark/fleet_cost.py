@@ -16,6 +16,7 @@ from auv_msgs_py.node.start_gate import GATE, PASSED
 from auv_sim.checks.benchmark.measures.children import BenchmarkFailed, MeasuredProcesses, processes
 from auv_sim.checks.benchmark.measures.stopwatch import MARK
 from auv_sim.checks.benchmark.scale import Scale
+from auv_sim.checks.patience import PATIENCE
 from auv_sim.launch import launcher, mission_plan
 from auv_sim.launch.fleet import fleet_launcher, fleet_plan
 from auv_sim.launch.mission_plan import Plan
@@ -27,8 +28,6 @@ _MICRO = 1e6
 NUMBERS = (1, 4)
 #: Time of the mission that is not measured, s: discovery and the first steps.
 _BEFORE = 5.0
-#: Wall time for the nodes to find each other, and for a measurement that is expected to take no time, s.
-_PATIENCE = 180.0
 #: Simulated seconds of a step, the simulator's default.
 _STEP = 0.05
 
@@ -131,7 +130,7 @@ def _measured(
             monitor.missing_nodes(set(members[label].parameters), True) for label, monitor in monitors.items()
         )
 
-    children.until(lambda: not missing(), lambda: _look(monitors), _PATIENCE)
+    children.until(lambda: not missing(), lambda: _look(monitors), PATIENCE)
     with contextlib.ExitStack() as held:
         fleet_launcher.place(members, children.ids, held)
         for label, monitor in monitors.items():
@@ -154,7 +153,7 @@ def cost_of_steps(children: MeasuredProcesses, monitors: Mapping[str, Any], step
     """
 
     def wait_until(flown: float) -> None:
-        children.until(lambda: earliest() >= flown, lambda: _look(monitors), _PATIENCE)
+        children.until(lambda: earliest() >= flown, lambda: _look(monitors), PATIENCE)
 
     def earliest() -> float:
         return min(float(monitor.mission_time) for monitor in monitors.values())

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import contextlib
 import json
 import math
 import os
@@ -27,7 +26,7 @@ from auv_sim.command_line import (
     make_directory,
     to_type,
 )
-from auv_sim.launch.processes.domains import free_domain
+from auv_sim.launch.processes.domains import domain_for, variables_of
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, headed_table, progress_bar
 
@@ -50,9 +49,8 @@ def run(arguments: argparse.Namespace, not_default: Mapping[str, Any]) -> int:
     rows = _rows(arguments)
     if arguments.out is not None:
         make_directory(arguments.out, new=True)
-    asked = arguments.domain
-    with free_domain() if asked is None else contextlib.nullcontext(asked) as domain:
-        os.environ |= {"ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    with domain_for(arguments.domain) as domain:
+        os.environ |= variables_of(domain)
         return _spoil(rows, arguments, not_default)
 
 

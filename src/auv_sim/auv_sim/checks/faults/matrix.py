@@ -17,7 +17,8 @@ from auv_sim.checks.faults.fault_row import Expectation, Flight
 from auv_sim.checks.faults.graph_listener import says
 from auv_sim.checks.faults.graph_processes import KINDS, GraphProcesses, write_mission
 from auv_sim.checks.faults.row_judge import RowJudge, RowResult
-from auv_sim.checks.faults.spoiled_graph import PATIENCE, GraphFailed, SpoiledFlight
+from auv_sim.checks.faults.spoiled_graph import GraphFailed, SpoiledFlight
+from auv_sim.checks.patience import PATIENCE
 from auv_sim.vehicle.hulls.rigid_body import body_at
 from auv_sim.vehicle.remus import PlantState
 

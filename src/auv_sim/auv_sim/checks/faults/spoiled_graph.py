@@ -21,12 +21,10 @@ from auv_msgs_py.values.errors import SuiteError
 from auv_sim.checks.faults.fault_row import Flight
 from auv_sim.checks.faults.graph_listener import GraphListener
 from auv_sim.checks.faults.graph_processes import KINDS, NAMESPACE, GraphProcesses, StartPose
+from auv_sim.checks.patience import PATIENCE
 from auv_sim.nodes.fault_relay import FaultRelay, raw
 from auv_sim.nodes.pacing import Pacer
 from auv_sim.nodes.plant_node import RemusPlantNode
-
-#: Wall time for anything that has to happen at all, s.
-PATIENCE = 180.0
 
 
 class GraphFailed(SuiteError):

@@ -27,6 +27,7 @@ from std_msgs.msg import Float64
 
 from auv_msgs_py.contract import qos, topics
 from auv_msgs_py.values.errors import SuiteError
+from auv_sim.checks.patience import PATIENCE
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, Parser, command, positive
 from auv_sim.launch.processes.process_group import Children
 from auv_sim.launch.vehicle_driver import EMULATOR, EMULATOR_MODULE, free_port
@@ -36,8 +37,8 @@ from auv_sim.nodes.mavlink.transport.datagrams import Codec
 #: Share of the undisturbed rate of odometry that strangers may not take.
 LEAST_SHARE = 0.95
 _DRIVER_MODULE = "auv_sim.nodes.mavlink.driver"
-#: For the first odometry, and for the strangers to be sure of a start after it, s of wall time.
-_PATIENCE, _SETTLING = 180.0, 2.0
+#: For the strangers to be sure of a start after the first odometry, s of wall time.
+_SETTLING = 2.0
 #: Beyond this the generator stops whatever happens, s.
 _LONGEST = 600.0
 
@@ -193,10 +194,10 @@ def _count(port: int, seconds: float, rate: float) -> StrangerCounts:
         return len(heard)
 
     try:
-        deadline = time.monotonic() + _PATIENCE
+        deadline = time.monotonic() + PATIENCE
         while not spin(0.5):
             if time.monotonic() > deadline:
-                raise SuiteError(f"no odometry within {_PATIENCE:g} s")
+                raise SuiteError(f"no odometry within {PATIENCE:g} s")
         spin(_SETTLING)
         calm = spin(seconds)
         strangers = Strangers(port, rate, seconds)

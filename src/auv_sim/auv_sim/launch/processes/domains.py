@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import socket
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.launch.processes.claims import claim
@@ -14,6 +14,16 @@ from auv_sim.launch.processes.claims import claim
 LAST = 101
 #: Participants for which a domain has ports on one machine.
 _PARTICIPANTS = 120
+
+
+def domain_for(asked: int | None) -> AbstractContextManager[int]:
+    """Return a context of the ROS domain that is asked for; if None, of a free one, claimed until it ends."""
+    return free_domain() if asked is None else nullcontext(asked)
+
+
+def variables_of(domain: int) -> dict[str, str]:
+    """Return the environment variables of processes in a ROS domain that no other machine reaches."""
+    return {"ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
 
 
 @contextmanager

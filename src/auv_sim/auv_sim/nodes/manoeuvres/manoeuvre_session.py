@@ -22,7 +22,7 @@ from auv_path_following import config_files
 from auv_path_following import vehicle as vehicle_file
 from auv_path_following.vehicle import Vehicle
 from auv_sim.command_line import EXIT_DONE, EXIT_FAILED, make_directory, to_type
-from auv_sim.launch.processes.domains import free_domain
+from auv_sim.launch.processes.domains import free_domain, variables_of
 from auv_sim.nodes.manoeuvres.manoeuvres_node import INTERRUPTED, ManoeuvresNode
 from auv_sim.own_vehicle.manoeuvres import program_file
 from auv_sim.own_vehicle.manoeuvres.legs import fin_shares
@@ -53,7 +53,7 @@ def fly(options: argparse.Namespace) -> int:
     if options.consent:
         raise ConfigurationError(CONSENT, "no --no-sim", "both: on the simulator no vehicle moves")
     with free_domain() as domain:  # a rehearsal meets no other graph
-        os.environ |= {"ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+        os.environ |= variables_of(domain)
         return _fly(options, hull, program)
 
 

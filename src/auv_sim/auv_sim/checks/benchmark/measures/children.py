@@ -11,7 +11,7 @@ from pathlib import Path
 from auv_msgs_py.node.run import StopRequest
 from auv_msgs_py.values.errors import SuiteError
 from auv_sim.checks.benchmark.usage import Usage, usage
-from auv_sim.launch.processes.domains import free_domain
+from auv_sim.launch.processes.domains import free_domain, variables_of
 from auv_sim.launch.processes.process_group import Children
 
 
@@ -29,7 +29,7 @@ class MeasuredProcesses(Children):
     """
 
     def __init__(self, directory: Path, domain: int, stop: StopRequest) -> None:
-        environment = {"ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+        environment = variables_of(domain)
         os.environ.update(environment)  # for nodes of this process that observe them
         super().__init__(directory / "log", environment)
         self._stop = stop

@@ -15,12 +15,10 @@ from auv_sim.checks.benchmark.measures.children import MeasuredProcesses, proces
 from auv_sim.checks.benchmark.measures.law_speed import Tick
 from auv_sim.checks.benchmark.measures.rig import NAMESPACE
 from auv_sim.checks.benchmark.scale import Scale
+from auv_sim.checks.patience import PATIENCE
 from auv_sim.launch import mission_plan
 from auv_sim.launch.composed import NODES
 from auv_sim.launch.options import Options
-
-#: Longest wall time for the nodes to find each other, and for an answer, s.
-_PATIENCE = 180.0
 
 
 def abort_figures(scale: Scale, tick: Tick) -> dict[str, Any]:
@@ -61,7 +59,7 @@ def _aborts(children: MeasuredProcesses, names: set[str], number: int) -> list[f
     monitor.node.create_subscription(kind, topics.THRUST_CMD.name, heard, profile)
 
     def until(condition: Callable[[], bool], pause: float) -> None:
-        children.until(condition, lambda: monitor.look(pause), _PATIENCE)
+        children.until(condition, lambda: monitor.look(pause), PATIENCE)
 
     try:
         until(lambda: not monitor.missing_nodes(names, topics.RECORDER in names), 0.05)

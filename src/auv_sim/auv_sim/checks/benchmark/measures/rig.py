@@ -16,6 +16,7 @@ from auv_msgs_py.contract import topics
 from auv_sim.checks.benchmark.measures.children import BenchmarkFailed, MeasuredProcesses, processes
 from auv_sim.checks.benchmark.measures.stopwatch import BLOCK, MARK
 from auv_sim.checks.benchmark.usage import MemoryUse, Usage, memory
+from auv_sim.checks.patience import PATIENCE
 from auv_sim.launch import mission_plan
 from auv_sim.launch.composed import NODES
 from auv_sim.launch.mission_plan import Plan
@@ -30,8 +31,6 @@ COMPOSED = "composed"
 _GRAPH = tuple(name for name in NODES if name not in (topics.MAVLINK_DRIVER, topics.DISPLAY))
 _TIMED = "auv_sim.checks.benchmark.measures.timed_plant"
 _FLOOR = "auv_sim.checks.benchmark.measures.floor"
-#: Wall time for the nodes to find each other, and for a measurement that is expected to take no time, s.
-_PATIENCE = 180.0
 
 
 @dataclass(frozen=True)
@@ -185,7 +184,7 @@ def observe(
         processor = Processor(None if placed else ())
 
         def until(condition: Callable[[], bool]) -> None:
-            children.until(condition, lambda: monitor.look(0.05), _PATIENCE + 2.0 * seconds)
+            children.until(condition, lambda: monitor.look(0.05), PATIENCE + 2.0 * seconds)
 
         try:
             until(lambda: not monitor.missing_nodes(names, topics.RECORDER in names))

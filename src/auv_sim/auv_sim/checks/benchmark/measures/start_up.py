@@ -15,8 +15,8 @@ from auv_msgs_py.contract import topics
 from auv_sim.bags.reading.growing_bag import has_message
 from auv_sim.checks.benchmark.measures.children import BenchmarkFailed, interruptible
 from auv_sim.checks.benchmark.measures.rig import NAMESPACE
+from auv_sim.checks.patience import PATIENCE
 
-_PATIENCE = 180.0
 #: The launcher's module, by today's name and by its former one.
 _LAUNCHERS = ("auv_sim.cli.mission", "auv_sim.mission")
 _TOPIC = topics.full_name(NAMESPACE, topics.RUDDER_CMD.name)
@@ -73,7 +73,7 @@ def first_command(python: str = sys.executable, composed: bool = False) -> float
         )
         try:
             while not has_message(run / "bag", _TOPIC):
-                if launcher.poll() is not None or time.monotonic() - begin > _PATIENCE:
+                if launcher.poll() is not None or time.monotonic() - begin > PATIENCE:
                     raise BenchmarkFailed("the launcher did not bring up a mission")
                 if stop.requested:
                     raise KeyboardInterrupt
