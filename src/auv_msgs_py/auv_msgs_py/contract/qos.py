@@ -8,8 +8,10 @@ from typing import Any
 
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
+from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.topics import Topic
 
+#: Depth of a subscription's queue.
 DEPTH = 10
 #: Depth of a recorder's queues: it must not lose a message.
 RECORDER_DEPTH = 1000
@@ -20,7 +22,7 @@ def offered(topic: Topic) -> QoSProfile:
 
     With a larger depth a late reader receives the oldest message first: `ros2 topic echo --once` prints that.
     """
-    return _profile(ReliabilityPolicy.RELIABLE, topic.latched, 1 if topic.latched else DEPTH)
+    return _profile(ReliabilityPolicy.RELIABLE, topic.latched, 1 if topic.latched else topics.KEPT)
 
 
 def requested(topic: Topic, reliable: bool, depth: int = DEPTH) -> QoSProfile:

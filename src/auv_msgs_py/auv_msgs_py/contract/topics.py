@@ -127,11 +127,11 @@ FIRST_STAMP_NS = 1_000_000_000
 
 #: Lockstep: largest lead of the simulator over the recorder, steps. A reader's transport queue holds 512
 #: messages, and a step has at most 16: within this lead no queue overflows, however long the recorder gets no
-#: processor time. (A reliable writer would not help: it keeps only its last 10 messages.) A step of a vehicle
-#: with stern planes has at most 23.
+#: processor time. A step of a vehicle with stern planes has at most 23.
 RECORDING_LEAD, SPATIAL_RECORDING_LEAD = 30, 20
-#: Messages that a publisher keeps (`contract.qos`).
-KEPT = 10
+#: Messages that a publisher keeps (`contract.qos`): all of the lead. Where the recorder had not yet matched
+#: the publisher, or was paused for 1 s, after which the transport gives its queue up, they are sent again.
+KEPT = RECORDING_LEAD
 #: Interval between the recorder's reports, steps.
 RECORDING_REPORT = 8
 #: Interval between the simulator's requests to the recorder, steps: a third of the lead, or half of it with
@@ -148,14 +148,5 @@ FLEET_REPORT_NS, FLEET_LEAD_NS = 500_000_000, 1_000_000_000
 
 
 def shared(steps: int, vehicles: int) -> int:
-    """Return an interval of the recording, steps, where one recorder has several vehicles."""
+    """Return an interval of the recording, or the lead, steps, where one recorder has several vehicles."""
     return max(1, steps // vehicles)
-
-
-def shared_lead(lead: int, vehicles: int) -> int:
-    """Return the largest lead over a recorder of several vehicles, steps.
-
-    Of several, it is no more than the messages that a publisher keeps: one that did not arrive, because the
-    queue was full or the recorder had not yet matched the publisher, is still there to be sent again.
-    """
-    return lead if vehicles == 1 else min(shared(lead, vehicles), KEPT)

@@ -25,7 +25,7 @@ class LockstepGate:
     reach the number of compatible readers in the graph, so that a third party's subscription cannot stand
     in for a missing one. Once a reliable writer has matched a reader it keeps its last messages
     (`topics.KEPT`) for it until they are acknowledged, also if the reader matches the writer later. As no
-    more are under way, nothing published through an open gate can be lost.
+    more are under way, nothing published through an open gate is lost.
 
     Args:
         node: the node that publishes.

@@ -33,31 +33,17 @@ class Node:
 def test_a_lead_that_is_used_up_waits_for_the_recorder_and_is_asked_for_in_time() -> None:
     node, proceeded = Node(), []
     lead = RecordingLead(node, orders_of(REMUS), lambda: proceeded.append(lead.used_up))
-    fly(lead, topics.KEPT)
-    node.report(UInt64(data=topics.KEPT))
-    fly(lead, topics.RECORDING_LEAD)
-    assert node.asked[-1] <= topics.KEPT + topics.RECORDING_LEAD
-    node.report(UInt64(data=topics.KEPT + 1))
-    assert proceeded == [False, False]
-    lead.count()
-    assert lead.used_up
-
-
-def fly(lead: RecordingLead, steps: int) -> None:
-    """Take so many steps, after which the lead is used up, and not before."""
-    for _ in range(steps):
+    for _ in range(topics.RECORDING_LEAD):
         assert not lead.used_up
         lead.count()
         lead.ask()
     assert lead.used_up
-
-
-def test_before_the_first_report_the_lead_is_no_more_than_what_a_publisher_keeps() -> None:
-    """A recorder that has not yet matched a publisher that has matched it receives what is kept, no more."""
-    node = Node()
-    lead = RecordingLead(node, orders_of(REMUS), lambda: None)
-    fly(lead, topics.KEPT)
-    assert node.asked, "without a request the recorder would report late"
+    assert node.asked
+    assert node.asked[-1] <= topics.RECORDING_LEAD
+    node.report(UInt64(data=1))
+    assert proceeded == [False]
+    lead.count()
+    assert lead.used_up
 
 
 def test_the_silence_begins_when_the_lead_is_used_up(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -65,7 +51,7 @@ def test_the_silence_begins_when_the_lead_is_used_up(monkeypatch: pytest.MonkeyP
     monkeypatch.setattr("auv_sim.nodes.stepping.recording_lead.time.monotonic", lambda: now[0])
     lead = RecordingLead(node := Node(), orders_of(REMUS), lambda: None)
     now[0] = 100.0
-    for _ in range(topics.KEPT):
+    for _ in range(topics.RECORDING_LEAD):
         lead.count()
     now[0] = 103.0
     assert lead.silence == 3.0

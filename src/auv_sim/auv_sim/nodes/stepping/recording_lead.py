@@ -16,10 +16,6 @@ from auv_sim.nodes.held_commands import Orders
 class RecordingLead:
     """Counts the steps that are published and not yet recorded, and asks the recorder for its count.
 
-    A publisher may have matched the recorder before the recorder has matched it: what it then sends arrives
-    only as far as it is kept. Up to the first report, which shows that every topic of a step arrives, the
-    lead is therefore no more than the messages that a publisher keeps.
-
     Args:
         node: the simulator.
         orders: of the vehicle; one that dives records more topics.
@@ -29,8 +25,7 @@ class RecordingLead:
     def __init__(self, node: Any, orders: Orders, proceed: Callable[[], None]) -> None:
         lead = topics.RECORDING_LEAD if orders.stop == STOP else topics.SPATIAL_RECORDING_LEAD
         vehicles = node.parameters.recorded_vehicles
-        self._longest = topics.shared_lead(lead, vehicles)
-        self._lead = min(self._longest, topics.KEPT)
+        self._lead = topics.shared(lead, vehicles)
         self._ask_every = topics.shared(topics.RECORDING_REQUEST, vehicles)
         self._proceed = proceed
         self._published = self._recorded = 0
@@ -61,5 +56,4 @@ class RecordingLead:
 
     def _on_recorded(self, message: UInt64) -> None:
         self._recorded, self._recorded_at = int(message.data), time.monotonic()
-        self._lead = self._longest
         self._proceed()
