@@ -5,15 +5,16 @@ from __future__ import annotations
 import argparse
 import importlib
 import sys
-from collections.abc import Callable, Container, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 
+from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.command_line import Parser
 
 
 def parser_of_verbs(
     prog: str, description: str, package: str, verbs: Mapping[str, str], verbs_with_options: Container[str]
 ) -> argparse.ArgumentParser:
-    """Return a parser; what it parses has `run`, which takes it and returns the exit code.
+    """Return a parser; what it parses has `run`, which takes it and returns the exit code, and `usual`.
 
     Args:
         prog, description: of the command.
@@ -33,8 +34,28 @@ def parser_of_verbs(
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )  # fmt: skip
         module.add_arguments(verb)
-        verb.set_defaults(run=module.run)
+        verb.set_defaults(run=module.run, usual=verb.get_default)
     return top
+
+
+def refuse_without_effect(
+    options: argparse.Namespace, names: Iterable[str], found: str, expected: str
+) -> None:
+    """Refuse options that another one leaves without effect.
+
+    Args:
+        options: of a verb; `usual` returns the default of a name.
+        names: of the options.
+        found: what leaves them without effect.
+        expected: in place of that.
+
+    Raises:
+        ConfigurationError: one is given.
+    """
+    for name in names:
+        if getattr(options, name) != options.usual(name):
+            option = f"--{name.replace('_', '-')}"
+            raise ConfigurationError(option, found, f"{expected}, or the option left out")
 
 
 def run_verb(

@@ -233,7 +233,26 @@ def _refused(words: list[str], capsys: pytest.CaptureFixture[str]) -> str:
 
 def test_no_recording_costs_one_line(capsys: pytest.CaptureFixture[str]) -> None:
     assert "no recording" in _refused(["identify"], capsys)
-    assert "--study N" in _refused(["identify", "runs/none", "--dive"], capsys)
+
+
+@pytest.mark.parametrize(
+    ("words", "found"),
+    [
+        (["runs/none", "--dive"], "--dive: found no --study, expected --study N"),
+        (["runs/none", "--sea", "rough"], "--sea: found no --study"),
+        (["runs/none", "--first", "3"], "--first: found no --study"),
+        (
+            ["runs/none", "--study", "1", "--program", "none"],
+            "BAG: found --study, expected recordings or --study",
+        ),
+        (["--study", "1", "--program", "none", "--log-latency", "0.1"], "--log-latency: found --study"),
+        (["--study", "1", "--program", "none", "--frame", "x=flu"], "--frame: found --study"),
+    ],
+)
+def test_an_option_without_effect_is_refused(
+    words: list[str], found: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert found in _refused(["identify", *words], capsys)
 
 
 def _first(flown: Manoeuvred, rows: int) -> Manoeuvred:

@@ -52,7 +52,7 @@ from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, RATE, DataSheet, ty
 from auv_sim.own_vehicle.identify.water_current import mean_current
 from auv_sim.own_vehicle.verbs.dive_report import IdentifiedDive, identified_dive, print_dive
 from auv_sim.own_vehicle.verbs.identification_study import add_study_arguments, study
-from auv_sim.own_vehicle.verbs.identify_checks import check_options, check_target
+from auv_sim.own_vehicle.verbs.identify_checks import check_effect, check_options, check_target
 from auv_sim.own_vehicle.verbs.left_out import ENOUGH, LAST, divided
 from auv_sim.own_vehicle.verbs.recordings_read import Recorded, add_reading_arguments, read
 from auv_sim.terminal import console as terminal
@@ -113,8 +113,9 @@ def run(arguments: argparse.Namespace) -> int:
     """Identify, print, write.
 
     Raises:
-        ConfigurationError: no recordings, or such as show nothing.
+        ConfigurationError: no recordings, such as show nothing, or an option without effect.
     """
+    check_effect(arguments)
     if arguments.study is not None:
         return study(arguments)
     if not arguments.bag:

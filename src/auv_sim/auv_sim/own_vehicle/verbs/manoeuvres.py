@@ -11,14 +11,14 @@ import argparse
 from collections.abc import Callable
 from pathlib import Path
 
-from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.command_line import Parser, add_quiet, finite, not_negative, ros_namespace, whole
+from auv_sim.command_verbs import refuse_without_effect
 
 _BOX, _DEPTH, _SPEED = 200.0, 10.0, 10.0
 #: Ranges of the parameters that the options set: box, m; current, m/s; speed.
 BOX, CURRENT, SPEED = (1.0, 5000.0), (-5.0, 5.0), (0.01, 1000.0)
-#: Options of the simulator, with their defaults.
-REHEARSAL = {"controller_model": None, "sea": None, "seed": 0, "current": (0.0, 0.0), "speed": _SPEED}
+#: Options of the simulator.
+_REHEARSAL = ("controller_model", "sea", "seed", "current", "speed")
 
 
 def within(low: float, high: float) -> Callable[[str], float]:
@@ -62,9 +62,9 @@ def add_arguments(parser: Parser) -> None:
         help="file by which the manoeuvres are flown, where --vehicle is another hull in the water",
     )  # fmt: skip
     rehearsal.add_argument("--sea", metavar="FILE", help="sea file, or a shipped name")
-    rehearsal.add_argument("--seed", type=whole, default=REHEARSAL["seed"], metavar="N",
+    rehearsal.add_argument("--seed", type=whole, default=0, metavar="N",
                            help="of the sea (default: %(default)d)")  # fmt: skip
-    rehearsal.add_argument("--current", type=within(*CURRENT), nargs=2, default=REHEARSAL["current"],
+    rehearsal.add_argument("--current", type=within(*CURRENT), nargs=2, default=(0.0, 0.0),
                            metavar=("VX", "VY"), help="constant, towards north and east, m/s")  # fmt: skip
     rehearsal.add_argument("--speed", type=within(*SPEED), default=_SPEED, metavar="N",
                            help="times real time (default: %(default)g)")  # fmt: skip
@@ -80,10 +80,8 @@ def run(arguments: argparse.Namespace) -> int:
     Raises:
         ConfigurationError: an option of the simulator with --no-sim, on which it has no effect.
     """
-    for name, default in REHEARSAL.items():
-        if arguments.no_sim and getattr(arguments, name) != default:
-            option = f"--{name.replace('_', '-')}"
-            raise ConfigurationError(option, "--no-sim", "the simulator, or the option left out")
+    if arguments.no_sim:
+        refuse_without_effect(arguments, _REHEARSAL, "--no-sim", "the simulator")
     from auv_sim.nodes.manoeuvres.manoeuvre_session import fly
 
     return fly(arguments)
