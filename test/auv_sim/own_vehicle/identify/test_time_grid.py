@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from auv_sim.own_vehicle.identify.predictions import starts_of
 from auv_sim.own_vehicle.identify.time_grid import FOLLOWED, LONGEST_STEP, PlanarData, passage_of
 
 
@@ -61,6 +62,16 @@ def test_after_a_gap_without_commands_a_passage_begins_when_the_fin_has_followed
     passage = passage_of(recording(t, water), 0.0)
     starts = passage.times[:-1][passage.grid.begins]
     assert starts == pytest.approx([0.2, 8.0 + FOLLOWED], abs=0.21)
+
+
+def test_a_prediction_ends_before_a_gap_and_begins_where_the_fin_is_known() -> None:
+    t = np.concatenate((np.arange(0.0, 5.0, 0.05), np.arange(8.0, 20.0, 0.05)))
+    water = np.concatenate((np.arange(0.2, 5.0, 0.2), np.arange(8.0, 20.0, 0.2)))
+    passage = passage_of(recording(t, water), 0.0)
+    spans = [(passage.times[k], passage.times[k + length]) for k, length in starts_of(passage, 2.0)]
+    assert any(end <= 5.0 for _, end in spans) and any(begin >= 8.0 + FOLLOWED for begin, _ in spans)
+    assert all(end - begin < 2.1 for begin, end in spans)
+    assert not any(4.96 < begin < 8.0 + FOLLOWED or 4.96 < end < 8.0 + FOLLOWED for begin, end in spans)
 
 
 def test_a_part_keeps_the_commands_that_still_act() -> None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from auv_sim.own_vehicle.identify.combinations import Numbers
 from auv_sim.own_vehicle.identify.innovations import Channels, filtered, flown
-from auv_sim.own_vehicle.identify.time_grid import Passage
+from auv_sim.own_vehicle.identify.time_grid import LONGEST_GAP, Passage
 from auv_sim.own_vehicle.identify.unknowns import GYRO
 
 #: Time from one start of a prediction to the next, s.
@@ -66,8 +66,11 @@ def _over(channels: Channels, physical: Numbers, horizon: float) -> Prediction:
 def starts_of(passage: Passage, horizon: float) -> list[tuple[int, int]]:
     """Return the first nodes of predictions and their numbers of steps; none reaches beyond a gap."""
     times, begins = passage.times[:-1], np.flatnonzero(passage.grid.begins)
+    behind_gaps = np.flatnonzero(np.diff(times) >= LONGEST_GAP) + 1
+    limits = np.append(np.union1d(begins, behind_gaps), times.size)
     found = []
-    for begin, end in zip(begins, [*begins[1:], times.size], strict=True):
+    for begin in begins:
+        end = limits[np.searchsorted(limits, begin, side="right")]
         start = times[begin] + _EVERY
         while start + horizon <= times[end - 1]:
             first = int(np.searchsorted(times, start))
