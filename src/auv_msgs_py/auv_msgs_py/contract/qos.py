@@ -11,18 +11,21 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPo
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.topics import Topic
 
-#: Depth of a subscription's queue.
+#: Depth of a queue.
 DEPTH = 10
 #: Depth of a recorder's queues: it must not lose a message.
 RECORDER_DEPTH = 1000
 
 
-def offered(topic: Topic) -> QoSProfile:
+def offered(topic: Topic, lockstep: bool = False) -> QoSProfile:
     """Return a publisher's profile: reliable; a latched topic is transient local with a depth of 1.
+
+    In lockstep it keeps all messages of the simulator's lead over the recorder (`topics.RECORDING_LEAD`).
 
     With a larger depth a late reader receives the oldest message first: `ros2 topic echo --once` prints that.
     """
-    return _profile(ReliabilityPolicy.RELIABLE, topic.latched, 1 if topic.latched else topics.KEPT)
+    depth = topics.RECORDING_LEAD if lockstep else DEPTH
+    return _profile(ReliabilityPolicy.RELIABLE, topic.latched, 1 if topic.latched else depth)
 
 
 def requested(topic: Topic, reliable: bool, depth: int = DEPTH) -> QoSProfile:

@@ -127,11 +127,10 @@ FIRST_STAMP_NS = 1_000_000_000
 
 #: Lockstep: largest lead of the simulator over the recorder, steps. A reader's transport queue holds 512
 #: messages, and a step has at most 16: within this lead no queue overflows, however long the recorder gets no
-#: processor time. A step of a vehicle with stern planes has at most 23.
+#: processor time. A step of a vehicle with stern planes has at most 23. Publishers keep as many messages in
+#: lockstep (`contract.qos`): where the recorder had not yet matched one, or was paused for 1 s, after which
+#: the transport gives its queue up, they are sent again.
 RECORDING_LEAD, SPATIAL_RECORDING_LEAD = 30, 20
-#: Messages that a publisher keeps (`contract.qos`): all of the lead. Where the recorder had not yet matched
-#: the publisher, or was paused for 1 s, after which the transport gives its queue up, they are sent again.
-KEPT = RECORDING_LEAD
 #: Interval between the recorder's reports, steps.
 RECORDING_REPORT = 8
 #: Interval between the simulator's requests to the recorder, steps: a third of the lead, or half of it with

@@ -24,8 +24,8 @@ class LockstepGate:
     A reader counts when the graph shows it by name. The publisher's own count of matched readers must
     reach the number of compatible readers in the graph, so that a third party's subscription cannot stand
     in for a missing one. Once a reliable writer has matched a reader it keeps its last messages
-    (`topics.KEPT`) for it until they are acknowledged, also if the reader matches the writer later. As no
-    more are under way, nothing published through an open gate is lost.
+    (`topics.RECORDING_LEAD`) for it until they are acknowledged, also if the reader matches the writer
+    later. As no more are under way, nothing published through an open gate is lost.
 
     Args:
         node: the node that publishes.

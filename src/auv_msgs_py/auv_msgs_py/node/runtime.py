@@ -83,8 +83,9 @@ class SuiteNode(Node):  # type: ignore[misc]
 
     def advertise(self, topic: Topic) -> Publisher:
         """Create the contract's publisher of a topic; it takes light messages and generated ones."""
+        profile = qos.offered(topic, self.parameters.lockstep)
         publisher = self.create_publisher(
-            qos.message_class(topic.type), topic.name, qos.offered(topic), publisher_class=WirePublisher
+            qos.message_class(topic.type), topic.name, profile, publisher_class=WirePublisher
         )
         self.publishers_by_topic[topic] = publisher
         return publisher

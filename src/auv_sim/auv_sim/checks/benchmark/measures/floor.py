@@ -94,7 +94,9 @@ class FloorNode(Node):  # type: ignore[misc]
             self._listen(topics.RECORDED_STEPS, self._on_recorded)
 
     def _advertise(self, topic: Topic) -> Any:
-        return self.create_publisher(qos.message_class(topic.type), topic.name, qos.offered(topic))
+        return self.create_publisher(
+            qos.message_class(topic.type), topic.name, qos.offered(topic, lockstep=True)
+        )
 
     def _listen(self, topic: Topic, callback: Callable[[Any], None]) -> None:
         kind = qos.message_class(topic.type)
