@@ -90,3 +90,9 @@ def test_a_command_before_the_first_odometry_holds_until_the_next_one(
     assert found is not None
     assert found.value == pytest.approx(flown.thrust[:1])
     assert found.t == pytest.approx(flown.t[:1] + 0.001)
+
+
+def test_stamps_that_are_no_times_are_refused(flown: Manoeuvred, tmp_path: Path) -> None:
+    bag = write_manoeuvres(tmp_path / "bag", flown._replace(t=0.0 * flown.t, water_t=0.0 * flown.water_t))
+    with pytest.raises(ConfigurationError, match="odom: found the stamp 0 s in every message"):
+        manoeuvres_in(bag)

@@ -105,6 +105,9 @@ def _columns(bag: Bag, topic: RecordedTopic | None, row: Topic) -> _Decoded:
         raise ConfigurationError(
             f"{bag.path}: {topic.name}", f"a damaged message ({reason})", row.type
         ) from None
+    if len(kept) > 1 and (columns.stamp_ns == columns.stamp_ns[0]).all():
+        found = f"the stamp {columns.stamp_ns[0] * 1e-9:.9g} s in every message"
+        raise ConfigurationError(f"{bag.path}: {row.name}", found, "the time of each measurement")
     return _Decoded(np.array(topic.log_ns, np.int64)[kept], columns)
 
 

@@ -42,8 +42,7 @@ from auv_sim.own_vehicle.identify.results.known_vehicle import (
 )
 from auv_sim.own_vehicle.identify.results.plausibility import (
     check_fit,
-    check_speed,
-    check_yaw_rate,
+    check_motion,
     doubts,
     latency_doubts,
 )
@@ -130,8 +129,7 @@ def run(arguments: argparse.Namespace) -> int:
     recordings = [one.plane for one in recorded]
     where = ", ".join(map(str, arguments.bag))
     check_excitation(recordings, where)
-    check_yaw_rate(recordings, where)
-    check_speed(recordings, vehicle, -hull.Xuu, where)
+    check_motion(recordings, vehicle, -hull.Xuu, where)
     used, left_out = divided(recordings, arguments.left_out)
     if left_out is not None:
         check_excitation(used, where if arguments.left_out is None else "--left-out")

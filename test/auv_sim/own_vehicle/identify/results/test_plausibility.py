@@ -22,6 +22,7 @@ from auv_sim.own_vehicle.identify.results.plausibility import (
     check_commands,
     check_fit,
     check_speed,
+    check_sway,
     check_yaw_rate,
     doubts,
     latency_doubts,
@@ -52,6 +53,7 @@ def test_the_contracts_units_pass(data: PlanarData) -> None:
     check_commands(data.rudder, data.thrust, REMUS, "bag")
     check_yaw_rate([data, data], "bag")
     check_speed([data], REMUS, 1.62, "bag")
+    check_sway([data], "bag")
     assert doubts(_found(0.0), [data], REMUS, 1.62) == []
     spikes = data.rudder.copy()
     spikes[:5] = 20.0
@@ -98,6 +100,13 @@ def test_a_yaw_rate_that_is_not_the_headings_is_refused(
 ) -> None:
     with pytest.raises(ConfigurationError, match=found):
         check_yaw_rate([change(data)], "bag")
+
+
+def test_a_velocity_with_other_axes_is_refused(data: PlanarData) -> None:
+    with pytest.raises(ConfigurationError, match=r"bag: velocity_through_water: found sway to the inside"):
+        check_sway([data._replace(v=-data.v)], "bag")
+    with pytest.raises(ConfigurationError, match=r"bag: velocity_through_water: .* ahead of -1\.\d+ m/s"):
+        check_excitation([data._replace(u=-data.u)], "bag")
 
 
 def test_a_recording_without_a_yaw_rate_is_refused_by_its_name(data: PlanarData) -> None:

@@ -49,7 +49,10 @@ def check_excitation(recordings: Sequence[PlanarData], where: str) -> None:
         raise ConfigurationError(where, found, _EXPECTED)
     forward = float(np.median(_all(recordings, "u")))
     if not forward > 0.1:
-        raise ConfigurationError(where, f"a median speed ahead of {forward:.2f} m/s", "a vehicle under way")
+        expected = "a vehicle under way, and axes with x ahead"
+        raise ConfigurationError(
+            f"{where}: velocity_through_water", f"a median speed ahead of {forward:.2f} m/s", expected
+        )
 
 
 def remarks(recordings: Sequence[PlanarData], vehicle: Vehicle) -> list[str]:
