@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 import rclpy
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 from auv_sim.launch.processes.domains import free_domain
 from node_bench import Bench
@@ -28,7 +28,10 @@ _ASKED = itertools.count()
 
 # A test that takes longer on a loaded machine has not failed. The same examples in every run: a failure can
 # be repeated, and belongs to the change that is tested.
-settings.register_profile("suite", deadline=None, derandomize=not os.environ.get("AUV_NEW_EXAMPLES"))
+settings.register_profile(
+    "suite", deadline=None, derandomize=not os.environ.get("AUV_NEW_EXAMPLES"),
+    suppress_health_check=[HealthCheck.too_slow],
+)  # fmt: skip
 settings.load_profile("suite")
 
 
