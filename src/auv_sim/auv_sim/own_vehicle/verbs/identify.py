@@ -190,10 +190,10 @@ def report(
         say(f"notice depth.minimum_speed: {slowest:g} m/s; below it the identified planes hold no depth, "
             f"{known:g} m/s before", error=True)  # fmt: skip
     names = ", ".join(map(str, arguments.bag))
-    write_text(arguments.out, identified_text(new, hull, found, names))
+    write_text(arguments.out, identified_text(new, hull, found, names, dive and dive.found))
     picture = arguments.out.with_suffix(".png")
     draw_identification(found, abilities, kept, predictions, f"{vehicle.name}: {names}", picture)
-    wrote(console, arguments.out, "vehicle file, with planar intervals as comments")
+    wrote(console, arguments.out, "vehicle file, with intervals as comments")
     wrote(console, picture, "intervals, innovations, left-out manoeuvres")
     go_on(console, "Tune gains for it", to_type("vehicle.py", "tune", arguments.out))
 

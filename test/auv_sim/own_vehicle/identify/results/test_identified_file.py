@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,7 @@ from auv_sim.own_vehicle.identify.intervals import Covariances
 from auv_sim.own_vehicle.identify.results.identified_file import identified_text
 from auv_sim.own_vehicle.identify.results.known_vehicle import identified_vehicle, known_hull
 from auv_sim.own_vehicle.identify.unknowns import ALL, DEAD_TIME, HALF_PLAY, LATENCY, RATE
+from auv_sim.own_vehicle.tune.ensemble import UNCERTAIN_DIVING, Factors, drawn_hulls, spread_of_file
 
 REMUS = vehicle_file.load("remus100")
 DIVER = vehicle_file.load("remus100_6dof")
@@ -43,7 +45,7 @@ PITCHING = dataclasses.replace(
 )  # fmt: skip
 
 
-def found_with(c: Combinations, share: float) -> Identified:
+def found_with(c: Combinations | DiveCombinations, share: float) -> Identified:
     """An identification of these combinations, each with this relative standard deviation."""
     physical = np.zeros(ALL)
     physical[: len(c)] = c
@@ -66,7 +68,8 @@ def test_what_is_written_loads_and_is_the_same_vehicle(
     c = Combinations(*(float(a * b) for a, b in zip(combinations_of(hull), factors, strict=True)))
     dive = None if hull.vertical is None else DIVE._replace(Muud=factors[0] * DIVE.Muud)
     new = identified_vehicle(known, hull, c, 17.18873, 0.1234567, dive)
-    text = identified_text(new, hull, found_with(c, share), "a bag")
+    of_dive = None if dive is None else found_with(dive, share)
+    text = identified_text(new, hull, found_with(c, share), "a bag", of_dive)
     assert yaml_file.checked(yaml_file.parse_text(text, "x"), Path("x"), Vehicle) == new
     assert new.assumed_within == 1.0
     assert new.sternplanes == known.sternplanes and new.pitching == known.pitching
@@ -84,6 +87,38 @@ def test_rate_and_dead_time_of_the_planes_stand_in_the_file() -> None:
     assert (read.sternplanes.max_rate_deg_s, read.sternplanes.dead_time) == (17.19, 0.099)
     assert read.sternplanes.max_angle_deg == DIVER.sternplanes.max_angle_deg
     assert (read.rudder.max_rate_deg_s, read.rudder.dead_time) == (15.0, 0.1)
+
+
+def spread_in_file(place: Path, share: float) -> dict[str, Factors]:
+    """What the file of a diver states, of whose combinations each has this relative standard deviation."""
+    in_plane, dive = found_with(combinations_of(DIVER.coefficients), share), found_with(DIVE, share)
+    file = place / "diver.yaml"
+    file.write_text(identified_text(DIVER, DIVER.coefficients, in_plane, "a bag", dive), encoding="utf-8")
+    return spread_of_file(file)
+
+
+def test_heave_pitch_and_planes_have_the_intervals_from_which_tune_and_prove_draw(tmp_path: Path) -> None:
+    stated, wide = spread_in_file(tmp_path, 0.02), spread_in_file(tmp_path, 3.0)
+    assert {name for name in UNCERTAIN_DIVING if name not in stated} == {"Zwd", "Zqd", "Mwd", "Mqd"}
+    assert stated["Muud"][1] == pytest.approx(1.0 + 1.96 * 0.02, abs=2e-3)
+    assert stated["sternplanes.max_rate_deg_s"][1] == pytest.approx(
+        1.0 + 1.96 * 0.02 * 17.19 / 15.0, abs=2e-3
+    )
+    assert "sternplanes.dead_time" not in stated  # DIVER has none: a share of 0 is no range
+    assert wide["Muud"] == (0.5, 2.0)
+    drawn = drawn_hulls(DIVER, 20, 0.0, np.random.default_rng(0), stated)
+    shares = [hull.coefficients.vertical.Muud / VERTICAL.Muud for hull in drawn if hull.coefficients.vertical]
+    assert 1.0 / 1.04 < min(shares) < 0.985 < 1.015 < max(shares) < 1.04
+
+
+def test_buoyancy_and_righting_moment_have_intervals_and_masses_are_assumed() -> None:
+    in_plane, dive = found_with(combinations_of(DIVER.coefficients), 0.02), found_with(DIVE, 0.02)
+    text = identified_text(DIVER, DIVER.coefficients, in_plane, "a bag", dive)
+    notes = dict(re.findall(r"^    (\w+): \S+  # (.*)$", text, re.MULTILINE))
+    assert notes["Zwd"] == notes["W"] == notes["Ywp"] == "assumed"
+    assert re.fullmatch(r"\+- 0\.0007\d \(4 %\)", notes["zg"])
+    # 3.34 N, of which the added mass in heave is assumed within 40 %: 0.4 * 35.5 kg / 66 kg * 3.34 N * 1.96
+    assert float(notes["B"].removeprefix("+- ")) == pytest.approx(1.41, abs=0.1)
 
 
 def test_a_width_that_the_data_do_not_show_is_a_factor_of_two() -> None:

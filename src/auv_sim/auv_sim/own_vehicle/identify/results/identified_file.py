@@ -1,24 +1,32 @@
-"""The identified vehicle as a file: planar coefficients and rudder with their intervals as comments."""
+"""The identified vehicle as a file: coefficients and fins with their intervals as comments."""
 
 from __future__ import annotations
 
 import dataclasses
 import json
 import math
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from auv_path_following.abilities import DepthRange
 from auv_path_following.vehicle import Hull, Rudder, Vehicle
-from auv_sim.own_vehicle.identify.combinations import hull_with
+from auv_sim.own_vehicle.identify.combinations import COUNT, Numbers, hull_with
+from auv_sim.own_vehicle.identify.dive.dive_combinations import DiveCombinations, vertical_with
 from auv_sim.own_vehicle.identify.identification import Identified
 from auv_sim.own_vehicle.identify.intervals import REACH, gradient_of
+from auv_sim.own_vehicle.identify.results.dive_tables import weight_less_buoyancy
 from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, HALF_PLAY, RATE, typed
 
 #: Coefficients that the data do not show, taken from the known hull.
 _ASSUMED = ("m", "Izz", "Yvd", "Yrd", "Nvd", "Nrd")
+#: Coefficients of heave and pitch that the data show.
+_OF_DIVE = ("zg", "Zww", "Zqq", "Zuw", "Zuq", "Zuud", "Mww", "Mqq", "Muw", "Muq", "Muud")
 
 
-def identified_text(vehicle: Vehicle, known: Hull, found: Identified, source: str) -> str:
+def identified_text(
+    vehicle: Vehicle, known: Hull, found: Identified, source: str, dive: Identified | None = None
+) -> str:
     """Return the vehicle file.
 
     Args:
@@ -26,6 +34,7 @@ def identified_text(vehicle: Vehicle, known: Hull, found: Identified, source: st
         known: the source of the masses.
         found: its identification.
         source: names of the recordings.
+        dive: identification of heave and pitch, if there is one.
     """
     rows = [
         f"# Identified from {' '.join(source.split())}.",
@@ -42,7 +51,15 @@ def identified_text(vehicle: Vehicle, known: Hull, found: Identified, source: st
             f"thrust_table: {_value(vehicle.thrust_table)}  # {vehicle.thrust_unit}, N",
         ]
     return (
-        "\n".join([*rows, *_rudder(vehicle.rudder, found), *_planes(vehicle), *_hull(vehicle, known, found)])
+        "\n".join(
+            [
+                *rows,
+                *_rudder(vehicle.rudder, found),
+                *_planes(vehicle, dive),
+                *_hull(vehicle, known, found),
+                *_vertical(vehicle.coefficients, known, dive),
+            ]
+        )
         + "\n"
     )
 
@@ -52,22 +69,32 @@ def _text(name: str) -> str:
 
 
 def _rudder(rudder: Rudder, found: Identified) -> list[str]:
-    sd = found.spread.deviations
     play = 2.0 * math.degrees(max(found.physical[HALF_PLAY], 0.0))
-    off = 2.0 * math.degrees(REACH * sd[HALF_PLAY])
+    off = 2.0 * math.degrees(REACH * found.spread.deviations[HALF_PLAY])
     return [
         f"rudder:  # in a sea file: {{dead_band_deg: {math.degrees(found.dead_band):.2g}, "
         f"backlash_deg: {play:.2g}}}, the latter +- {off:.1g}",
         f"  max_angle_deg: {_value(rudder.max_angle_deg)}",
-        f"  max_rate_deg_s: {_value(rudder.max_rate_deg_s)}  # +- {math.degrees(REACH * sd[RATE]):.2g}",
-        f"  dead_time: {_value(rudder.dead_time)}  # s, +- {REACH * sd[DEAD_TIME]:.1g}",
+        *_servo(rudder, found),
     ]
 
 
-def _planes(vehicle: Vehicle) -> list[str]:
+def _servo(fin: Rudder, found: Identified) -> list[str]:
+    """Return rate and dead time of the fin that was identified."""
+    sd = found.spread.deviations
+    return [
+        f"  max_rate_deg_s: {_value(fin.max_rate_deg_s)}  # +- {math.degrees(REACH * sd[RATE]):.2g}",
+        f"  dead_time: {_value(fin.dead_time)}  # s, +- {REACH * sd[DEAD_TIME]:.1g}",
+    ]
+
+
+def _planes(vehicle: Vehicle, dive: Identified | None) -> list[str]:
     """Return stern planes, depth, and pitching with the speed at which it was measured."""
     rows: list[str] = []
-    for name in ("sternplanes", "depth", "cruise", "pitching"):
+    planes = vehicle.sternplanes
+    if planes is not None and dive is not None:
+        rows = ["sternplanes:", f"  max_angle_deg: {_value(planes.max_angle_deg)}", *_servo(planes, dive)]
+    for name in ("depth", "cruise", "pitching") if rows else ("sternplanes", "depth", "cruise", "pitching"):
         part = getattr(vehicle, name)
         if part is not None and (vehicle.dives or part != DepthRange()):
             rows += [f"{name}:", *_mapping(part, "  ")]
@@ -96,16 +123,47 @@ def _hull(vehicle: Vehicle, known: Hull, found: Identified) -> list[str]:
             note = "assumed" if field.name in _ASSUMED else _interval(field.name, value, known, found)
             rows.append(f"  {field.name}: {_value(value)}  # {note}")
     rows.append("  surge_coupling: true")
-    if hull.vertical is not None:
-        rows += ["  vertical:  # masses as assumed", *_mapping(hull.vertical, "    ")]
     return rows
+
+
+def _vertical(hull: Hull, known: Hull, dive: Identified | None) -> list[str]:
+    """Return the coefficients of heave, roll and pitch, with intervals where a dive was identified."""
+    if hull.vertical is None:
+        return []
+    if dive is None or known.vertical is None:
+        return ["  vertical:  # as assumed", *_mapping(hull.vertical, "    ")]
+    buoyancy = weight_less_buoyancy(dive, known, known.vertical)
+    rows = ["  vertical:"]
+    for field in dataclasses.fields(hull.vertical):
+        value, note = getattr(hull.vertical, field.name), "assumed"
+        if field.name == "B":
+            note = f"+- {REACH * math.hypot(buoyancy.statistical, buoyancy.systematic):.2g}"
+        elif field.name == "xg":
+            note = f"+- {_half_width(partial(_coefficient, field.name, known), dive):.2g}"
+        elif field.name in _OF_DIVE:
+            note = _noted(value, _half_width(partial(_coefficient, field.name, known), dive))
+        rows.append(f"    {field.name}: {_value(value)}  # {note}")
+    return rows
+
+
+def _coefficient(name: str, known: Hull, physical: Numbers) -> float:
+    """Return a coefficient of heave or pitch of identified combinations, with the assumed masses."""
+    assert known.vertical is not None
+    c = DiveCombinations(*map(float, physical[:COUNT]))
+    return float(getattr(vertical_with(c, known.m, known.vertical), name))
 
 
 def _interval(name: str, value: float, known: Hull, found: Identified) -> str:
     """Return the 95 % interval of a coefficient, with the assumed masses."""
-    gradient = gradient_of(
-        lambda p: float(getattr(hull_with(typed(p), known), name)), found.physical, found.spread
-    )
-    off = REACH * found.spread.total(gradient)
+    return _noted(value, _half_width(lambda p: float(getattr(hull_with(typed(p), known), name)), found))
+
+
+def _half_width(function: Callable[[Numbers], float], found: Identified) -> float:
+    """Return half the width of the 95 % interval of a function of the unknowns."""
+    return REACH * found.spread.total(gradient_of(function, found.physical, found.spread))
+
+
+def _noted(value: float, off: float) -> str:
+    """Return half the width of an interval as a comment from which `tune` and `prove` draw."""
     share = 100.0 * off / abs(value) if value else math.inf
     return f"+- {off:.2g}" + (f" ({share:.0f} %)" if share < 100.0 else " (x2): not known from these data")
