@@ -127,15 +127,15 @@ def best_of(
     bands = [math.radians(band) for band in DEAD_BANDS] if dead_band is None else [dead_band]
     total = len(starts) + len(bands) + 3
     found = _from_starts(recordings, starts, sheet, bands[min(1, len(bands) - 1)], progress, total)
-    misfits = [estimate.misfit for _, estimate in found]
-    scaling, estimate = min(found, key=_evidence)
+    misfits = [estimate.misfit for _, _, estimate in found]
+    channels, scaling, estimate = min(found, key=_evidence)
     tried = []
     for k, band in enumerate(bands):
         progress(len(starts) + k, total, "dead band")
-        tried.append(_again(recordings, scaling, estimate, band))
+        tried.append(_again(recordings, scaling, estimate, band, channels.loads_off))
     channels, estimate = min(tried, key=lambda one: one[1].cost)
     progress(total - 3, total, "starts with the servo found")
-    scaling, estimate = _anew(channels, scaling, estimate, [prior for prior, _ in starts])
+    channels, scaling, estimate = _anew(channels, scaling, estimate, [prior for prior, _ in starts])
     progress(total - 2, total, "errors of the model")
     channels, scaling, estimate = _refined(recordings, channels, scaling, estimate, dead_band is not None)
     progress(total - 1, total, "intervals")
@@ -148,12 +148,9 @@ def best_of(
 
 
 def _refined(
-    recordings: Sequence[Recording],
-    channels: Channels,
-    scaling: Scaling,
-    estimate: Minimised,
+    recordings: Sequence[Recording], channels: Channels, scaling: Scaling, estimate: Minimised,
     is_band_known: bool,
-) -> tuple[Channels, Scaling, Minimised]:
+) -> tuple[Channels, Scaling, Minimised]:  # fmt: skip
     """Return an estimate with its model's errors, trims, vertical loads, best servo near it and prior."""
     channels, estimate = with_model_errors(channels, scaling, estimate)
     channels, estimate = _with_own_trims(recordings, channels, scaling, estimate)
@@ -173,42 +170,45 @@ def _spread(channels: Channels, scaling: Scaling, estimate: Minimised) -> Covari
 
 
 def _from_starts(
-    recordings: Sequence[Recording],
-    starts: Sequence[tuple[Prior, float]],
-    sheet: DataSheet,
-    dead_band: float,
-    progress: Callable[[int, int, str], None],
-    total: int,
-) -> list[tuple[Scaling, Minimised]]:
-    """Return the estimate from each start."""
+    recordings: Sequence[Recording], starts: Sequence[tuple[Prior, float]], sheet: DataSheet,
+    dead_band: float, progress: Callable[[int, int, str], None], total: int,
+) -> list[tuple[Channels, Scaling, Minimised]]:  # fmt: skip
+    """Return the estimate from each start, with the vertical loads found by the filter that follows."""
     channels = channels_of(recordings, sheet, dead_band)
     begins = [_following(recordings[0], seconds, sheet, dead_band) for seconds in _BEGINS]
     found = []
     for k, (prior, dead_time) in enumerate(starts):
         progress(k, total, f"start {k + 1} of {len(starts)}")
         scaling = Scaling(prior, sheet._replace(dead_time=dead_time))
-        z = minimise(begins[k % len(begins)], scaling, np.zeros(ALL), rounds=2, steps=10).z
-        found.append((scaling, minimise(channels, scaling, z)))
+        following = begins[k % len(begins)]
+        first = minimise(following, scaling, np.zeros(ALL), rounds=2, steps=10)
+        following, first = with_vertical_loads(following, scaling, first)
+        own = channels.with_loads_off(following.loads_off)
+        found.append((own, scaling, minimise(own, scaling, first.z)))
     return found
 
 
-def _evidence(found: tuple[Scaling, Minimised]) -> float:
+def _evidence(found: tuple[Channels, Scaling, Minimised]) -> float:
     """Return the negative logarithm of likelihood and prior, for a comparison of different priors."""
-    scaling, estimate = found
-    return estimate.cost + float(np.log(np.diag(scaling.prior.root)).sum())
+    channels, scaling, estimate = found
+    loads = 0.5 * float(channels.loads_off @ channels.loads_off)
+    return estimate.cost + loads + float(np.log(np.diag(scaling.prior.root)).sum())
 
 
 def _anew(
     channels: Channels, scaling: Scaling, estimate: Minimised, priors: Sequence[Prior]
-) -> tuple[Scaling, Minimised]:
-    """Return the best of an estimate and of minimisations from the mean of each prior, with its servo."""
-    found = [(scaling, estimate)]
+) -> tuple[Channels, Scaling, Minimised]:
+    """Return the best of an estimate and of minimisations from the mean of each prior, with its servo.
+
+    Each has the vertical loads that fit it best.
+    """
+    begins = [(scaling, estimate)]
     for prior in {id(prior): prior for prior in priors}.values():
         own = scaling._replace(prior=prior)
-        z = estimate.z.copy()
-        z[:COUNT] = 0.0
-        found.append((own, minimise(channels, own, z, first=estimate.deviations)))
-    return min(found, key=_evidence)
+        z = np.append(np.zeros(COUNT), estimate.z[COUNT:])
+        begins.append((own, minimise(channels, own, z, first=estimate.deviations)))
+    loaded = [(own, *with_vertical_loads(channels, own, first)) for own, first in begins]
+    return min(((others, own, best) for own, others, best in loaded), key=_evidence)
 
 
 def _following(data: Recording, seconds: float, sheet: DataSheet, dead_band: float) -> Channels:
@@ -238,10 +238,10 @@ def _widened(channels: Channels, scaling: Scaling, estimate: Minimised) -> tuple
 
 
 def _again(
-    recordings: Sequence[Recording], scaling: Scaling, estimate: Minimised, band: float
+    recordings: Sequence[Recording], scaling: Scaling, estimate: Minimised, band: float, loads_off: Numbers
 ) -> tuple[Channels, Minimised]:
     """Minimise from an estimate with another dead band, on the grid of the latency found."""
     latency = float(scaling.physical(estimate.z)[LATENCY])
     latency = latency if abs(latency - scaling.sheet.latency) > _NEAR else scaling.sheet.latency
-    channels = channels_of(recordings, scaling.sheet, band, max(latency, 0.0))
+    channels = channels_of(recordings, scaling.sheet, band, max(latency, 0.0)).with_loads_off(loads_off)
     return channels, minimise(channels, scaling, estimate.z, first=estimate.deviations)

@@ -60,7 +60,9 @@ class Channels(NamedTuple):
         return next((p.loads.off for p in self.passages if p.loads is not None), np.zeros(0))
 
     def with_loads_off(self, off: Numbers) -> Channels:
-        """Return the channels with other `VerticalLoads.off`."""
+        """Return the channels with other `VerticalLoads.off`; an empty one changes nothing."""
+        if off.size == 0:
+            return self
         found = (p if p.loads is None else p.with_loads(p.loads._replace(off=off)) for p in self.passages)
         return self._replace(passages=tuple(found))
 

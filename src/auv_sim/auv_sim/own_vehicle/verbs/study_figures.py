@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import NamedTuple, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from auv_sim.own_vehicle.identify.combinations import COUNT, Numbers
 from auv_sim.own_vehicle.identify.intervals import REACH
@@ -16,6 +17,8 @@ from auv_sim.own_vehicle.identify.study.identified_dives import JudgedDive
 
 #: Coefficients of each data set that have to be identified.
 _LEAST = 8
+#: Largest rms of the errors over the standard deviations of a diver's combinations in the plane.
+_LARGEST_SCORE = 1.3
 T = TypeVar("T", Judged, JudgedDive)
 
 
@@ -73,6 +76,7 @@ def dive_figures(outcomes: Sequence[JudgedDive], program: str) -> list[Row]:
         row("left out, pitch rate over 2 s", "%", 100.0, 10.0, lambda o: o.two),
         row("left out, over 10 s, over that of the truth", "", 1.0, 1.15, lambda o: o.ten / o.true_ten),
         *_coverage(outcomes),
+        *_in_plane(outcomes),
     ]
 
 
@@ -95,13 +99,29 @@ def _row(
 def _coverage(outcomes: Sequence[Judged] | Sequence[JudgedDive]) -> list[Row]:
     """Return the share of intervals that hold the truth, of the combinations identified, and how many are."""
     identified = np.array([outcome.shares for outcome in outcomes]) < IDENTIFIED
-    holds = np.abs([outcome.scores for outcome in outcomes]) < REACH
-    inside, counts = float(holds[identified].mean()), identified.sum(axis=1)
+    counts = identified.sum(axis=1)
     middle = float(np.median(counts))
-    many = f"{int(identified.sum())} intervals"
     return [
-        Row("95 % intervals that hold the truth", f"{100.0 * inside:.1f} %", many, "90 %", inside >= 0.9),
+        _held("95 % intervals that hold the truth", identified, [outcome.scores for outcome in outcomes]),
         Row(
             f"identified of {COUNT}", f"{middle:g}", f"{counts.min()}", f"{_LEAST} (median)", middle >= _LEAST
         ),
     ]
+
+
+def _in_plane(outcomes: Sequence[JudgedDive]) -> list[Row]:
+    """Return the errors over the claimed standard deviations of divers in the plane, and the coverage."""
+    identified = np.array([outcome.plane_shares for outcome in outcomes]) < IDENTIFIED
+    scores = np.array([outcome.plane_scores for outcome in outcomes])
+    rms, largest = float(np.sqrt(np.mean(scores**2))), float(np.sqrt(np.mean(scores**2, axis=1)).max())
+    name = "in the plane, errors over standard deviations (rms of all)"
+    return [
+        Row(name, f"{rms:.2f}", f"{largest:.2f}", f"{_LARGEST_SCORE:g}", rms <= _LARGEST_SCORE),
+        _held("in the plane, 95 % intervals that hold the truth", identified, scores.tolist()),
+    ]
+
+
+def _held(name: str, identified: NDArray[np.bool_], scores: Sequence[Sequence[float]]) -> Row:
+    """Return the share of the intervals that hold the truth, of the combinations identified."""
+    inside = float((np.abs(scores) < REACH)[identified].mean())
+    return Row(name, f"{100.0 * inside:.1f} %", f"{int(identified.sum())} intervals", "90 %", inside >= 0.9)

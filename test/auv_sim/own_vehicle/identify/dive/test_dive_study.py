@@ -14,7 +14,13 @@ CASE = DiveCase(0, "eight_minutes_dive", "moderate")
 
 def outcome(off: float, score: float) -> JudgedDive:
     shares, scores = (0.05,) * 10 + (0.5,) * 4, (score,) * 10 + (9.0,) * 4
-    return JudgedDive(CASE, 2.0, off, -off, off, off, 0.001, shares, scores, 0.01, 0.05, 0.01, 0.05)
+    predicted = 0.01, 0.05, 0.01, 0.05
+    return JudgedDive(CASE, 2.0, off, -off, off, off, 0.001, shares, scores, *predicted, *in_plane(score))
+
+
+def in_plane(score: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Shares and scores of which the first 7 count as identified."""
+    return (0.05,) * 7 + (0.5,) * 7, (score,) * 14
 
 
 def test_figures_judge_medians_and_the_coverage_of_what_counts_as_identified() -> None:
@@ -33,6 +39,14 @@ def test_targets_are_those_of_the_program_not_of_its_folder() -> None:
         for program in ("eight_minutes_dive", "two_minutes_dive")
     )
     assert (effect.target, short.target) == ("2 %", "4 %")
+
+
+def test_the_figures_say_how_far_intervals_in_the_plane_are_to_be_trusted() -> None:
+    good, bad = outcome(0.01, 1.0), outcome(0.01, 3.0)
+    errors, held = dive_figures([good, good, good, bad], "two_minutes_dive")[-2:]
+    assert (errors.median, errors.worst, errors.met) == ("1.73", "3.00", False)
+    assert (held.median, held.worst, held.met) == ("75.0 %", "28 intervals", False)
+    assert all(row.met for row in dive_figures([good], "two_minutes_dive")[-2:])
 
 
 def test_drawn_divers_are_of_all_lengths_heavy_and_light_and_their_planes_hold_them() -> None:

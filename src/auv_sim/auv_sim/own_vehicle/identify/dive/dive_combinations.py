@@ -109,10 +109,12 @@ def vertical_with(combinations: DiveCombinations, m: float, assumed: VerticalHul
     return dataclasses.replace(v, **values)
 
 
-#: Draws of a prior, and the factor on their spread; deviation of the buoyancy (share of the weight) and of
-#: the centre of gravity ahead (share of its depth below) in them. The spread is wide so that the data decide:
-#: half of it changes the median errors of six drawn divers in two minutes by less than 3 %.
-_DRAWS, _WIDENED, _BUOYANCY, _AHEAD = 3000, 3.0, 0.03, 0.3
+#: Standard deviations before any data: of the buoyancy, a share of the weight (from fresh water to the sea it
+#: grows by 2.6 %), and of the centre of gravity ahead, a share of its depth below.
+BUOYANCY, AHEAD = 0.03, 0.3
+#: Draws of a prior, and the factor on their spread. It is wide so that the data decide: half of it changes
+#: the median errors of six drawn divers in two minutes by less than 3 %.
+_DRAWS, _WIDENED = 3000, 3.0
 
 
 #: Powers of length with which the coefficients of similar hulls grow.
@@ -163,9 +165,9 @@ def dive_prior_of(hull: Hull, vertical: VerticalHull, seed: int = 0) -> Prior:
         values[name] = value * 2.0 ** generator.uniform(-largest, largest, _DRAWS)
     values["m"] = values["W"] / GRAVITY
     values["B"] = (
-        values["W"] + (vertical.B - vertical.W) + _BUOYANCY * vertical.W * generator.normal(size=_DRAWS)
+        values["W"] + (vertical.B - vertical.W) + BUOYANCY * vertical.W * generator.normal(size=_DRAWS)
     )
-    values["xg"] = vertical.xg + _AHEAD * vertical.zg * generator.normal(size=_DRAWS)
+    values["xg"] = vertical.xg + AHEAD * vertical.zg * generator.normal(size=_DRAWS)
     drawn = np.array(_combined(values))
     root = np.linalg.cholesky(np.cov(drawn) * _WIDENED**2 + 1e-12 * np.eye(len(drawn)))
     return Prior(drawn.mean(axis=1), np.asarray(root, float))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from typing import NamedTuple
 
 import numpy as np
@@ -9,11 +10,26 @@ import numpy as np
 from auv_path_following.vehicle import Hull
 from auv_path_following.vertical_hull import VerticalHull
 from auv_sim.own_vehicle.identify.combinations import Numbers
+from auv_sim.own_vehicle.identify.dive.dive_combinations import AHEAD, BUOYANCY
 
 #: Time over which measured roll is averaged, s: its derivative is the roll rate.
 ROLL = 0.3
-#: Standard deviation of an assumed acceleration before any data, a share of it.
+#: Standard deviation of an assumed coefficient before any data, a share of it.
 _SHARE = 0.5
+#: Coefficients by which heave, roll and pitch act on surge, sway and yaw.
+_ASSUMED = ("Xwq", "Xqq", "Ywp", "Ypq", "Nwp", "Npq", "zg")
+
+
+class AssumedLoads(NamedTuple):
+    """Accelerations of surge, sway and yaw by products of the other motions: see `vertical_loads_of`.
+
+    Attributes:
+        mean: as assumed, (3, 10).
+        deviations: one standard deviation of each number behind them, (numbers, 3, 10).
+    """
+
+    mean: Numbers
+    deviations: Numbers
 
 
 class VerticalMotion(NamedTuple):
@@ -22,7 +38,7 @@ class VerticalMotion(NamedTuple):
     Attributes:
         t, phi, theta, q: times (s), roll, pitch and pitch rate, as measured.
         water_t, w: arrival of each new sample of the velocity through the water, and its component down.
-        loads: accelerations of surge, sway and yaw by them, as assumed: see `vertical_loads_of`.
+        loads: accelerations of surge, sway and yaw by them, as assumed.
     """
 
     t: Numbers
@@ -31,10 +47,10 @@ class VerticalMotion(NamedTuple):
     q: Numbers
     water_t: Numbers
     w: Numbers
-    loads: Numbers
+    loads: AssumedLoads
 
     def products(self, latency: float, times: Numbers, r: Numbers) -> Numbers:
-        """Return the products that `loads` multiplies, shape (n, 9): see `vertical_loads_of`.
+        """Return the products that `loads` multiplies, shape (n, 10): see `vertical_loads_of`.
 
         Args:
             latency: age of a velocity when it arrives, s.
@@ -44,46 +60,59 @@ class VerticalMotion(NamedTuple):
         theta, q = (np.interp(times, self.t, column) for column in (self.theta, self.q))
         phi, p = roll_and_rate(self.t, self.phi, times, theta, q, r)
         w = np.interp(times, self.water_t - latency, self.w)
-        aside, growing = np.cos(theta) * np.sin(phi), np.gradient(p, times)
-        return np.array([w * q, q * q, p * r, w * p, p * q, q * r, np.sin(theta), aside, growing]).T
+        aside, rolling, pitching = np.cos(theta) * np.sin(phi), np.gradient(p, times), np.gradient(q, times)
+        return np.array([w * q, q * q, p * r, w * p, p * q, q * r, np.sin(theta), aside, rolling, pitching]).T
 
 
 class VerticalLoads(NamedTuple):
     """Accelerations of surge, sway and yaw by heave, roll and pitch, for each step of a passage.
 
     Attributes:
-        products: see `VerticalMotion.products`, (n, 9).
-        assumed: accelerations by them before any data, (3, 9): see `vertical_loads_of`.
-        off: deviations of those that are not 0, in standard deviations.
+        products: see `VerticalMotion.products`, (n, 10).
+        assumed: accelerations by them before any data.
+        off: by how many standard deviations the numbers behind them differ, (numbers,).
     """
 
     products: Numbers
-    assumed: Numbers
+    assumed: AssumedLoads
     off: Numbers
 
     def accelerations(self) -> Numbers:
         """Return the accelerations of surge, sway (m/s^2) and yaw (rad/s^2), shape (n, 3)."""
-        loads = self.assumed.copy()
-        loads[self.assumed != 0.0] *= 1.0 + _SHARE * self.off
+        loads = self.assumed.mean + np.tensordot(self.off, self.assumed.deviations, 1)
         return np.ascontiguousarray(self.products @ loads.T)
 
 
 def vertical_loads(motion: VerticalMotion, latency: float, times: Numbers, r: Numbers) -> VerticalLoads:
     """Return the assumed loads at times; the arguments are those of `VerticalMotion.products`."""
-    off = np.zeros(int(np.count_nonzero(motion.loads)))
-    return VerticalLoads(motion.products(latency, times, r), motion.loads, off)
+    products, off = motion.products(latency, times, r), np.zeros(len(motion.loads.deviations))
+    return VerticalLoads(products, motion.loads, off)
 
 
-def vertical_loads_of(hull: Hull, vertical: VerticalHull) -> Numbers:
-    """Return the accelerations of surge, sway and yaw by products of the other motions, Eq. (3D-4): (3, 9).
+def vertical_loads_of(hull: Hull, vertical: VerticalHull) -> AssumedLoads:
+    """Return the accelerations of surge, sway and yaw by products of the other motions, Eqs. (3D-3), (3D-4).
 
-    The products are w q, q q, p r, w p, p q, q r, sin(theta), cos(theta) sin(phi), p'.
+    The products are w q, q q, p r, w p, p q, q r, sin(theta), cos(theta) sin(phi), p', q'. Buoyancy and the
+    place of the centre of gravity ahead have deviations of their own: a trimmed hull has 0 of both. Sway by
+    buoyancy has a further one, as the added mass in sway is assumed.
     """
+    c, mean = vertical, _loads(hull, vertical)
+    others: dict[str, float] = {name: getattr(c, name) * (1.0 + _SHARE) for name in _ASSUMED}
+    others |= {"xg": c.xg + AHEAD * c.zg, "B": c.B + BUOYANCY * c.W}
+    deviations = [
+        _loads(hull, dataclasses.replace(c, **{name: value})) - mean for name, value in others.items()
+    ]
+    aside = _SHARE * deviations[-1] * np.array([[0.0], [1.0], [1.0]])
+    return AssumedLoads(mean, np.array([*deviations, aside]))
+
+
+def _loads(hull: Hull, vertical: VerticalHull) -> Numbers:
+    """Return the accelerations by each product, (3, 10)."""
     h, c = hull, vertical
     heavy, m_xg, m_zg = c.W - c.B, h.m * c.xg, h.m * c.zg
-    surge = [c.Xwq - h.m, c.Xqq + m_xg, -m_zg, 0.0, 0.0, 0.0, -heavy, 0.0, 0.0]
-    sway = [0.0, 0.0, 0.0, c.Ywp + h.m, c.Ypq - m_xg, -m_zg, 0.0, heavy, m_zg]
-    yaw = [0.0, 0.0, 0.0, c.Nwp + m_xg, c.Npq - (c.Iyy - c.Ixx), 0.0, 0.0, c.xg * c.W, 0.0]
+    surge = [c.Xwq - h.m, c.Xqq + m_xg, -m_zg, 0.0, 0.0, 0.0, -heavy, 0.0, 0.0, -m_zg]
+    sway = [0.0, 0.0, 0.0, c.Ywp + h.m, c.Ypq - m_xg, -m_zg, 0.0, heavy, m_zg, 0.0]
+    yaw = [0.0, 0.0, 0.0, c.Nwp + m_xg, c.Npq - (c.Iyy - c.Ixx), 0.0, 0.0, c.xg * c.W, 0.0, 0.0]
     masses = np.array([[h.m - h.Yvd, -h.Yrd], [-h.Nvd, h.Izz - h.Nrd]])
     return np.vstack((np.array(surge) / (h.m - h.Xud), np.linalg.solve(masses, np.array([sway, yaw]))))
 

@@ -1,4 +1,4 @@
-"""One simulated diver, its heave and pitch identified and compared with the truth."""
+"""One simulated diver, identified in the vertical and in the plane, and compared with the truth."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ import numpy as np
 
 from auv_path_following.vehicle import Hull, Vehicle
 from auv_path_following.vertical_hull import VerticalHull
-from auv_sim.own_vehicle.identify.combinations import COUNT, Numbers
+from auv_sim.own_vehicle.identify.combinations import COUNT, Numbers, combinations_of
 from auv_sim.own_vehicle.identify.dive.dive_combinations import (
     DiveCombinations,
     dive_combinations_of,
     vertical_with,
 )
 from auv_sim.own_vehicle.identify.dive.dive_data import DiveData, coupling_of
-from auv_sim.own_vehicle.identify.identification import Identified, identify_dive
+from auv_sim.own_vehicle.identify.identification import Identified, identify, identify_dive
 from auv_sim.own_vehicle.identify.study.identified_cases import left_out_errors
 from auv_sim.own_vehicle.identify.study.random_divers import known_diver, random_diver
-from auv_sim.own_vehicle.identify.study.simulated_data import dive_data
+from auv_sim.own_vehicle.identify.study.simulated_data import dive_data, planar_data
 from auv_sim.own_vehicle.identify.unknowns import ALL, DEAD_TIME, HALF_PLAY, LATENCY, RATE
 from auv_sim.own_vehicle.manoeuvres import program_file
 from auv_sim.own_vehicle.manoeuvres.manoeuvre_flight import simulate
@@ -53,6 +53,7 @@ class JudgedDive(NamedTuple):
         scores: their errors over the claimed standard deviations.
         two, ten: error of the pitch rate on left-out manoeuvres over 2 s and 10 s, shares.
         true_two, true_ten: the same with the true coefficients.
+        plane_shares, plane_scores: as `shares` and `scores`, of the combinations in the plane.
     """
 
     case: DiveCase
@@ -68,6 +69,15 @@ class JudgedDive(NamedTuple):
     ten: float
     true_two: float
     true_ten: float
+    plane_shares: tuple[float, ...]
+    plane_scores: tuple[float, ...]
+
+
+class Claims(NamedTuple):
+    """Claimed standard deviations of combinations as shares of their values, and errors over them."""
+
+    shares: tuple[float, ...]
+    scores: tuple[float, ...]
 
 
 def dive_outcome_of(case: DiveCase) -> JudgedDive:
@@ -79,9 +89,17 @@ def dive_outcome_of(case: DiveCase) -> JudgedDive:
         vehicle, sea, dataclasses.replace(program, legs=(*program.legs, *further.legs)), case.seed
     )
     data = dive_data(flown, coupling_of(known, _vertical(known)))
+    begin = float(data.t[0]) - 1.0
     end = float(flown.t[flown.leg <= len(program.legs)][-1]) + 1e-6  # leg 0 is the way to the depth
-    used, left_out = data.between(float(data.t[0]) - 1.0, end), data.between(end, math.inf)
-    return _compared(case, vehicle, sea, left_out, identify_dive([used], known, _vertical(known)))
+    found = identify_dive([data.between(begin, end)], known, _vertical(known))
+    plane = identify([planar_data(flown, diving=known).between(begin, end)], known)
+    in_plane = _claims(plane, np.array(combinations_of(vehicle.coefficients)))
+    return _compared(case, vehicle, sea, data.between(end, math.inf), found, in_plane)
+
+
+def _claims(found: Identified, true: Numbers) -> Claims:
+    p, sd = found.physical[:COUNT], found.spread.deviations[:COUNT]
+    return Claims(tuple((sd / np.abs(p)).tolist()), tuple(((p - true) / sd).tolist()))
 
 
 def _vertical(hull: Hull) -> VerticalHull:
@@ -90,12 +108,11 @@ def _vertical(hull: Hull) -> VerticalHull:
 
 
 def _compared(
-    case: DiveCase, vehicle: Vehicle, sea: Sea, left_out: DiveData, found: Identified
+    case: DiveCase, vehicle: Vehicle, sea: Sea, left_out: DiveData, found: Identified, in_plane: Claims
 ) -> JudgedDive:
     truth, known = true_dive_unknowns(vehicle, sea), known_diver(vehicle.length)
-    true, p = truth[:COUNT], found.physical[:COUNT]
-    sd, vertical = found.spread.deviations[:COUNT], _vertical(vehicle.coefficients)
-    c, t = DiveCombinations(*map(float, p)), DiveCombinations(*map(float, true))
+    true, vertical = truth[:COUNT], _vertical(vehicle.coefficients)
+    c, t = DiveCombinations(*map(float, found.physical[:COUNT])), DiveCombinations(*map(float, true))
     written = vertical_with(c, known.m, _vertical(known))
     two, ten = left_out_errors(left_out, found, found.physical)
     true_two, true_ten = left_out_errors(left_out, found, truth)
@@ -107,12 +124,12 @@ def _compared(
         damping_of(c, vehicle.top_speed) / damping_of(t, vehicle.top_speed) - 1.0,
         written.W - written.B - (vertical.W - vertical.B),
         float(found.physical[DEAD_TIME] - truth[DEAD_TIME]),
-        tuple((sd / np.abs(p)).tolist()),
-        tuple(((p - true) / sd).tolist()),
+        *_claims(found, true),
         two,
         ten,
         true_two,
         true_ten,
+        *in_plane,
     )
 
 
