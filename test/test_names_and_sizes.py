@@ -23,7 +23,7 @@ LONGER = {
     "planar_filter.planar_innovations": (45, _STEP),
     "dive_filter.dive_innovations": (45, _STEP),
     "run_columns.assemble": (61, "one column after the other; a third is its docstring"),
-    "judge.judged": (51, "a table: one figure a line"),
+    "judge.judged": (50, "a table: one figure a line"),
     "flight_figures.figures_of": (43, "a table: one figure a line"),
     "mcap_file._end_chunk": (41, "the order of its writes is what makes a crash harmless"),
 }

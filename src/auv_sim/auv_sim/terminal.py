@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import sys
 from collections.abc import Callable, Iterable
@@ -58,6 +59,11 @@ def headed_table(
     for heading in numbers:
         table.add_column(heading, justify="right", **number_column)
     return table
+
+
+def number_cell(value: float, digits: int) -> str:
+    """Return a number for a table; NaN is a dash."""
+    return "-" if math.isnan(value) else f"{value:.{digits}f}"
 
 
 def wrote(console: Console, path: object, what: str) -> None:

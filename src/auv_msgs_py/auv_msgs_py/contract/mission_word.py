@@ -32,6 +32,8 @@ class MissionState(enum.StrEnum):
     ABORTED = "aborted"
 
 
+#: States in which a mission has begun and has not ended.
+UNDER_WAY = (MissionState.RUNNING, MissionState.HOLDING)
 _WORDS = tuple(state.value for state in MissionState)
 
 

@@ -20,13 +20,10 @@ from auv_msgs_py.contract.conversions import (
 from auv_msgs_py.contract.frames import Convention, FrameTable, is_frd, is_ned, swap_axes
 from auv_msgs_py.values.attitude import Quaternion, angles_of_quaternion, quaternion_of, turned_over
 from auv_msgs_py.values.errors import MessageRefused
-from auv_msgs_py.values.types import Current, SpatialCurrent, SpatialNavigation, SpatialWater
+from auv_msgs_py.values.types import DEEPEST, Current, SpatialCurrent, SpatialNavigation, SpatialWater
 
 if TYPE_CHECKING:  # only vehicles with an altimeter load it
     from sensor_msgs.msg import Range
-
-#: Deepest position that is accepted, m: a little more than the ocean's.
-_DEEPEST = 12_000.0
 
 
 def spatial_navigation_from(message: Odometry, frames: FrameTable, topic: str) -> SpatialNavigation:
@@ -42,9 +39,9 @@ def spatial_navigation_from(message: Odometry, frames: FrameTable, topic: str) -
     if not math.isfinite(place.x + place.y + place.z + rates.y + rates.z):
         found = f"x={place.x}, y={place.y}, z={place.z}, pitch rate={rates.y}, yaw rate={rates.z}"
         raise MessageRefused(topic, found, "finite numbers")
-    if not (abs(place.x) < FARTHEST and abs(place.y) < FARTHEST and abs(place.z) < _DEEPEST):
+    if not (abs(place.x) < FARTHEST and abs(place.y) < FARTHEST and abs(place.z) < DEEPEST):
         found = f"x={place.x:g}, y={place.y:g}, z={place.z:g}"
-        raise MessageRefused(topic, found, f"coordinates within {FARTHEST:g} m, z within {_DEEPEST:g} m")
+        raise MessageRefused(topic, found, f"coordinates within {FARTHEST:g} m, z within {DEEPEST:g} m")
     norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w
     if not abs(norm - 1.0) < 0.02:
         raise MessageRefused(topic, f"a quaternion of norm {math.sqrt(abs(norm)):.3f}", "a unit quaternion")

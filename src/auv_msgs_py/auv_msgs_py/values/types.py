@@ -50,6 +50,8 @@ class Command(NamedTuple):
     thrust: float
 
 
+#: Deepest position that is accepted, m: a little more than the ocean's.
+DEEPEST = 12_000.0
 STOP = Command(0.0, 0.0)
 NO_CURRENT = Current(0.0, 0.0)
 #: Placeholder where the velocity through the water is unknown.

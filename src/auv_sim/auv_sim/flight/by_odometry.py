@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from auv_path_following.curves.composite import CompositePath
-from auv_sim.flight.metrics import under_way
-from auv_sim.flight.run_record import Column, Run
+from auv_sim.flight.metrics import root_mean_square, under_way
+from auv_sim.flight.run_record import Run
 
 
 class ByOdometry(NamedTuple):
@@ -42,9 +42,7 @@ def by_odometry(run: Run, path: CompositePath) -> ByOdometry | None:
     distance = path.distance(flown.x, flown.y, index)
     parts = (distance[index == k] for k in range(path.n))
     return ByOdometry(
-        _rms(distance), float(distance.max()), tuple(_rms(part) if part.size else np.nan for part in parts)
+        root_mean_square(distance),
+        float(distance.max()),
+        tuple(root_mean_square(part) for part in parts),
     )
-
-
-def _rms(distance: Column) -> float:
-    return float(np.sqrt(np.mean(distance**2)))

@@ -109,3 +109,8 @@ def _current_estimate_error(flown: Run) -> float:
     settled = flown.t - flown.t[0] >= OBSERVER_SETTLING_TIME
     down = flown.Vz_est - flown.Vz_true if isinstance(flown, SpatialRun) else None
     return largest_of(apart(flown.Vx_est - flown.Vx_true, flown.Vy_est - flown.Vy_true, down)[settled])
+
+
+def root_mean_square(values: Column) -> float:
+    """Return the root mean square; NaN of nothing."""
+    return float(np.sqrt(np.mean(values**2))) if values.size else math.nan

@@ -16,6 +16,7 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.curves.spatial.spatial_path import SpatialPath
+from auv_sim.bags.content.recorded_mission import SAME_STAMP
 from auv_sim.bags.reading.load import load
 from auv_sim.command_line import to_type
 from auv_sim.flight.figures.mission_summary import (
@@ -28,7 +29,7 @@ from auv_sim.flight.metrics import summarise
 from auv_sim.flight.run_record import Run, SpatialRun
 from auv_sim.launch.mission_plan import Plan
 from auv_sim.launch.outcome import Outcome
-from auv_sim.terminal import go_on, wrote
+from auv_sim.terminal import go_on, number_cell, wrote
 from auv_sim.views import dive_picture
 from auv_sim.views.overview import draw
 from auv_sim.views.signal_rows import limits_of
@@ -36,8 +37,6 @@ from auv_sim.views.signal_rows import limits_of
 #: The outcome is judged by the recording, not by `mission_state`.
 _UNFINISHED = "found a recording without the path's end, expected it where mission_state is complete"
 
-#: Stamps that differ by less are one, s.
-_SAME_STAMP = 1e-6
 
 #: At most this many subpaths and corners are printed, those farthest off the path; summary.json has all.
 _MOST_ROWS, _MOST_CORNERS = 40, 10
@@ -83,7 +82,7 @@ def conclude(plan: Plan, directory: Path, outcome: Outcome) -> tuple[Outcome, Mi
         run = _recorded(plan, directory)
     except ConfigurationError:
         return outcome, None
-    run = run.select(run.t > outcome.since - _SAME_STAMP)
+    run = run.select(run.t > outcome.since - SAME_STAMP)
     if not run.steps:
         return outcome, None
     summary = summarise(run, plan.path, plan.begin)
@@ -165,7 +164,7 @@ def _table(title: str, summary: MissionSummary) -> Table:
 def _cells(
     part: SubpathSummary | MissionSummary, columns: tuple[tuple[str, str, int], ...]
 ) -> tuple[str, ...]:
-    return tuple(_number(getattr(part, name), digits) for _, name, digits in columns)
+    return tuple(number_cell(getattr(part, name), digits) for _, name, digits in columns)
 
 
 def _show_figures(outcome: Outcome, summary: MissionSummary, console: Console) -> None:
@@ -173,17 +172,18 @@ def _show_figures(outcome: Outcome, summary: MissionSummary, console: Console) -
     console.print(summary.flown_line(), soft_wrap=True)
     if isinstance(summary, SpatialMissionSummary):
         console.print(
-            f"depth error: rms {_number(summary.rms_depth_error, 3)} m,"
-            f" largest {_number(summary.largest_depth_error, 3)} m;"
-            f" stern planes moved {_number(summary.sternplane_travel, 1)}°;"
-            f" largest pitch {_number(summary.largest_pitch, 1)}°",
+            f"depth error: rms {number_cell(summary.rms_depth_error, 3)} m,"
+            f" largest {number_cell(summary.largest_depth_error, 3)} m;"
+            f" stern planes moved {number_cell(summary.sternplane_travel, 1)}°;"
+            f" largest pitch {number_cell(summary.largest_pitch, 1)}°",
             soft_wrap=True,
         )
     for corner in farthest(summary.corners, _MOST_CORNERS):
         if math.isnan(corner.largest_distance):  # not reached
             continue
         console.print(
-            f"corner at joint {corner.joint}: at most {_number(corner.largest_distance, 2)} m off the path"
+            f"corner at joint {corner.joint}: at most {number_cell(corner.largest_distance, 2)} m"
+            " off the path"
         )
     if (others := len(summary.corners) - _MOST_CORNERS) > 0:
         console.print(f"{others} more corners, nearer to the path: summary.json")
@@ -199,7 +199,3 @@ def _show_figures(outcome: Outcome, summary: MissionSummary, console: Console) -
     console.print(
         f"{outcome.mission_time:.1f} s of mission in {outcome.wall_time:.1f} s, {speed:.0f} times real time"
     )
-
-
-def _number(value: float, digits: int) -> str:
-    return "-" if math.isnan(value) else f"{value:.{digits}f}"

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from auv_path_following.missions import mission_file
+from auv_sim.flight.metrics import root_mean_square
 from auv_sim.studies.paper import start_study
 from auv_sim.studies.paper.cases import CURRENT
 from auv_sim.studies.paper.claims import measures
@@ -58,7 +59,7 @@ def test_the_default_meets_its_bounds_in_the_papers_current(step):
     run = fly(PaperFlight(name="case 3", params="robust", current=CURRENT, step=step))
     assert measures.completed(run, PATH)
     distance = measures.distance(run, PATH)
-    assert all(measures.rms(distance[run.subpath(PATH.n) == i]) <= 0.05 for i in range(2, 7))
+    assert all(root_mean_square(distance[run.subpath(PATH.n) == i]) <= 0.05 for i in range(2, 7))
     assert measures.at_joint(run, PATH, 0) <= 1.0
 
 

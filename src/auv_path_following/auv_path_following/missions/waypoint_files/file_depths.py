@@ -6,13 +6,12 @@ import math
 from collections.abc import Callable, Sequence
 
 from auv_msgs_py.values.errors import ConfigurationError
+from auv_msgs_py.values.types import DEEPEST
 from auv_path_following.missions.waypoint_files.content import FileShape, Point, extent
 
 #: Consecutive points within this distance are one point, m.
 _SAME = 1e-3
 _IGNORE = "`depths: ignore`"
-#: Largest depth of a point, m; no sea is deeper.
-DEEPEST = 12e3
 
 
 def check_depths(depths: Sequence[float], place: Callable[[int], str]) -> None:

@@ -33,7 +33,7 @@ from auv_sim.flight.run_record import Run, SpatialRun
 from auv_sim.sim_parameters import SUITE
 
 #: Stamps that differ by less are one, s.
-_SAME_STAMP = 1e-6
+SAME_STAMP = 1e-6
 #: The files that the launcher writes and the recorder keeps.
 MISSION, VEHICLE, PARAMS = "mission.yaml", "vehicle.yaml", "params.yaml"
 #: The hull as the nodes knew it; only there where it was not the vehicle's.
@@ -160,7 +160,7 @@ def _with_missions(
     parts = []
     ends = [*(one.begun for one in missions[1:]), math.inf]
     for one, end in zip(missions, ends, strict=True):
-        rows = run.select((run.t > one.begun - _SAME_STAMP) & (run.t < end - _SAME_STAMP))
+        rows = run.select((run.t > one.begun - SAME_STAMP) & (run.t < end - SAME_STAMP))
         mission, notes = known.get(one.digest), []
         if mission is None:
             notes.append(f"no figures of {printable(one.name)}: its file is not in the recording")

@@ -28,7 +28,7 @@ from auv_sim.command_line import (
 )
 from auv_sim.launch.processes.domains import domain_for, variables_of
 from auv_sim.terminal import console as terminal
-from auv_sim.terminal import go_on, headed_table, progress_bar
+from auv_sim.terminal import go_on, headed_table, number_cell, progress_bar
 
 
 def run(arguments: argparse.Namespace, not_default: Mapping[str, Any]) -> int:
@@ -153,14 +153,10 @@ def _table(results: list) -> Table:  # type: ignore[type-arg]
         fault = row.fault + (", then abort" if row.then_abort else "")
         table.add_row(
             row.place if row.place != place else "", fault, row.noticed_by or "-",
-            _seconds(result.noticed),
+            number_cell(result.noticed, 2),
             f"{row.within:g}{' wall' if row.wall else ''}" if row.noticed_by else "-",
-            _seconds(result.safe), f"{row.safe:g}" if row.safe else "-", row.outcome,
+            number_cell(result.safe, 2), f"{row.safe:g}" if row.safe else "-", row.outcome,
             "[green]ok[/green]" if result.good else f"[red]{'; '.join(result.wrong)}[/red]",
         )  # fmt: skip
         place = row.place
     return table
-
-
-def _seconds(value: float) -> str:
-    return "-" if math.isnan(value) else f"{value:.2f}"

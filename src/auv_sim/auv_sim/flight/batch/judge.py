@@ -12,7 +12,7 @@ from auv_sim.flight.batch import tally
 from auv_sim.flight.batch.kinds.spatial_tally import SETTLING_TIME
 from auv_sim.flight.figures.flown_rows import FlownRows
 from auv_sim.flight.loops import followed_path
-from auv_sim.flight.metrics import summarise
+from auv_sim.flight.metrics import root_mean_square, summarise
 from auv_sim.flight.run_record import Run, SpatialRun
 from auv_sim.flight.scenario import Scenario
 
@@ -32,6 +32,7 @@ def judged(run: Run, scenario: Scenario) -> dict[str, Any]:
     commands = run.rudder_cmd[:-1] if arrived else run.rudder_cmd
     stops = (scenario.controller_vehicle or scenario.vehicle).rudder.max_angle
     elapsed = scenario.step * np.arange(run.steps)
+    calm = elapsed >= tally.calm_time(scenario.vehicle) - 1e-6
     rows = FlownRows(run, path)
     distance = rows.distance
     near = np.flatnonzero((run.s > 0.0) & (distance <= tally.ARRIVED))
@@ -52,7 +53,7 @@ def judged(run: Run, scenario: Scenario) -> dict[str, Any]:
         "distance_covered": summary.distance_covered,
         "rudder_travel": summary.rudder_travel,
         "rudder_travel_per_metre": summary.rudder_travel_per_metre,
-        "late_rms_yaw_rate": math.degrees(_rms(run.r[elapsed >= tally.calm_time(scenario.vehicle) - 1e-6])),
+        "late_rms_yaw_rate": math.degrees(root_mean_square(run.r[calm])),
         **_of_commands(commands, stops, scenario.step),
         "current_estimate_error": summary.current_estimate_error,
         "last_x": float(x[-1]),
@@ -64,21 +65,20 @@ def judged(run: Run, scenario: Scenario) -> dict[str, Any]:
     if isinstance(path, SpatialPath) and isinstance(run, SpatialRun):
         joined = elapsed[near[0]] if near.size else math.inf
         settled = elapsed - joined >= SETTLING_TIME - 1e-6
-        calm = elapsed >= tally.calm_time(scenario.vehicle) - 1e-6
         figures |= _in_space(run, rows, path, summary, settled) | _of_pitch(run, calm)
     return figures
 
 
 def _of_distances(kind: str, distances: Any) -> dict[str, float]:
     largest = float(distances.max()) if distances.size else math.nan
-    return {f"{kind}_rms_distance": _rms(distances), f"{kind}_largest_distance": largest}
+    return {f"{kind}_rms_distance": root_mean_square(distances), f"{kind}_largest_distance": largest}
 
 
 def _of_commands(commands: Any, stops: float, step: float) -> dict[str, float]:
     """Return the figures of the rudder's commands (rad), a `step` of s apart; `stops`: its largest angle."""
     rate = np.degrees(np.diff(commands)) / step
     return {
-        "rms_rudder_rate": _rms(rate),
+        "rms_rudder_rate": root_mean_square(rate),
         "largest_rudder_rate": float(np.abs(rate).max()) if rate.size else 0.0,
         "saturated": float(np.mean(np.abs(commands[1:]) >= stops - 1e-12)) if rate.size else math.nan,
     }
@@ -94,7 +94,7 @@ def _in_space(
     return {
         "rms_depth_error": summary.rms_depth_error,
         "largest_depth_error": summary.largest_depth_error,
-        "steady_rms_depth_error": _rms(steady),
+        "steady_rms_depth_error": root_mean_square(steady),
         "steady_largest_depth_error": float(np.abs(steady).max()) if steady.size else math.nan,
         "largest_pitch": summary.largest_pitch,
         "sternplane_travel": summary.sternplane_travel,
@@ -106,8 +106,4 @@ def _in_space(
 
 def _of_pitch(run: SpatialRun, calm: Any) -> dict[str, float]:
     """Return the rms pitch rate of the rows that `calm` marks."""
-    return {"late_rms_pitch_rate": math.degrees(_rms(run.q[calm]))}
-
-
-def _rms(values: Any) -> float:
-    return float(np.sqrt(np.mean(values**2))) if values.size else math.nan
+    return {"late_rms_pitch_rate": math.degrees(root_mean_square(run.q[calm]))}

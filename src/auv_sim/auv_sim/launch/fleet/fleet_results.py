@@ -20,7 +20,7 @@ from auv_sim.flight.separation import Separation, separations
 from auv_sim.launch import mission_results
 from auv_sim.launch.fleet.fleet_plan import FleetPlan
 from auv_sim.launch.outcome import Outcome
-from auv_sim.terminal import go_on, wrote
+from auv_sim.terminal import go_on, number_cell, wrote
 from auv_sim.views import fleet_picture
 
 #: Heading, field of the summary, digits.
@@ -112,7 +112,7 @@ def show(plan: FleetPlan, results: FleetResults, console: Console) -> None:
         table.add_column(heading, justify="right")
     for label, member in plan.members.items():
         summary = results.summaries.get(label)
-        cells = (_cell(getattr(summary, name, math.nan), digits) for _, name, digits in _COLUMNS)
+        cells = (number_cell(getattr(summary, name, math.nan), digits) for _, name, digits in _COLUMNS)
         words = (
             label,
             escape(member.mission.name),
@@ -132,7 +132,3 @@ def show(plan: FleetPlan, results: FleetResults, console: Console) -> None:
     for label in plan.members:
         wrote(console, plan.directory / label, f"the run directory of {label}")
     go_on(console, "Look further", to_type("bag.py", "report", plan.directory))
-
-
-def _cell(value: float, digits: int) -> str:
-    return "-" if math.isnan(value) else f"{value:.{digits}f}"

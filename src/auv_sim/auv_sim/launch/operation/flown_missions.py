@@ -6,9 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from auv_msgs_py.contract.mission_word import MissionState, number_in
-
-_UNDER_WAY = (MissionState.RUNNING, MissionState.HOLDING)
+from auv_msgs_py.contract.mission_word import UNDER_WAY, MissionState, number_in
 
 
 @dataclass
@@ -37,7 +35,7 @@ class FlownMission:
     @property
     def is_under_way(self) -> bool:
         """Whether it runs or holds."""
-        return self.state in _UNDER_WAY
+        return self.state in UNDER_WAY
 
     @property
     def duration(self) -> float:
@@ -90,7 +88,7 @@ class FlownMissions:
         if math.isnan(begun) or math.isnan(share):  # set, but not begun
             return
         state, last = values["state"], self.last
-        if last is None or last.begun != begun or (state in _UNDER_WAY and not last.is_under_way):
+        if last is None or last.begun != begun or (state in UNDER_WAY and not last.is_under_way):
             if last is not None and last.is_under_way:
                 last.state, last.reason = "ended", "another mission took its place"
             last = FlownMission(values.get("mission", ""), values.get("digest", ""), length, begun, stamp)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from auv_msgs_py.contract import topics
-from auv_msgs_py.contract.mission_word import MissionState
+from auv_msgs_py.contract.mission_word import UNDER_WAY, MissionState
 from auv_msgs_py.node.run import StopRequest
 from auv_sim.launch.mission_plan import Plan
 from auv_sim.launch.operation.flown_missions import FlownMissions
@@ -15,7 +15,6 @@ from auv_sim.launch.outcome import Outcome
 from auv_sim.launch.progress_display import ProgressDisplay
 
 _INTERRUPTED = "stopped by a signal"
-_UNDER_WAY = (MissionState.RUNNING, MissionState.HOLDING)
 
 
 def how_to_start(namespace: str, domain: str) -> str:
@@ -81,7 +80,7 @@ def stop(monitor: Any) -> bool:
     """
     missions: FlownMissions = monitor.missions
     number, last = len(missions.flown), missions.last
-    was_under_way = monitor.state in _UNDER_WAY if last is None else last.is_under_way
+    was_under_way = monitor.state in UNDER_WAY if last is None else last.is_under_way
     monitor.abort()  # a complete mission refuses it
     for _ in range(15):  # 0.3 s for the zero commands to reach the vehicle: no propeller may keep running
         monitor.look(0.02)

@@ -6,6 +6,7 @@ import numpy as np
 
 from auv_path_following.curves.composite import CompositePath
 from auv_path_following.vehicle import Vehicle
+from auv_sim.flight.metrics import root_mean_square
 from auv_sim.flight.run_record import Run
 from auv_sim.studies.paper.cases import LAW_LABELS, OFFSET
 from auv_sim.studies.paper.claims import measures as m
@@ -94,7 +95,7 @@ def robustness(runs: Runs, path: CompositePath) -> PaperClaim:
                 run = runs[f"{prefix}-{law}-{plant}"]
                 # On the arc the rudder has to stand at an angle, so a wrong rudder shows.
                 rows = m.steady(run, path, 2)
-                size = float(np.degrees(m.rms(run.psi_e[rows]))) if rows.any() else np.inf
+                size = float(np.degrees(root_mean_square(run.psi_e[rows]))) if rows.any() else np.inf
                 error[law, plant] = size
                 numbers.append(Number(f"{LAW_LABELS[law]}, {PLANTS[plant].label}, {how}", size, "°"))
         kept = error["nism", "mismatch"] <= max(1.5 * error["nism", "prestero"], 0.1)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from auv_path_following.curves.composite import CompositePath
+from auv_sim.flight.metrics import root_mean_square
 from auv_sim.flight.path_cells import CORNER_RADIUS
 from auv_sim.flight.run_record import Column, Run
 
@@ -31,11 +32,6 @@ def steady(run: Run, path: CompositePath, subpath: int) -> NDArray[np.bool_]:
     return np.asarray(rows)
 
 
-def rms(values: Column) -> float:
-    """Return the root mean square; NaN of nothing."""
-    return float(np.sqrt(np.mean(values**2))) if values.size else math.nan
-
-
 def completed(run: Run, path: CompositePath) -> bool:
     """Whether the end of the path was reached."""
     return bool(run.s[-1] >= path.n)
@@ -44,7 +40,7 @@ def completed(run: Run, path: CompositePath) -> bool:
 def steady_distance(run: Run, path: CompositePath, subpath: int) -> float:
     """Return the rms distance (m) on the steady part of a subpath (from 0); infinite if never reached."""
     rows = steady(run, path, subpath)
-    return rms(distance(run, path)[rows]) if rows.any() else math.inf
+    return root_mean_square(distance(run, path)[rows]) if rows.any() else math.inf
 
 
 def settling_time(run: Run, path: CompositePath, band: float) -> float:

@@ -8,11 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from auv_msgs_py.contract.mission_word import MissionState, number_in
+from auv_msgs_py.contract.mission_word import UNDER_WAY, number_in
 from auv_sim.views.console.record.history import History
 from auv_sim.views.console.record.track_columns import PLACE
 
-_UNDER_WAY = (MissionState.RUNNING, MissionState.HOLDING)
 #: Speed over the path is the mean of this last time, s of mission time.
 _WINDOW = 30.0
 #: A slower vehicle makes no way, m/s.
@@ -56,7 +55,7 @@ class MissionProgress:
         begun = number_in(self.status, "begun at [s]")
         if math.isnan(begun):
             self._time = None
-        elif self.state in _UNDER_WAY and math.isfinite(stamp):
+        elif self.state in UNDER_WAY and math.isfinite(stamp):
             self._time = max(stamp - begun, 0.0)
         return self._time
 
@@ -69,7 +68,7 @@ class MissionProgress:
             course: with the joints, if they are known.
         """
         share, length = number_in(self.status, "flown share"), self.length
-        is_under_way = self.state in _UNDER_WAY
+        is_under_way = self.state in UNDER_WAY
         speed = _speed(history) if is_under_way else math.nan
         time_to_go = self.to_go / speed if is_under_way else math.nan
         place = length - self.to_go
