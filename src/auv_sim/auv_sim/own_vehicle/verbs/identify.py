@@ -45,6 +45,7 @@ from auv_sim.own_vehicle.identify.results.plausibility import (
     check_motion,
     doubts,
     latency_doubts,
+    thrust_doubts,
 )
 from auv_sim.own_vehicle.identify.time_grid import FOLLOWED, PlanarData, shared_time
 from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, RATE, DataSheet, typed
@@ -141,7 +142,7 @@ def run(arguments: argparse.Namespace) -> int:
         found = identify(used, hull, sheet, band, steps_in(bar))
     check_sign(found, where)
     check_fit(found, where)
-    for doubt in (*doubts(found, used, vehicle, -hull.Xuu), *latency_doubts(found)):
+    for doubt in (*doubts(found, used, vehicle, -hull.Xuu), *latency_doubts(found), *thrust_doubts(found)):
         say(f"notice {doubt}", error=True)
     dives = [one.dive for one in recorded if one.dive is not None]
     dive = identified_dive(dives, vehicle, hull, found, left_out, arguments.quiet)

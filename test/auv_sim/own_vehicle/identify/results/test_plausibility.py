@@ -26,7 +26,9 @@ from auv_sim.own_vehicle.identify.results.plausibility import (
     check_yaw_rate,
     doubts,
     latency_doubts,
+    thrust_doubts,
 )
+from auv_sim.own_vehicle.identify.study.identified_cases import true_unknowns
 from auv_sim.own_vehicle.identify.study.simulated_data import planar_data
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
 from auv_sim.own_vehicle.identify.unknowns import ALL, DEAD_TIME, DataSheet, Scaling
@@ -155,3 +157,16 @@ def _found(dead_time: float) -> Any:
     physical = np.zeros(ALL)
     physical[DEAD_TIME] = dead_time
     return SimpleNamespace(channels=None, physical=physical)
+
+
+@pytest.mark.parametrize(("low", "sign"), [(1.0, None), (1.1, "+"), (0.9, "-")])
+def test_a_thrust_of_another_shape_than_the_files_raises_a_doubt(
+    slow_log: PlanarData, low: float, sign: str | None
+) -> None:
+    """Little thrust pushes less than its numbers say where low > 1, so that much thrust pushes more."""
+    thrust = np.where(slow_log.thrust < 0.7 * REMUS.thrust_max, low * slow_log.thrust, slow_log.thrust)
+    channels = channels_of([slow_log._replace(thrust=thrust)], DataSheet(), math.radians(0.2))
+    found: Any = SimpleNamespace(channels=channels, physical=true_unknowns(REMUS, sea.load("moderate")))
+    lines = thrust_doubts(found)
+    assert len(lines) == (sign is not None)
+    assert sign is None or f"thrust is {sign}" in lines[0]

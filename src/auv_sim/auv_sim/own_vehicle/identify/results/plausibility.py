@@ -11,6 +11,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.vehicle import Vehicle
 from auv_sim.own_vehicle.identify.combinations import Numbers
 from auv_sim.own_vehicle.identify.identification import Identified
+from auv_sim.own_vehicle.identify.innovations import filtered
 from auv_sim.own_vehicle.identify.predictions import predictions_of
 from auv_sim.own_vehicle.identify.refine.own_trims import derivative, shifts_of
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
@@ -36,6 +37,10 @@ _LATE = -0.01
 #: A given latency of the log is doubted where the data would move it by more than this (s), and by so many
 #: standard deviations; step of the derivative, s.
 _LEAST_SHIFT, _CLEARLY, _STEP = 0.05, 4.0, 1e-3
+#: The thrust's mean error at much and at little thrust (shares of the largest) is compared where each was
+#: held for some time in all (s), after the filter has settled (s). A larger difference is a doubt: up to
+#: 0.028 with drag by the square of the speed, 0.034 to 0.083 with 30 % of it linear in the speed.
+_MUCH, _LITTLE, _HELD, _SETTLED, _SHAPE = 0.85, (0.2, 0.7), 10.0, 10.0, 0.03
 
 
 def check_commands(rudder: Numbers, thrust: Numbers, vehicle: Vehicle, where: str) -> None:
@@ -193,4 +198,30 @@ def latency_doubts(found: Identified) -> list[str]:
     return [
         f"--log-latency {given:g}: the data show {how} than {given:g} s, and the hull is off with it: "
         "leave the option out to find the latency from the data"
+    ]
+
+
+def thrust_doubts(found: Identified) -> list[str]:
+    """Return one line where the thrust's error differs between much and little thrust."""
+    errors, shares, steps = [], [], []
+    largest = max(float(np.max(passage.grid.thrust)) for passage in found.channels.passages)
+    for passage in found.channels.passages:
+        error = filtered(passage, found.channels, found.physical)[:, 3]
+        known = np.isfinite(error) & (passage.times[:-1] > passage.times[0] + _SETTLED)
+        errors.append(error[known])
+        shares.append(passage.grid.thrust[known] / max(largest, 1e-9))
+        steps.append(passage.grid.step[known])
+    error, share, step = (np.concatenate(parts) for parts in (errors, shares, steps))
+    means = []
+    for level in (share > _MUCH, (share > _LITTLE[0]) & (share < _LITTLE[1])):
+        if step[level].sum() < _HELD:
+            return []
+        means.append(float(np.average(error[level], weights=step[level])))
+    more = means[0] - means[1]
+    if abs(more) < _SHAPE:
+        return []
+    return [
+        f"thrust is {100.0 * more:+.0f} % off at much thrust against little: the drag is not by the square "
+        "of the speed, or thrust_table has another shape. The speed at full thrust may be some per cent off. "
+        "For thrust in per cent or rpm, `vehicle.py new` with --speed at two thrusts shapes the table"
     ]
