@@ -113,6 +113,14 @@ def test_a_lone_stamp_from_the_future_is_refused_and_a_clock_set_forward_is_acce
     ]  # fmt: skip
 
 
+def test_a_receiver_whose_clock_stood_still_takes_no_sender_for_one_whose_clock_was_set():
+    """After a pause a node may read several stamps before the /clock that came with them."""
+    paused = [(10.0, 10.0), (10.0, 12.0), (10.0, 12.05), (10.01, 12.1), (12.15, 12.15), (12.2, 12.2)]
+    assert timings(paused) == [
+        StampTiming.PUNCTUAL, *[StampTiming.EARLY] * 3, StampTiming.PUNCTUAL, StampTiming.PUNCTUAL,
+    ]  # fmt: skip
+
+
 def test_an_unset_clock_judges_nothing_and_one_that_goes_back_begins_anew():
     assert (
         timings([(0.0, 500.0), (0.0, 1.0), (500.0, 500.0), (1.0, 1.0), (1.1, 1.1)])

@@ -77,7 +77,8 @@ class Punctuality:
 
     The age of the most punctual message so far is the measure of all others. So a vehicle with a wrong clock
     can be flown, and messages that begin to come late are found. A single stamp from the future is refused; a
-    second one that continues it shows that the sender's clock was set forward, and is the new measure.
+    later one that has advanced with the receiver's clock shows that the sender's clock was set forward, and
+    is the new measure. While the receiver's clock stands still, after a pause, none does.
 
     Args:
         bound: largest deviation from the measure, later or earlier, s.
@@ -93,7 +94,8 @@ class Punctuality:
         """Forget the measure; the next stamp sets it."""
         self._measure: float | None = None
         self._at = 0.0
-        self._early: int | None = None
+        #: Of the first stamp from the future: time of its receipt, s, and the stamp, ns.
+        self._early: tuple[float, int] | None = None
 
     def judge(self, now: float, stamp: int) -> StampTiming:
         """Judge a stamp (ns) received at `now` (s); a clock that shows 0 is not set yet."""
@@ -107,8 +109,10 @@ class Punctuality:
         if lateness > self.bound:
             return StampTiming.LATE
         if lateness < -self.bound:
-            if self._early is None or stamp <= self._early:
-                self._early = stamp
+            if self._early is None or stamp <= self._early[1]:
+                self._early = now, stamp
+                return StampTiming.EARLY
+            if now - self._early[0] < 0.5e-9 * (stamp - self._early[1]):
                 return StampTiming.EARLY
             self._measure, self._at, self._early = age, now, None
             return StampTiming.STEPPED
