@@ -61,8 +61,11 @@ def wait(until: Callable[[], Any]) -> None:
 
 
 def wait_for(publisher: Any) -> None:
-    """Wait until the recorder's reader is known here; the recorder may not know this publisher yet."""
-    wait(lambda: publisher.get_subscription_count() == 1)
+    """Wait until a reader of the recorder is known here; the recorder may not know this publisher yet.
+
+    There are two while the recorder subscribes again, with the QoS that the publisher offers.
+    """
+    wait(lambda: publisher.get_subscription_count() >= 1)
 
 
 def recorded(directory: Path, topic: str) -> list[bytes | None]:
