@@ -16,7 +16,7 @@ from auv_sim.own_vehicle.identify.intervals import spread_of
 from auv_sim.own_vehicle.identify.minimise import STEP, jacobian, minimise
 from auv_sim.own_vehicle.identify.study.identified_cases import KNOWN, true_unknowns
 from auv_sim.own_vehicle.identify.study.simulated_data import planar_data
-from auv_sim.own_vehicle.identify.unknowns import RATE, DataSheet, Scaling
+from auv_sim.own_vehicle.identify.unknowns import ALL, DEAD_TIME, RATE, DataSheet, Scaling
 from auv_sim.own_vehicle.manoeuvres import program_file
 from auv_sim.own_vehicle.manoeuvres.manoeuvre_flight import simulate
 from auv_sim.vehicle import sea as sea_file
@@ -29,7 +29,10 @@ def test_a_jump_of_the_innovations_is_no_knowledge_of_the_servo(monkeypatch: pyt
     channels = channels_of([data.between(data.t[0], data.t[0] + 60.0)], scaling.sheet, math.radians(0.2))
     estimate = minimise(channels, scaling, scaling.scaled(true_unknowns(vehicle, sea)), rounds=1)
     none = np.zeros((channels.rows.size, 0))
-    smooth = spread_of(channels, scaling, estimate, none).deviations[RATE]
+    spread = spread_of(channels, scaling, estimate, none)
+    smooth = spread.deviations[RATE]
+    assert 0.001 <= spread.deviations[DEAD_TIME] < 0.01  # not by the curvature alone: the likelihood jumps
+    assert spread.unseen(np.eye(ALL)[DEAD_TIME]) == pytest.approx(0.001)
 
     def jumping(*arguments: Any) -> Numbers:
         """Return derivatives of innovations of which one jumps by 0.1 just above the estimated rate."""

@@ -17,6 +17,9 @@ from auv_sim.own_vehicle.identify.unknowns import ALL, DEAD_TIME, HALF_PLAY, RAT
 
 #: Further steps of the servo's scaled unknowns.
 _SERVO_STEPS = (-STEP, 30.0 * STEP, -30.0 * STEP)
+#: Standard deviation of the dead time that the likelihood, which jumps from servo to servo, does not show, s.
+#: Without it 20 of 26 intervals of five hulls with rudders of 8 to 200 deg/s held the true dead time.
+_JUMPS = 1e-3
 #: Of a 95 % interval, in standard deviations.
 REACH = 1.96
 
@@ -28,7 +31,7 @@ class Covariances(NamedTuple):
         classic: covariance by the curvature of the likelihood, (J'J)^-1.
         sandwich: covariance that allows for innovations correlated within blocks of 10 s.
         systematic: rows of what no data show, each one standard deviation: scale of the log, bias of the
-            thrust.
+            thrust, jumps of the likelihood over the dead time.
     """
 
     classic: Numbers
@@ -102,11 +105,12 @@ def _slopes(
 
 
 def systematic_of(physical: Numbers, sheet: DataSheet, plane: Plane) -> Numbers:
-    """Return one standard deviation of each error that no data show, by the unknowns, shape (2, 22)."""
-    found = np.zeros((2, ALL))
+    """Return one standard deviation of each error that no data show, by the unknowns, shape (3, 22)."""
+    found = np.zeros((3, ALL))
     found[0, :COUNT] = physical[:COUNT] * plane.scale_powers * sheet.log_scale
     if plane.has_thrust:
         found[1, 0] = physical[0] * sheet.thrust_bias
+    found[2, DEAD_TIME] = _JUMPS
     return found
 
 
