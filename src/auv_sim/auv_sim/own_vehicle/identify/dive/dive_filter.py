@@ -40,7 +40,9 @@ def dive_jacobian(c: Any, u: Any, w: Any, q: Any, cos: Any, sin: Any, level: Any
     """Return the derivatives of the rates of theta, w, q by themselves: nine numbers, row after row.
 
     Args:
-        c, u, w, q, cos, sin: as for `dive_accelerations`.
+        c, u, w, q: as for `dive_accelerations`.
+        cos: cosine of the pitch.
+        sin: sine of the pitch times the cosine of the roll.
         level: cosine of the roll.
     """
     aw, aq = 2.0 * abs(w), 2.0 * abs(q)
@@ -115,7 +117,7 @@ def dive_carried(
     _, _, _, grow_t, grow_w, grow_q, surge, loss, drift, decay = noise
     theta, w, q, off, leaning = x
     u, level, zero = given[0] + off, given[1], 0.0 * c[0]
-    f = transition(dive_jacobian(c, u, w, q, level * np.cos(theta), np.sin(theta), level), h)
+    f = transition(dive_jacobian(c, u, w, q, np.cos(theta), level * np.sin(theta), level), h)
     heaved = c[2] * q + c[3] * w + 2.0 * c[4] * u * delta
     pitched = c[9] * q + c[10] * w + 2.0 * c[11] * u * delta
     gains = zero, h * heaved, h * pitched, zero, zero, zero
