@@ -42,7 +42,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 @pytest.fixture(scope="session", autouse=True)
 def _elsewhere(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """Run every test in a directory of its own session: none depends on where pytest was started."""
+    """Run the session in an empty directory: no test depends on where pytest was started."""
     os.chdir(tmp_path_factory.mktemp("elsewhere"))
 
 

@@ -93,7 +93,7 @@ class Bench:
         """Wait until the newest message of a topic fulfils the condition; return it.
 
         Latched topics are waited for in this way and not by number: their writers keep one message, so that
-        a reader who is late receives the newest alone.
+        a late reader receives the newest alone.
         """
         kept = self.received[topic.name]
         self.until(lambda: kept and condition(kept[-1]))

@@ -26,7 +26,7 @@ from auv_sim.cli.bag import main as bag_command
 from console_browser import ConsoleBrowser, address_of
 from node_bench import Bench
 
-#: So long, m, that lockstep flies it for a minute: no pause of a process outlasts a mission.
+#: Length that takes lockstep a minute of wall time, m: no pause of a process outlasts a mission.
 LENGTH = 30_000.0
 MISSION = """\
 version: 1

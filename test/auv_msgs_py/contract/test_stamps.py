@@ -113,6 +113,13 @@ def test_a_lone_stamp_from_the_future_is_refused_and_a_clock_set_forward_is_acce
     ]  # fmt: skip
 
 
+def test_a_clock_that_is_set_forward_twice_is_accepted():
+    twice = [(10.0, 10.0), (10.05, 15.05), (10.1, 1010.1), (10.15, 1010.15), (10.2, 1010.2)]
+    assert timings(twice) == [
+        StampTiming.PUNCTUAL, StampTiming.EARLY, StampTiming.EARLY, StampTiming.STEPPED, StampTiming.PUNCTUAL,
+    ]  # fmt: skip
+
+
 def test_a_receiver_whose_clock_stood_still_takes_no_sender_for_one_whose_clock_was_set():
     """After a pause a node may read several stamps before the /clock that came with them."""
     paused = [(10.0, 10.0), (10.0, 12.0), (10.0, 12.05), (10.01, 12.1), (12.15, 12.15), (12.2, 12.2)]

@@ -29,7 +29,7 @@ def node(domain: int) -> Iterator[Node]:
 
 
 def wait(until: Callable[[], bool]) -> None:
-    deadline = time.monotonic() + 60.0
+    deadline = time.monotonic() + 180.0
     while not until():
         assert time.monotonic() < deadline
         time.sleep(0.01)

@@ -76,10 +76,10 @@ class Operator:
         self.bench.until(lambda: self.bench.received["mission_status"])
         return values_of(self.bench.received["mission_status"][-1])
 
-    def shows(self, **wanted: str) -> None:
+    def shows(self, **expected: str) -> None:
         """Wait until the newest `mission_status` has these values."""
         self.bench.until_newest(
-            topics.MISSION_STATUS, lambda status: wanted.items() <= values_of(status).items()
+            topics.MISSION_STATUS, lambda status: expected.items() <= values_of(status).items()
         )
 
 

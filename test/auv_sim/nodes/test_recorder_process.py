@@ -35,7 +35,7 @@ from recorder_bench import PATIENCE, STARTED, recorded, start, stop, talk, truth
 BOUND = 1.0
 #: Messages of each topic that are counted: those of all topics fit into the recorder's transport queue of
 #: 512, however long it gets no processor time.
-TOLD = 80
+COUNTED = 80
 #: Attempts at a measurement that a pause of one of the processes spoils.
 ATTEMPTS = 5
 
@@ -91,7 +91,7 @@ def test_counts_equal_those_published(tmp_path: Path, node: Node) -> None:
         return all(recorded(tmp_path / "bag", name) for name in chosen)
 
     wait(are_all_heard)
-    for k in range(TOLD):
+    for k in range(COUNTED):
         publish(float(k))
     output = stop(process)
     assert "0 dropped" in output
@@ -107,7 +107,7 @@ def test_counts_equal_those_published(tmp_path: Path, node: Node) -> None:
     for name in chosen:
         kind, value = (Vector3Stamped, "vector.x") if name == chosen[0] else (Float64, "data")
         found = [attrgetter(value)(deserialize_message(m, kind)) for m in bag.topics[name].messages]
-        assert [number for number in found if number >= 0.0] == list(range(TOLD))
+        assert [number for number in found if number >= 0.0] == list(range(COUNTED))
     assert "transient_local" in bag.topics[f"{space}/mission_state"].qos
     for publisher in (state, truth, *extra):
         node.destroy_publisher(publisher)
@@ -150,7 +150,7 @@ def test_killed_at_any_moment(tmp_path: Path, node: Node, seed: int) -> None:
     assert lost[-1] < BOUND
 
 
-def test_a_full_disk_is_told_and_what_is_there_stays_readable(tmp_path: Path, node: Node) -> None:
+def test_a_full_disk_is_reported_and_what_is_there_stays_readable(tmp_path: Path, node: Node) -> None:
     truth = node.create_publisher(Vector3Stamped, truth_topic(tmp_path), 10)
     process = start(tmp_path / "bag", "compression:=none", limit=20_000)
     wait_for(truth)
@@ -231,22 +231,25 @@ def test_in_lockstep_a_simulator_that_is_discovered_late_is_told_the_newest_coun
         names = [f"{namespace}/{topic.name}" for topic in publishers]
         wait(lambda names=names, n=steps: all(len(recorded(tmp_path / "bag", s)) == n for s in names))  # type: ignore[misc]
     assert recorder.poll() is None
-    told: list[int] = []
+    reported: list[int] = []
     executor = SingleThreadedExecutor(context=node.context)
     simulator = rclpy.create_node(topics.PLANT, namespace=namespace, context=node.context)
     executor.add_node(simulator)
     topic = topics.RECORDED_STEPS
     simulator.create_subscription(
-        qos.message_class(topic.type), topic.name, lambda m: told.append(m.data), qos.requested(topic, True)
+        qos.message_class(topic.type),
+        topic.name,
+        lambda m: reported.append(m.data),
+        qos.requested(topic, True),
     )
 
-    def is_told() -> bool:
+    def has_reported() -> bool:
         assert recorder.poll() is None, recorder.stdout.read() if recorder.stdout else ""
         executor.spin_once(timeout_sec=0.05)
-        return bool(told)
+        return bool(reported)
 
-    wait(is_told)
+    wait(has_reported)
     simulator.destroy_node()
     recorder.send_signal(signal.SIGINT)
     assert recorder.wait(PATIENCE) == 0
-    assert told[0] > 2 * topics.RECORDING_REPORT
+    assert reported[0] > 2 * topics.RECORDING_REPORT

@@ -94,7 +94,7 @@ class Punctuality:
         """Forget the measure; the next stamp sets it."""
         self._measure: float | None = None
         self._at = 0.0
-        #: Of the first stamp from the future: time of its receipt, s, and the stamp, ns.
+        #: Of the first stamp of a new time ahead: time of its receipt, s, and the stamp, ns.
         self._early: tuple[float, int] | None = None
 
     def judge(self, now: float, stamp: int) -> StampTiming:
@@ -109,10 +109,14 @@ class Punctuality:
         if lateness > self.bound:
             return StampTiming.LATE
         if lateness < -self.bound:
-            if self._early is None or stamp <= self._early[1]:
+            if self._early is None:
                 self._early = now, stamp
                 return StampTiming.EARLY
-            if now - self._early[0] < 0.5e-9 * (stamp - self._early[1]):
+            passed, advance = now - self._early[0], 1e-9 * (stamp - self._early[1])
+            if not 0.0 < advance <= passed + self.bound:  # set back, or forward once more
+                self._early = now, stamp
+                return StampTiming.EARLY
+            if passed < 0.5 * advance:
                 return StampTiming.EARLY
             self._measure, self._at, self._early = age, now, None
             return StampTiming.STEPPED

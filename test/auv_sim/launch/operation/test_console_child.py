@@ -17,7 +17,7 @@ def test_the_log_is_its_owners_alone_from_the_start(tmp_path: Path) -> None:
     console_child.start(children, 300)
     assert stat.S_IMODE(log.stat().st_mode) == 0o600
     (child,) = children
-    child.process.wait(60.0)
+    child.process.wait(180.0)
     said = console_child.addresses(children, lambda _: None)
     assert said.startswith("no console: ")
     assert "from 0 to 232" in said

@@ -43,7 +43,7 @@ def test_one_that_never_was_delays_nothing(tmp_path: Path) -> None:
     process = Launched("recorder", str(tmp_path / "other.yaml"))
     process.send_signal(signal.SIGINT)
     assert process.poll() is None
-    assert process.wait(60.0) == UNKNOWN_CODE
+    assert process.wait(180.0) == UNKNOWN_CODE
 
 
 def test_the_end_of_one_is_reported_with_the_last_lines_of_its_own_log(
