@@ -186,6 +186,7 @@ def test_the_command_flies_and_concludes(tmp_path, capsys) -> None:
     assert "2 flights bound nothing" in capsys.readouterr().err  # a notice, which --quiet leaves
     summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
     assert summary["proven"] is False
+    assert not {"run", "usual"} & summary["options"].keys()  # they are functions
     figures = summary["gains"]["robust"]
     assert figures["flights"] == 4 and figures["seas"]["calm"]["flights"] == 2
     page = (out / "proof.html").read_text(encoding="utf-8")
