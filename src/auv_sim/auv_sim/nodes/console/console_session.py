@@ -164,11 +164,12 @@ def serve(options: ConsoleOptions) -> int:
     """Serve until a signal; return the exit code.
 
     Raises:
-        ConfigurationError: the address or the folder of missions cannot be used.
+        ConfigurationError: the ROS domain, the address or the folder of missions cannot be used.
     """
     if options.domain is not None:
         os.environ["ROS_DOMAIN_ID"] = str(options.domain)
     os.environ.update(discovery.variables())
+    domain_of_environment()  # a wrong one is refused before anything is opened
     shelf = MissionShelf(options.missions)
     listening = _listen(options)
     port = listening.getsockname()[1]

@@ -129,6 +129,7 @@ def main(args: Sequence[str] | None = None) -> int:
         if node is not None:
             node.destroy_node()
         rclpy.try_shutdown()
+        stop.withdraw()
 
 
 def _poll(node: DisplayNode, stop: StopRequest) -> None:

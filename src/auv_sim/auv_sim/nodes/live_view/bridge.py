@@ -144,8 +144,8 @@ def serve(namespace: str, address: str, port: int, domain: int | None) -> int:
 
     if domain is not None:
         os.environ["ROS_DOMAIN_ID"] = str(domain)
-    stop = StopRequest()
     start_ros([])
+    stop = StopRequest()
     node = rclpy.create_node("live_view", namespace=namespace, start_parameter_services=False)
     try:
         bridge = Bridge(node, foxglove, FrameTable(FrameIds()))
