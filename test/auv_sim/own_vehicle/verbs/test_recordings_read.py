@@ -10,11 +10,12 @@ import pytest
 
 from auv_msgs_py.contract.frames import Convention, FrameTable
 from auv_path_following import vehicle as vehicle_file
+from auv_sim.bags.content.recorded_commands import TimedCommands
 from auv_sim.own_vehicle.identify.results.known_vehicle import known_hull
 from auv_sim.own_vehicle.identify.time_grid import FOLLOWED, passage_of
 from auv_sim.own_vehicle.manoeuvres import program_file
 from auv_sim.own_vehicle.manoeuvres.manoeuvre_flight import simulate
-from auv_sim.own_vehicle.verbs.recordings_read import frames_with, motion_within, read
+from auv_sim.own_vehicle.verbs.recordings_read import frames_with, motion_within, obeyed, read
 from manoeuvre_bag import write_manoeuvres
 
 
@@ -33,6 +34,14 @@ def test_what_a_vehicle_does_without_commands_is_not_used(tmp_path: Path) -> Non
     passage = passage_of(data, 0.0)
     starts = passage.times[:-1][passage.grid.begins]
     assert starts[1:] == pytest.approx([end + FOLLOWED], abs=0.3)
+
+
+def test_a_command_that_is_sent_during_a_silence_of_another_holds_afterwards() -> None:
+    changed = TimedCommands(np.array([0.0, 22.0, 24.0, 40.0, 62.0]), np.array([5.0, 6.0, 7.0, 8.0, 9.0]))
+    kept = obeyed(changed, [(20.0, 26.0), (60.0, np.inf)])
+    assert kept.t.tolist() == [0.0, 26.0, 40.0]
+    assert kept.value.tolist() == [5.0, 7.0, 8.0]
+    assert changed.t.tolist() == [0.0, 22.0, 24.0, 40.0, 62.0]
 
 
 @pytest.mark.parametrize(("begin", "moves"), [(-5.0, True), (400.0, False)])

@@ -140,9 +140,16 @@ def planar(recorded: Manoeuvring, vehicle: Vehicle, hull: Hull, name: str, silen
 
 
 def obeyed(commands: TimedCommands, silent: Spans) -> TimedCommands:
-    """Return the commands outside the silent intervals: a vehicle that misses one kind obeys none."""
-    kept = outside(silent, commands.t)
-    return TimedCommands(commands.t[kept], commands.value[kept])
+    """Return the commands outside the silent intervals: a vehicle that misses one kind obeys none.
+
+    The last command within an interval takes effect at its end, if it has one.
+    """
+    t, kept = commands.t.copy(), outside(silent, commands.t)
+    for begin, end in silent:
+        inside = np.flatnonzero((commands.t > begin) & (commands.t < end))
+        if inside.size and np.isfinite(end):
+            kept[inside[-1]], t[inside[-1]] = True, end
+    return TimedCommands(t[kept], commands.value[kept])
 
 
 def vertical_motion(recorded: Manoeuvring, hull: Hull) -> VerticalMotion | None:
