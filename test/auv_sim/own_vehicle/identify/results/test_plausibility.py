@@ -88,6 +88,18 @@ def test_a_thrust_that_is_far_from_the_speed_is_refused(data: PlanarData, factor
         check_speed([data._replace(thrust=factor * data.thrust)], REMUS, 1.62, "bag")
 
 
+def test_the_speed_is_that_of_the_thrust_in_force(data: PlanarData) -> None:
+    """A thrust that is sent only when it changes has few values, and a vehicle at rest says nothing of it."""
+    thrust = float(np.median(data.thrust))
+    rare = data._replace(thrust_t=data.t[[0, 20, -1]], thrust=np.array([0.0, thrust, 0.0]))
+    check_speed([rare], REMUS, 1.62, "bag")
+    later = data.water_t > np.quantile(data.water_t, 0.7)
+    resting = rare._replace(thrust_t=data.t[[0, int(0.7 * data.t.size)]], thrust=np.array([0.0, thrust]))
+    check_speed([resting._replace(u=np.where(later, data.u, 0.01))], REMUS, 1.62, "bag")
+    with pytest.raises(ConfigurationError, match=r"makes 0\.00 m/s"):
+        check_speed([rare._replace(thrust=np.zeros(3))], REMUS, 1.62, "bag")
+
+
 @pytest.mark.parametrize(
     ("change", "found"),
     [
@@ -113,7 +125,9 @@ def test_a_velocity_with_other_axes_is_refused(data: PlanarData) -> None:
 
 def test_a_recording_without_a_yaw_rate_is_refused_by_its_name(data: PlanarData) -> None:
     none = data._replace(name="second", t=data.t[:0], r=data.r[:0], psi=data.psi[:0])
-    with pytest.raises(ConfigurationError, match=r"^second: odom: found no finite yaw rate"):
+    with pytest.raises(
+        ConfigurationError, match=r"^second: odom: found no finite yaw rate while there are commands"
+    ):
         check_excitation([data, none], "first, second")
     with pytest.raises(ConfigurationError, match=r"^second: found 0 s with odometry, commands and"):
         check_excitation([data, data._replace(name="second", water_t=data.water_t + 1e6)], "first, second")

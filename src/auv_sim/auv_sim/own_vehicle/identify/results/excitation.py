@@ -27,7 +27,8 @@ def check_excitation(recordings: Sequence[PlanarData], where: str) -> None:
     """
     for data in recordings:
         if not data.t.size:
-            raise ConfigurationError(f"{data.name}: odom", "no finite yaw rate", "that of a gyro")
+            found = "no finite yaw rate while there are commands"
+            raise ConfigurationError(f"{data.name}: odom", found, "that of a gyro")
         together = shared_time(data)
         if together < _LEAST_TOGETHER:
             found = f"{together:.0f} s with odometry, commands and velocity through the water"

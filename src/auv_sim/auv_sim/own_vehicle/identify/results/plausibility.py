@@ -137,10 +137,15 @@ def check_speed(recordings: Sequence[PlanarData], vehicle: Vehicle, drag: float,
 
 
 def _speeds(recordings: Sequence[PlanarData], drag: float) -> tuple[float, float]:
-    """Return the measured speed, and that by the file's drag at the recorded thrust, m/s: medians."""
-    thrust = float(np.median(np.concatenate([data.thrust for data in recordings])))
-    speed = float(np.median(np.concatenate([data.u for data in recordings])))
-    return speed, math.sqrt(max(thrust, 0.0) / drag)
+    """Return the measured speed, and that by the file's drag at the thrust in force, m/s.
+
+    Both are medians over the samples of the speed during which there is thrust, or over all without any.
+    """
+    last = [np.searchsorted(data.thrust_t, data.water_t, side="right") - 1 for data in recordings]
+    held = [data.thrust[np.maximum(rows, 0)] for data, rows in zip(recordings, last, strict=True)]
+    thrust, speed = np.concatenate(held), np.concatenate([data.u for data in recordings])
+    pushed = thrust > 0.0 if (thrust > 0.0).any() else np.ones(thrust.size, bool)
+    return float(np.median(speed[pushed])), math.sqrt(max(float(np.median(thrust[pushed])), 0.0) / drag)
 
 
 def check_fit(found: Identified, where: str) -> None:
