@@ -42,6 +42,11 @@ def test_commands_that_are_sent_when_they_change_are_held() -> None:
     assert silences([(T[changed], STEPS[changed])], 90.0) == []
 
 
+def test_a_few_commands_show_no_rate() -> None:
+    t, value = np.array([0.0, 0.1, 0.2]), np.array([0.0, 0.0, 80.0])
+    assert silences([(t, value)], 60.0) == []
+
+
 def test_slow_commands_are_not_silent_between_each_other() -> None:
     t = np.arange(0.0, 120.0, 1.5)
     value = np.where(t < 60.0, 5.0, 9.0)

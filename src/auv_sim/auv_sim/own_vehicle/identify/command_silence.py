@@ -17,6 +17,8 @@ from auv_sim.own_vehicle.identify.time_grid import LONGEST_GAP
 #: Share of commands equal to the one before from which on commands are taken as sent at a rate. Commands that
 #: are sent when they change hold until the next one.
 _REPEATED = 0.1
+#: Fewer commands show no rate.
+_FEWEST = 20
 #: A silence is longer than this many usual intervals (95 % are shorter than the usual one).
 _INTERVALS, _USUAL = 3.0, 0.95
 
@@ -30,7 +32,7 @@ def silences(streams: Iterable[tuple[Numbers, Numbers]], end: float) -> list[tup
     """
     found = []
     for t, value in streams:
-        if t.size < 2 or float(np.mean(np.diff(value) == 0.0)) < _REPEATED:
+        if t.size < _FEWEST or float(np.mean(np.diff(value) == 0.0)) < _REPEATED:
             continue
         intervals = np.diff(t)
         longest = max(LONGEST_GAP, _INTERVALS * float(np.quantile(intervals, _USUAL)))
