@@ -36,6 +36,17 @@ def test_what_a_vehicle_does_without_commands_is_not_used(tmp_path: Path) -> Non
     assert starts[1:] == pytest.approx([end + FOLLOWED], abs=0.3)
 
 
+def test_a_silence_counts_while_the_odometry_runs(tmp_path: Path) -> None:
+    vehicle = vehicle_file.load("remus100")
+    flown = simulate(vehicle, None, program_file.load("two_minutes"))
+    flown = flown._replace(t=flown.t + 100.0, water_t=flown.water_t + 100.0)
+    silent = flown.t[0] + 3.0, flown.t[0] + 9.0
+    bag = write_manoeuvres(tmp_path / "bag", flown, silent=silent, late=-10.0)
+    options = argparse.Namespace(topic=[], frame=[], bag=[bag], namespace=None)
+    (recorded,) = read(options, vehicle, known_hull(vehicle))
+    assert recorded.silence == pytest.approx(10.0, abs=0.2)
+
+
 def test_a_command_that_is_sent_during_a_silence_of_another_holds_afterwards() -> None:
     changed = TimedCommands(np.array([0.0, 22.0, 24.0, 40.0, 62.0]), np.array([5.0, 6.0, 7.0, 8.0, 9.0]))
     kept = obeyed(changed, [(20.0, 26.0), (60.0, np.inf)])

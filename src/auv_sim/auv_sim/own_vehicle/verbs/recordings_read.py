@@ -42,7 +42,7 @@ class Recorded(NamedTuple):
     Attributes:
         plane: motion in the plane.
         dive: vertical motion where there are commands of stern planes, else None.
-        silence: time without commands, which is left out, s.
+        silence: time without commands while the odometry runs, which is left out, s.
     """
 
     plane: PlanarData
@@ -86,7 +86,8 @@ def read(options: argparse.Namespace, vehicle: Vehicle, hull: Hull) -> list[Reco
         spans = silences_of(recorded)
         plane = planar(recorded, vehicle, hull, str(path), spans)
         dive = diving(recorded, vehicle, hull, spans)
-        silence = sum(min(end, recorded.run.t[-1]) - begin for begin, end in spans)
+        first, last = recorded.run.t[[0, -1]]
+        silence = sum(max(min(end, last) - max(begin, first), 0.0) for begin, end in spans)
         found.append(Recorded(plane, dive, float(silence)))
     return found
 
