@@ -26,7 +26,7 @@ class TimedCommands(NamedTuple):
 def timed_commands(
     topic: RecordedTopic | None, odom_log_ns: Times, odom_stamp_ns: Times
 ) -> TimedCommands | None:
-    """Return commands on the odometry's clock; None where there are none while the odometry runs.
+    """Return commands on the odometry's clock; None where no finite one is logged up to the last odometry.
 
     Where one command is logged after each odometry and before the next one, it belongs to that odometry's
     stamp (lockstep); others to the time by the log's clock, between the odometries around it. The last

@@ -30,7 +30,7 @@ def missing(bag: Bag, topic: Topic) -> ConfigurationError:
     """Return the error of a topic without messages."""
     listed = ", ".join(sorted(bag.topics)) or "no topic"
     expected = (
-        f"messages ({topic.type}) while the odometry runs, or --topic {topic.name}=NAME with one of {listed}"
+        f"messages ({topic.type}) before the last odometry, or --topic {topic.name}=NAME with one of {listed}"
     )
     return ConfigurationError(str(bag.path), f"no {topic.name}", expected)
 
