@@ -37,10 +37,10 @@ _LATE = -0.01
 #: A given latency of the log is doubted where the data would move it by more than this (s), and by so many
 #: standard deviations; step of the derivative, s.
 _LEAST_SHIFT, _CLEARLY, _STEP = 0.05, 4.0, 1e-3
-#: The thrust's mean error at much and at little thrust (shares of the largest) is compared where each was
+#: The thrust's mean error at high and at low thrust (shares of the largest) is compared where each was
 #: held for some time in all (s), after the filter has settled (s). A larger difference is a doubt: up to
 #: 0.028 with drag by the square of the speed, 0.034 to 0.083 with 30 % of it linear in the speed.
-_MUCH, _LITTLE, _HELD, _SETTLED, _SHAPE = 0.85, (0.2, 0.7), 10.0, 10.0, 0.03
+_HIGH, _LOW, _HELD, _SETTLED, _SHAPE = 0.85, (0.2, 0.7), 10.0, 10.0, 0.03
 
 
 def check_commands(rudder: Numbers, thrust: Numbers, vehicle: Vehicle, where: str) -> None:
@@ -207,7 +207,7 @@ def latency_doubts(found: Identified) -> list[str]:
 
 
 def thrust_doubts(found: Identified) -> list[str]:
-    """Return one line where the thrust's error differs between much and little thrust."""
+    """Return one line where the thrust's error differs between high and low thrust."""
     errors, shares, steps = [], [], []
     largest = max(float(np.max(passage.grid.thrust)) for passage in found.channels.passages)
     for passage in found.channels.passages:
@@ -218,7 +218,7 @@ def thrust_doubts(found: Identified) -> list[str]:
         steps.append(passage.grid.step[known])
     error, share, step = (np.concatenate(parts) for parts in (errors, shares, steps))
     means = []
-    for level in (share > _MUCH, (share > _LITTLE[0]) & (share < _LITTLE[1])):
+    for level in (share > _HIGH, (share > _LOW[0]) & (share < _LOW[1])):
         if step[level].sum() < _HELD:
             return []
         means.append(float(np.average(error[level], weights=step[level])))
@@ -226,7 +226,8 @@ def thrust_doubts(found: Identified) -> list[str]:
     if abs(more) < _SHAPE:
         return []
     return [
-        f"thrust is {100.0 * more:+.0f} % off at much thrust against little: the drag is not by the square "
-        "of the speed, or thrust_table has another shape. The speed at full thrust may be some per cent off. "
-        "For thrust in per cent or rpm, `vehicle.py new` with --speed at two thrusts shapes the table"
+        f"the thrust's error at high thrust less that at low thrust is {100.0 * more:+.0f} %: the drag is "
+        "not by the square of the speed, or thrust_table has another shape. The speed at full thrust may be "
+        "some per cent off. For thrust in per cent or rpm, `vehicle.py new` with --speed at two thrusts "
+        "shapes the table"
     ]
