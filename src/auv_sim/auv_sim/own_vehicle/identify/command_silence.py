@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from auv_sim.own_vehicle.identify.combinations import Numbers
 from auv_sim.own_vehicle.identify.time_grid import LONGEST_GAP
 
-#: Share of commands equal to the one before from which on commands are taken as sent at a rate. Commands that
-#: are sent when they change hold until the next one.
+#: Share of commands equal to the one before from which on commands are taken as sent at a rate. With a
+#: smaller share they count as sent when they change, and hold until the next one: a rudder in a closed loop
+#: that falls silent alone is not noticed.
 _REPEATED = 0.1
 #: Fewer commands show no rate.
 _FEWEST = 20
