@@ -74,6 +74,19 @@ def test_nothing_moves_without_consent_or_with_options_that_do_not_fit(
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_wrong_ros_domain_is_refused_before_anything_is_made(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Else the same `--out` would be refused the second time."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("ROS_DOMAIN_ID", "233")
+    words = ["--vehicle", "remus100", "--no-sim", "--yes-the-vehicle-may-move", "--out", "run"]
+    assert vehicle_command.main(["manoeuvres", *words]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("ROS_DOMAIN_ID: found '233'")
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.parametrize("option", ["--box", "--current", "--speed", "--depth"])
 @pytest.mark.parametrize("value", ["-6000", "6000.5", "nan", "inf", "-inf", "1e400", "far"])
 def test_a_number_that_no_parameter_takes_costs_one_line(

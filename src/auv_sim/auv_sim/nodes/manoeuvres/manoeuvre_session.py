@@ -18,6 +18,7 @@ from rich.console import Console
 
 from auv_msgs_py.node.run import EXIT_BAD_INPUT, run_nodes
 from auv_msgs_py.values.errors import ConfigurationError
+from auv_msgs_py.values.ros_domain import domain_of_environment
 from auv_path_following import config_files
 from auv_path_following import vehicle as vehicle_file
 from auv_path_following.vehicle import Vehicle
@@ -38,7 +39,7 @@ def fly(options: argparse.Namespace) -> int:
     """Fly a program; return the exit code.
 
     Raises:
-        ConfigurationError: a file or an option cannot be used, or there is no consent.
+        ConfigurationError: a file, an option or the ROS domain cannot be used, or there is no consent.
         KeyboardInterrupt: a signal came; zero commands were sent.
     """
     options.model = options.controller_model or options.vehicle
@@ -48,6 +49,7 @@ def fly(options: argparse.Namespace) -> int:
     if options.sea is not None:
         sea.load(options.sea)
     if options.no_sim:
+        domain_of_environment()  # a wrong one is refused before anything is made
         _ask(options, hull, rehearsal.duration)
         return _fly(options, hull, program)
     if options.consent:
