@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 import rclpy
-from std_msgs.msg import String
+from std_msgs.msg import Float64, String
 
 from auv_msgs_py.contract import qos, topics
 from auv_msgs_py.values.errors import ConfigurationError
@@ -165,3 +165,22 @@ def test_in_lockstep_it_fetches_on_request(
     ask.publish(kind(data=topics.RECORDING_REPORT))
     bench.until(lambda: told == [topics.RECORDING_REPORT])
     simulator.destroy_node()
+
+
+@pytest.mark.parametrize(("lockstep", "depth"), [(False, qos.DEPTH), (True, topics.RECORDING_LEAD)])
+def test_a_bag_states_the_depth_that_publishers_offer(
+    bench: Bench, tmp_path: Path, lockstep: bool, depth: int
+) -> None:
+    """Discovery does not tell it, so it stays what the contract promises when a publisher is met."""
+    profile = qos.offered(topics.RUDDER_CMD, lockstep)
+    rudder = bench.node.create_publisher(Float64, topics.RUDDER_CMD.name, profile)
+    steps = topics.RECORDED_STEPS
+    bench.node.create_subscription(qos.message_class(steps.type), steps.name, print, 1)
+    node: Any = bench.start(RecorderNode, directory=str(tmp_path / "bag"), lockstep=lockstep)
+    followed = {topic.name: topic for topic in node.selection.topics}
+    expected = {"/auv/rudder_cmd": depth, "/auv/path": 1, "/diagnostics": qos.DEPTH}
+    for _ in range(2):
+        assert {name: followed[name].channel.qos[0]["depth"] for name in expected} == expected
+        bench.until(rudder.get_subscription_count)
+        rudder.publish(Float64())
+        bench.until(lambda: followed["/auv/rudder_cmd"].known)

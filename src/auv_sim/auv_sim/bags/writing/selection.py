@@ -69,10 +69,11 @@ class Selection:
 
     def _follow_contract(self, topic: Topic) -> None:
         lockstep, name = self._p.lockstep, self._node.resolve_topic_name(topic.name)
-        self._promised[name] = qos.offered(topic)
+        steps = lockstep and topic not in (topics.DIAGNOSTICS, *ROS_OWN)  # those are as deep as outside it
+        promised = self._promised[name] = qos.offered(topic, steps)
         reliable = lockstep or topic.latched or topic.publisher != topics.PLANT
         requested = qos.requested(topic, reliable, qos.RECORDER_DEPTH)
-        self._follow(name, topic.type, [qos.offered(topic)], requested, lockstep)
+        self._follow(name, topic.type, [promised], requested, lockstep)
         self.topics[-1].channel.latched = int(topic.latched and topic is not LOG)
 
     def _follow(self, name: str, type_name: str, offers: list[Any], requested: Any, fixed: bool) -> None:
