@@ -47,7 +47,7 @@ def refuse_without_effect(
         options: of a verb; `usual` returns the default of a name.
         names: of the options.
         found: what leaves them without effect.
-        expected: in place of that.
+        expected: what would give them an effect.
 
     Raises:
         ConfigurationError: one is given.

@@ -83,7 +83,7 @@ def progress_bar(console: Console, disable: bool = False) -> Progress:
 
 
 def steps_in(bar: Progress) -> Callable[[int, int, str], None]:
-    """Return what shows work of several kinds in a bar: (steps done, steps in all, kind of work)."""
+    """Return a callback that shows progress in a bar; it takes steps done, steps in all, present work."""
     task = bar.add_task("reading", total=None)
 
     def update(done: int, total: int, what: str) -> None:

@@ -11,7 +11,7 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPo
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.topics import Topic
 
-#: Depth of a queue.
+#: Depth of subscriptions' queues, and of publishers' outside lockstep.
 DEPTH = 10
 #: Depth of a recorder's queues: it must not lose a message.
 RECORDER_DEPTH = 1000

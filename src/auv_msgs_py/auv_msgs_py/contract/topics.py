@@ -126,10 +126,10 @@ RESET_SERVICE = "reset"
 FIRST_STAMP_NS = 1_000_000_000
 
 #: Lockstep: largest lead of the simulator over the recorder, steps. A reader's transport queue holds 512
-#: messages, and a step has at most 16: within this lead no queue overflows, however long the recorder gets no
-#: processor time. A step of a vehicle with stern planes has at most 23. Publishers keep as many messages in
-#: lockstep (`contract.qos`): where the recorder had not yet matched one, or was paused for 1 s, after which
-#: the transport gives its queue up, they are sent again.
+#: messages, and a step has at most 16, with stern planes 23: within this lead no queue overflows, however
+#: long the recorder gets no processor time.
+#: In lockstep publishers keep the last `RECORDING_LEAD` messages of each topic (`contract.qos`): what the
+#: recorder missed, because it had not matched a publisher or was paused for 1 s, is sent again.
 RECORDING_LEAD, SPATIAL_RECORDING_LEAD = 30, 20
 #: Interval between the recorder's reports, steps.
 RECORDING_REPORT = 8
