@@ -106,9 +106,8 @@ def test_the_listing_is_a_driver(
     python = command_line("x")[0]
     driver = spawn([python, str(file), "--ros-args", "-r", "__ns:=/auv", "-p", f"port:={json_vehicle.port}"])
     asked = ["--wiggle", "--yes-the-vehicle-may-move", "--wait", "180", "--json"]
-    for _ in range(
-        5
-    ):  # a process that is paused meanwhile looks like a mistake; a mistake is there each time
+    # A process that is paused meanwhile looks like a mistake; a mistake is there each time.
+    for _ in range(5):
         checker = spawn(command_line("auv_sim.cli.vehicles.check_vehicle", *asked))
         out, err = checker.communicate(timeout=400)
         assert out, err
