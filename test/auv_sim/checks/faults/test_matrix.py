@@ -19,7 +19,7 @@ from conftest import children_of
 def test_what_fails_is_noticed_and_the_vehicle_is_safe(domain: int, tmp_path: Path) -> None:
     names, wrong = list(REPRESENTATIVE), dict[str, list[str]]()
     # A process that the machine pauses in a row is a second fault; a row that is wrong stays so.
-    for k in range(2):
+    for k in range(3):
         record, out = tmp_path / f"{k}.json", tmp_path / f"out{k}"
         code = main([*names, "--domain", str(domain), "--json", str(record), "--out", str(out)])
         rows = json.loads(record.read_text(encoding="utf-8"))["rows"]
