@@ -171,7 +171,7 @@ def test_in_lockstep_it_fetches_on_request(
 def test_a_bag_states_the_depth_that_publishers_offer(
     bench: Bench, tmp_path: Path, lockstep: bool, depth: int
 ) -> None:
-    """Discovery does not tell it, so it stays what the contract promises when a publisher is met."""
+    """Discovery does not carry it, so it stays what the contract promises when a publisher is met."""
     profile = qos.offered(topics.RUDDER_CMD, lockstep)
     rudder = bench.node.create_publisher(Float64, topics.RUDDER_CMD.name, profile)
     steps = topics.RECORDED_STEPS

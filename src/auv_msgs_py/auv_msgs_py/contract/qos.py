@@ -20,9 +20,12 @@ RECORDER_DEPTH = 1000
 def offered(topic: Topic, lockstep: bool = False) -> QoSProfile:
     """Return a publisher's profile: reliable; a latched topic is transient local with a depth of 1.
 
-    In lockstep it keeps all messages of the simulator's lead over the recorder (`topics.RECORDING_LEAD`).
-
     With a larger depth a late reader receives the oldest message first: `ros2 topic echo --once` prints that.
+
+    Args:
+        topic: to publish.
+        lockstep: whether to keep all messages of the simulator's lead over the recorder, `RECORDING_LEAD`;
+            of a latched topic the newest is enough.
     """
     depth = topics.RECORDING_LEAD if lockstep else DEPTH
     return _profile(ReliabilityPolicy.RELIABLE, topic.latched, 1 if topic.latched else depth)

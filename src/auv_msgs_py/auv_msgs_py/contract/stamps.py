@@ -109,11 +109,9 @@ class Punctuality:
         if lateness > self.bound:
             return StampTiming.LATE
         if lateness < -self.bound:
-            if self._early is None:
-                self._early = now, stamp
-                return StampTiming.EARLY
-            passed, advance = now - self._early[0], 1e-9 * (stamp - self._early[1])
-            if not 0.0 < advance <= passed + self.bound:  # set back, or forward once more
+            received, first = self._early or (now, stamp)
+            passed, advance = now - received, 1e-9 * (stamp - first)
+            if not 0.0 < advance <= passed + self.bound:  # the first one, set back, or forward once more
                 self._early = now, stamp
                 return StampTiming.EARLY
             if passed < 0.5 * advance:

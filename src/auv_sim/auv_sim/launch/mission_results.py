@@ -37,7 +37,6 @@ from auv_sim.views.signal_rows import limits_of
 #: The outcome is judged by the recording, not by `mission_state`.
 _UNFINISHED = "found a recording without the path's end, expected it where mission_state is complete"
 
-
 #: At most this many subpaths and corners are printed, those farthest off the path; summary.json has all.
 _MOST_ROWS, _MOST_CORNERS = 40, 10
 
