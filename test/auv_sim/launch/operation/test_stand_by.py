@@ -22,13 +22,21 @@ Script = list[tuple[str, str, str]]
 
 
 class Graph:
-    """The launcher's node and Ctrl-C: a report with every look, then Ctrl-C; `answer` is that to an abort."""
+    """The launcher's node and Ctrl-C: a report with every look, then Ctrl-C.
+
+    Args:
+        script: reports before Ctrl-C.
+        answer: reports that an abort causes.
+        digest: of the mission "short".
+        late: number of looks after which they arrive.
+    """
 
     s, ye, to_go, stamp = 1.2, 0.1, 30.0, 1
 
-    def __init__(self, script: Script, answer: Script, digest: str) -> None:
+    def __init__(self, script: Script, answer: Script, digest: str, late: int = 0) -> None:
         self.missions, self.state, self._digest = FlownMissions(), "", digest
         self._script, self._answer, self.aborts = script, answer, 0
+        self._late = late
 
     @property
     def requested(self) -> bool:
@@ -37,11 +45,17 @@ class Graph:
     def look(self, _: float) -> None:
         if self._script:
             self._report(*self._script.pop(0))
+        elif self.aborts and self._late:
+            self._late -= 1
+            self._answered()
 
     def abort(self) -> None:
         self.aborts += 1
-        for each in self._answer:
-            self._report(*each)
+        self._answered()
+
+    def _answered(self) -> None:
+        while self._answer and not self._late:
+            self._report(*self._answer.pop(0))
 
     def _report(self, state: str, begun: str, name: str) -> None:
         self.state = state
@@ -61,9 +75,10 @@ def wait(
     script: Script,
     answer: Script | None = None,
     check: Callable[[bool], None] = lambda _: None,
+    late: int = 0,
 ) -> tuple[Outcome, str]:
     text = io.StringIO()
-    graph = Graph(script, answer or [], plan.mission.digest)
+    graph = Graph(script, list(answer or []), plan.mission.digest, late)
     progress = ProgressDisplay(plan.mission.path, Console(file=text, width=140))
     try:
         outcome = StandBy(plan, graph, progress, graph, check).run()  # type: ignore[arg-type]
@@ -98,6 +113,13 @@ def test_the_last_mission_decides(plan: Plan, script: Script, answer: Script, st
     assert text.count(", flown 50.0 % of 61.4 m") == len(begun)
     assert "ROS_DOMAIN_ID=42 ros2 service call /auv/start std_srvs/srv/Trigger" in text
     assert outcome.other == ("other" if script[-1] == OTHER else "")
+
+
+def test_the_report_of_a_complete_mission_may_come_after_ctrl_c(plan: Plan) -> None:
+    outcome, text = wait(plan, [IDLE, RUNS], [DONE], late=100)
+    assert (outcome.state, "short: complete, flown" in text) == ("complete", True)
+    outcome, _ = wait(plan, [IDLE, RUNS], [DONE], late=10_000)
+    assert outcome.state == "interrupted", "guidance is dead"
 
 
 def test_what_was_flown_is_listed_where_a_node_dies_later(plan: Plan) -> None:

@@ -15,6 +15,9 @@ from auv_sim.launch.outcome import Outcome
 from auv_sim.launch.progress_display import ProgressDisplay
 
 _INTERRUPTED = "stopped by a signal"
+#: Looks of `_LOOK` s after an abort: those in which the zero commands reach the vehicle, as no propeller may
+#: keep running; and at most for the report of how the mission ended, which DDS may send again after 3 s.
+_FAREWELL, _REPORT, _LOOK = 15, 200, 0.02
 
 
 def how_to_start(namespace: str, domain: str) -> str:
@@ -82,8 +85,10 @@ def stop(monitor: Any) -> bool:
     number, last = len(missions.flown), missions.last
     was_under_way = monitor.state in UNDER_WAY if last is None else last.is_under_way
     monitor.abort()  # a complete mission refuses it
-    for _ in range(15):  # 0.3 s for the zero commands to reach the vehicle: no propeller may keep running
-        monitor.look(0.02)
+    for k in range(_REPORT):
+        if k >= _FAREWELL and (missions.last is None or not missions.last.is_under_way):
+            break
+        monitor.look(_LOOK)
     last = missions.last
     if last is None or last.state == MissionState.COMPLETE:
         return was_under_way and last is None
