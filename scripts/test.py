@@ -2,14 +2,19 @@
 """Everything that has to hold: lint, format, types and tests. Arguments go to pytest, which then runs alone.
 
 For one test: scripts/test.py -k fermat -x
+
+Where no more than three tests fail among the others, they run once more alone. Their result then counts, and
+the last lines name them.
 """
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 from _bootstrap import REPOSITORY, ensure_environment
 
@@ -20,8 +25,14 @@ CHECKS = {
     "types": ("mypy",),
     # Whole missions wait for a quarter of their time: three share two cores. A file's tests stay together, as
     # its fixtures do, and files keep the order that conftest.py gives them.
-    "tests": ("pytest", "-p", "xdist", "--numprocesses", "3", "--dist", "loadfile", "--no-loadscope-reorder"),
+    "tests": (
+        *("pytest", "--cache-clear", "-p", "xdist", "--numprocesses", "3"),
+        *("--dist", "loadfile", "--no-loadscope-reorder"),
+    ),
 }
+#: So few failed tests run once more alone: what is broken fails again, what met a busy machine passes.
+FEW = 3
+SOME_FAILED = 1  # pytest's exit code
 
 
 def main(arguments: list[str]) -> int:
@@ -45,14 +56,31 @@ def run(arguments: list[str], domain: int) -> int:
     # A hundred processes import the same modules: without their compiled form each would compile them anew.
     environment.pop("PYTHONDONTWRITEBYTECODE", None)
     began = time.monotonic()
-    results = {}
+    results: dict[str, int] = {}
+    repeated: list[str] = []
     for name, command in checks.items():
-        print("==", name + ":", " ".join(command), flush=True)
-        done = subprocess.run([sys.executable, "-m", *command], cwd=REPOSITORY, env=environment, check=False)
-        results[name] = done.returncode
+        results[name] = call(name, command, REPOSITORY, environment)
+    if not arguments and results["tests"] == SOME_FAILED and (repeated := few_failed(REPOSITORY)):
+        results["tests"] = call("failed tests", ("pytest", *repeated), REPOSITORY, environment)
     verdicts = ", ".join("{} {}".format(name, "FAILED" if code else "ok") for name, code in results.items())
     print(f"== {verdicts} ({time.monotonic() - began:.0f} s)", flush=True)
+    for test in repeated:
+        print(f"== failed among the others, run again alone: {test}", flush=True)
     return int(any(results.values()))
+
+
+def call(name: str, command: tuple[str, ...], folder: Path, environment: dict[str, str]) -> int:
+    """Run a module of the environment in a folder; return its exit code."""
+    print(f"== {name}:", " ".join(command), flush=True)
+    done = subprocess.run([sys.executable, "-m", *command], cwd=folder, env=environment, check=False)
+    return done.returncode
+
+
+def few_failed(folder: Path) -> list[str]:
+    """Return the tests that failed in the last run of pytest in a folder; none if they are more than FEW."""
+    names = folder / ".pytest_cache/v/cache/lastfailed"
+    failed = list(json.loads(names.read_text(encoding="utf-8"))) if names.is_file() else []
+    return failed if len(failed) <= FEW else []
 
 
 if __name__ == "__main__":
