@@ -10,6 +10,8 @@ import pytest
 from auv_msgs_py.contract import topics
 from auv_msgs_py.settings.schema import leaves
 from auv_sim.checks.faults.expectations import QUICK, REPRESENTATIVE, TABLE, as_markdown, chosen
+from auv_sim.checks.faults.fault_session import summary
+from auv_sim.checks.faults.row_judge import RowResult
 from auv_sim.nodes.fault_injection import FAULTS
 from auv_sim.nodes.fault_relay import RELAYED
 from auv_sim.nodes.message_faults import DEPTH_FAULTS
@@ -85,3 +87,17 @@ def test_names_are_unique_and_choose() -> None:
     assert {row.flight for row in chosen(QUICK)} == {"plane", "dive", "bottom"}
     with pytest.raises(KeyError):
         chosen(("odom burn",))
+
+
+def test_the_last_line_counts_the_rows_that_a_busy_machine_made_late() -> None:
+    """At 4 times real time 0.25 s of wall time are 1 s; neither a missing nor a failed report counts."""
+    stop, freeze = chosen(("odom stop", "velocity_through_water freeze"))  # 0.6 s to both; no report
+    on_time, failed = RowResult(stop, 0.6, 0.6), RowResult(stop, 2.0, 2.0, ["noticed too late"])
+    assert summary([on_time, RowResult(freeze)], 9.0, 4.0) == (
+        "2 of 2 rows as docs/safety.md says, in 9 s of wall time at 4 times real time"
+    )
+    late = [RowResult(stop, 0.65, 0.6), RowResult(stop, 0.55, 0.7)]
+    assert summary([*late, on_time, failed], 9.0, 4.0) == (
+        "3 of 4 rows as docs/safety.md says (2 with the 1 s that a busy machine may add),"
+        " in 9 s of wall time at 4 times real time"
+    )

@@ -7,6 +7,8 @@ from typing import Any, Literal, NamedTuple
 from auv_msgs_py.contract import topics
 from auv_sim.sim_parameters import Fault
 
+#: What a busy machine may add to every bound, s of wall time; in ROS time `speed` times as much.
+MACHINE_DELAY = 0.25
 #: Faults of the hull: it takes in water, or loses weight.
 Ballast = Literal["heavy", "light"]
 Kind = Fault | Ballast | Literal["kill"]

@@ -13,7 +13,7 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from auv_msgs_py.contract import topics
 from auv_sim.bags.bag_repair import repair
 from auv_sim.bags.reading.bag_reader import read_bag
-from auv_sim.checks.faults.fault_row import Expectation, Flight
+from auv_sim.checks.faults.fault_row import MACHINE_DELAY, Expectation, Flight
 from auv_sim.checks.faults.graph_listener import says
 from auv_sim.checks.faults.graph_processes import KINDS, GraphProcesses, write_mission
 from auv_sim.checks.faults.row_judge import RowJudge, RowResult
@@ -22,8 +22,6 @@ from auv_sim.checks.patience import PATIENCE
 from auv_sim.vehicle.hulls.rigid_body import body_at
 from auv_sim.vehicle.remus import PlantState
 
-#: What a busy machine may add to every bound, s of wall time.
-_MACHINE = 0.25
 #: Undisturbed flight before each fault, s of ROS time.
 _QUIET = 1.5
 #: Nearer to the virtual point than this the vehicle is on its path, m.
@@ -62,7 +60,7 @@ class Matrix:
         parameters[topics.RECORDER] = {"directory": str(self.bag)}
         self.nodes = GraphProcesses(directory / "log", mission, parameters)
         self.results: list[RowResult] = []
-        self._machine = _MACHINE * speed
+        self._machine = MACHINE_DELAY * speed
 
     def run(self, rows: Sequence[Expectation]) -> list[RowResult]:
         """Run all rows but the simulator's; return a result for each.

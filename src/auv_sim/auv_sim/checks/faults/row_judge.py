@@ -14,6 +14,8 @@ from auv_sim.checks.faults.spoiled_graph import SpoiledFlight
 _BACK = 0.1
 #: After a fault the mission goes on within this, s of ROS time: the gate accepts a new position after 3 s.
 _RECOVERY = 6.0
+#: Of a difference of stamps, s.
+_ROUNDING = 1e-6
 #: A node has reported "just now" within this, s of wall time.
 _JUST_NOW = 1.0
 #: Largest depth at the end of an ascent, m.
@@ -40,6 +42,12 @@ class RowResult:
     def good(self) -> bool:
         """Whether nothing was wrong."""
         return not self.wrong
+
+    @property
+    def is_late(self) -> bool:
+        """Whether a bound of the table was exceeded; a good row keeps it with the machine's allowance."""
+        row = self.row
+        return self.noticed > row.within + _ROUNDING or 0 < row.safe < self.safe - _ROUNDING
 
 
 def as_data(result: RowResult) -> dict[str, object]:
