@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from auv_sim.bags.reading.deserialize import deserializer
+from auv_sim.bags.reading.other_makers.message_parts import number_in
 from auv_sim.bags.reading.recording import RecordedTopic
 
 Column = NDArray[np.float64]
@@ -33,7 +34,7 @@ def timed_commands(
     commands before the first odometry count too: some vehicles send one only when it changes.
 
     Args:
-        topic: of the commands, each one number named `data`; None if there is none.
+        topic: of the commands, each one number; None if there is none.
         odom_log_ns, odom_stamp_ns: log times and stamps of the odometries by log time, ns, (n,).
     """
     if topic is None or not topic.count:
@@ -43,10 +44,7 @@ def timed_commands(
     if _answers_each(log_ns, odom_log_ns):
         t = stamps
     else:
-        logged = (log_ns - odom_log_ns[0]) * 1e-9
-        own = (odom_log_ns - odom_log_ns[0]) * 1e-9
-        growing = np.append(True, np.diff(np.maximum.accumulate(own)) > 0.0)
-        t = np.interp(logged, own[growing], stamps[growing], right=np.nan) + np.minimum(logged, 0.0)
+        t = on_odometry_clock(log_ns, odom_log_ns, odom_stamp_ns)
     kept = np.isfinite(t) & np.isfinite(value)
     if not kept.any():
         return None
@@ -54,6 +52,20 @@ def timed_commands(
     t, value = t[kept][order], value[kept][order]
     first = max(int(np.searchsorted(t, stamps[0] - _BEFORE, side="right")) - 1, 0)
     return TimedCommands(t[first:], value[first:])
+
+
+def on_odometry_clock(log_ns: Times, odom_log_ns: Times, odom_stamp_ns: Times) -> Column:
+    """Return log times as times of the odometry's stamps, s; NaN after the last odometry.
+
+    Args:
+        log_ns: log times, ns.
+        odom_log_ns, odom_stamp_ns: log times and stamps of the odometries by log time, ns, (n,).
+    """
+    logged = (log_ns - odom_log_ns[0]) * 1e-9
+    own, stamps = (odom_log_ns - odom_log_ns[0]) * 1e-9, odom_stamp_ns * 1e-9
+    growing = np.append(True, np.diff(np.maximum.accumulate(own)) > 0.0)
+    t: Column = np.interp(logged, own[growing], stamps[growing], right=np.nan) + np.minimum(logged, 0.0)
+    return t
 
 
 def _logged(topic: RecordedTopic) -> tuple[Times, Column]:
@@ -64,7 +76,7 @@ def _logged(topic: RecordedTopic) -> tuple[Times, Column]:
         data: Any = topic.messages[at]
         if data is not None:
             log_ns.append(topic.log_ns[at])
-            values.append(float(decoder(data).data))
+            values.append(number_in(decoder(data), topic.part))
     return np.array(log_ns, np.int64), np.array(values)
 
 

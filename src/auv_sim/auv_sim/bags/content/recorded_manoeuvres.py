@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,11 +15,12 @@ from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.frames import Convention, FrameIds, FrameTable
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.values.errors import ConfigurationError, MessageRefused
-from auv_sim.bags.content.recorded_commands import TimedCommands, timed_commands
+from auv_sim.bags.content.recorded_commands import TimedCommands, on_odometry_clock, timed_commands
 from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.columns import Columns, decode
 from auv_sim.bags.reading.load import run_of
 from auv_sim.bags.reading.manoeuvre_topics import missing, renamed, topics_of
+from auv_sim.bags.reading.other_makers.foreign_motion import twist_in_body, velocity_as_contract
 from auv_sim.bags.reading.recording import Bag, RecordedTopic
 from auv_sim.flight.run_record import Run, SpatialRun
 
@@ -37,6 +39,7 @@ class Manoeuvring(NamedTuple):
         water_t, water: stamps (s) of the new samples of the velocity through the water, and these, (m, 3).
         rudder, thrust: commands.
         sternplanes: commands; None where there are none.
+        notes: what was converted, one line each.
     """
 
     run: Run
@@ -46,6 +49,7 @@ class Manoeuvring(NamedTuple):
     rudder: TimedCommands
     thrust: TimedCommands
     sternplanes: TimedCommands | None
+    notes: tuple[str, ...] = ()
 
 
 def manoeuvres_in(
@@ -56,7 +60,7 @@ def manoeuvres_in(
 
     Args:
         path: of the recording.
-        names: name of the wire contract -> full topic name, where a recording has another.
+        names: name of the wire contract -> full topic name, where a recording has another; see `renamed`.
         namespace: which vehicle, where there are several.
         odometry: full name of the odometry topic.
         frames: accepted frame ids; the contract's if None.
@@ -66,13 +70,15 @@ def manoeuvres_in(
     """
     bag = renamed(read_bag(path, odometry=odometry), names or {})
     found = topics_of(bag, namespace)
+    frames = frames or FrameIds()
+    notes = _in_body(bag, found, frames)
+    odom = _columns(bag, found[topics.ODOM], topics.ODOM)
+    found[topics.WATER_VELOCITY] = _as_contract(bag, found[topics.WATER_VELOCITY], odom)
+    log = _columns(bag, found[topics.WATER_VELOCITY], topics.WATER_VELOCITY)
     motion = {t.name: t for t in (found[topics.ODOM], found[topics.WATER_VELOCITY]) if t is not None}
     planes = found[topics.STERNPLANE_CMD]
     if planes is not None:  # makes a run in three dimensions
         motion[planes.name] = dataclasses.replace(planes, type=topics.STERNPLANE_CMD.type)
-    frames = frames or FrameIds()
-    odom = _columns(bag, found[topics.ODOM], topics.ODOM)
-    log = _columns(bag, found[topics.WATER_VELOCITY], topics.WATER_VELOCITY)
     odom_axes = _convention(bag, topics.ODOM, frames, odom.columns.frames)
     log_axes = _convention(bag, topics.WATER_VELOCITY, frames, log.columns.frames)
     run = run_of(dataclasses.replace(bag, topics=motion), namespace, frames)
@@ -84,7 +90,7 @@ def manoeuvres_in(
     if rudder is None or thrust is None:
         raise missing(bag, topics.RUDDER_CMD if rudder is None else topics.THRUST_CMD)
     spatial = sternplanes if isinstance(run, SpatialRun) else None
-    return Manoeuvring(run, _over(run, odom, odom_axes), water_t, water, rudder, thrust, spatial)
+    return Manoeuvring(run, _over(run, odom, odom_axes), water_t, water, rudder, thrust, spatial, notes)
 
 
 class _Decoded(NamedTuple):
@@ -94,17 +100,49 @@ class _Decoded(NamedTuple):
     columns: Columns
 
 
+def _in_body(bag: Bag, found: dict[Topic, RecordedTopic | None], frames: FrameIds) -> tuple[str, ...]:
+    """Turn the twists of odometries from the world into the body; return a line for each."""
+    notes = []
+    for row in (topics.ODOM, topics.WATER_VELOCITY):
+        topic = found[row]
+        if topic is not None and topic.type == topics.ODOM.type:
+            with _damage(bag, topic):
+                found[row], world = twist_in_body(topic, frames)
+            if world:
+                name = topic.source or topic.name
+                notes.append(f"{name}: a twist in the world frame '{world}', turned by its own attitude")
+    return tuple(notes)
+
+
+def _as_contract(bag: Bag, topic: RecordedTopic | None, odom: _Decoded) -> RecordedTopic:
+    """Return the velocity through the water as the contract's type."""
+    assert topic is not None
+
+    def stamp_of(log_ns: NDArray[np.int64]) -> Column:
+        return on_odometry_clock(log_ns, odom.log_ns, odom.columns.stamp_ns)
+
+    with _damage(bag, topic):
+        return velocity_as_contract(topic, stamp_of)
+
+
+@contextlib.contextmanager
+def _damage(bag: Bag, topic: RecordedTopic) -> Iterator[None]:
+    """Turn what damaged bytes raise, which is any exception, into one line."""
+    try:
+        yield
+    except ConfigurationError:
+        raise
+    except Exception as error:
+        found = f"a damaged message ({' '.join(str(error).split())})"
+        raise ConfigurationError(f"{bag.path}: {topic.source or topic.name}", found, topic.type) from None
+
+
 def _columns(bag: Bag, topic: RecordedTopic | None, row: Topic) -> _Decoded:
     assert topic is not None
     order = np.argsort(np.array(topic.log_ns, np.int64), kind="stable")
     kept = [k for k in order if topic.messages[k] is not None]
-    try:
+    with _damage(bag, topic):
         columns = decode(topic.type, [m for k in kept if (m := topic.messages[k]) is not None])
-    except Exception as error:  # damaged bytes raise any exception
-        reason = " ".join(str(error).split())
-        raise ConfigurationError(
-            f"{bag.path}: {topic.name}", f"a damaged message ({reason})", row.type
-        ) from None
     if len(kept) > 1 and (columns.stamp_ns == columns.stamp_ns[0]).all():
         found = f"the stamp {columns.stamp_ns[0] * 1e-9:.9g} s in every message"
         raise ConfigurationError(f"{bag.path}: {row.name}", found, "the time of each measurement")
@@ -131,7 +169,8 @@ def _convention(bag: Bag, topic: Topic, ids: FrameIds, frames: tuple[tuple[str, 
         (names,) = frames
         return table.of_pose(topic.name, *names) if len(names) == 2 else table.of_body(topic.name, *names)
     except MessageRefused as refused:
-        expected = f"{refused.expected}, or their axes by --frame ID=AXES"
+        option = "=flu or =frd" if "" in names else "ID=AXES"
+        expected = f"{refused.expected}, or their axes by --frame {option}"
         raise ConfigurationError(f"{bag.path}: {refused.topic}", refused.found, expected) from None
     except ValueError:
         listed = " and ".join(map(repr, frames)) or "no frame id"

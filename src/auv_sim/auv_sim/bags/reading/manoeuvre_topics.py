@@ -8,22 +8,19 @@ from collections.abc import Mapping
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.topics import Topic
 from auv_msgs_py.values.errors import ConfigurationError
+from auv_sim.bags.reading.other_makers.foreign_motion import VELOCITIES
+from auv_sim.bags.reading.other_makers.message_parts import check_part
 from auv_sim.bags.reading.recording import Bag, RecordedTopic
 
 #: Topics that are read, by the names of the wire contract.
 READ = (
     topics.ODOM, topics.WATER_VELOCITY, topics.RUDDER_CMD, topics.THRUST_CMD, topics.STERNPLANE_CMD,
 )  # fmt: skip
-#: Types of commands: one number named `data`. The contract's is the first.
-_NUMBERS = tuple(f"std_msgs/msg/{kind}" for kind in ("Float64", "Float32", "Int16", "Int32", "UInt16"))
-#: The contract's velocity through the water without its covariance, which ends the message; its bytes.
-_WITHOUT_COVARIANCE, _COVARIANCE = "geometry_msgs/msg/TwistStamped", 36 * 8
-#: Types that are read.
-_TYPES: dict[Topic, tuple[str, ...]] = {
-    topics.ODOM: (topics.ODOM.type,),
-    topics.WATER_VELOCITY: (topics.WATER_VELOCITY.type, _WITHOUT_COVARIANCE),
-    **dict.fromkeys(READ[2:], _NUMBERS),
-}
+#: Types of commands that need no part: one number named `data`. The contract's is the first.
+_NUMBERS = tuple(
+    f"std_msgs/msg/{kind}"
+    for kind in ("Float64", "Float32", "Int8", "Int16", "Int32", "Int64", "UInt8", "UInt16", "UInt32")
+)
 
 
 def missing(bag: Bag, topic: Topic) -> ConfigurationError:
@@ -38,35 +35,45 @@ def missing(bag: Bag, topic: Topic) -> ConfigurationError:
 def renamed(bag: Bag, names: Mapping[str, str]) -> Bag:
     """Return the bag with topics under their names of the wire contract.
 
+    Args:
+        bag: as recorded.
+        names: name of the wire contract -> full name of a topic, with `:` and a part of its messages where
+            these have more than one number or vector.
+
     Raises:
         ConfigurationError: there is no such topic, it is of another type, or has two names.
     """
-    sources: dict[str, str] = {}
+    sources: dict[str, RecordedTopic] = {}
     rows = {topic.name: topic for topic in READ}
     for name, other in names.items():
-        full = "/" + other.strip("/")
+        text, _, part = other.partition(":")
+        full = "/" + text.strip("/")
         if full not in bag.topics:
             listed = ", ".join(sorted(bag.topics)) or "none"
             raise ConfigurationError(f"--topic {name}", full, f"a topic of {bag.path}: {listed}")
-        if full in sources.values():
-            raise ConfigurationError(f"--topic {name}", f"{full}, which is given twice", "a topic of its own")
-        sources[name] = full
-    for name, full in sources.items():
-        _check_type(bag, rows[name], bag.topics[full])
-    odometry = sources.pop(topics.ODOM.name, bag.odometry)
+        if any(topic.source == full and topic.part == part for topic in sources.values()):
+            raise ConfigurationError(
+                f"--topic {name}", f"{other}, which is given twice", "a topic of its own"
+            )
+        sources[name] = dataclasses.replace(bag.topics[full], part=part, source=full)
+    for name, topic in sources.items():
+        _check_type(bag, rows[name], topic)
+    chosen = sources.pop(topics.ODOM.name, None)
+    odometry = bag.odometry if chosen is None else chosen.source
+    replaced = {topic.source for topic in sources.values()} - {odometry}
     kept = {
         key: topic
         for key, topic in bag.topics.items()
-        if key not in sources.values() and key.rsplit("/", 1)[-1] not in sources
+        if key not in replaced and key.rsplit("/", 1)[-1] not in sources
     }
-    for name, full in sources.items():
-        own = full.rsplit("/", 1)[0] + "/" + name
-        kept[own] = dataclasses.replace(bag.topics[full], name=own)
+    for name, topic in sources.items():
+        own = topic.source.rsplit("/", 1)[0] + "/" + name
+        kept[own] = dataclasses.replace(topic, name=own)
     return dataclasses.replace(bag, topics=kept, odometry=odometry)
 
 
 def topics_of(bag: Bag, namespace: str | None) -> dict[Topic, RecordedTopic | None]:
-    """Return the topics of `READ`, the velocity as the contract's type; None for planes that are missing.
+    """Return the topics of `READ`; None for planes that are missing.
 
     Raises:
         ConfigurationError: one is missing, of another type, or of several vehicles.
@@ -80,7 +87,6 @@ def topics_of(bag: Bag, namespace: str | None) -> dict[Topic, RecordedTopic | No
             raise ConfigurationError(error.where, error.found, expected) from None
         if topic is not None and topic.count:
             _check_type(bag, row, topic)
-            topic = _with_covariance(topic) if row is topics.WATER_VELOCITY else topic
         elif row is not topics.STERNPLANE_CMD:
             raise missing(bag, row)
         found[row] = topic
@@ -88,15 +94,14 @@ def topics_of(bag: Bag, namespace: str | None) -> dict[Topic, RecordedTopic | No
 
 
 def _check_type(bag: Bag, row: Topic, topic: RecordedTopic) -> None:
-    if topic.type not in _TYPES[row]:
-        several = "one of " if len(_TYPES[row]) > 1 else ""
-        expected = f"{several}{', '.join(_TYPES[row])} as {row.name}"
-        raise ConfigurationError(f"{bag.path}: {topic.name}", topic.type, expected)
-
-
-def _with_covariance(topic: RecordedTopic) -> RecordedTopic:
-    """Return a velocity through the water as the contract's type."""
-    if topic.type != _WITHOUT_COVARIANCE:
-        return topic
-    messages = [data if data is None else bytes(data) + bytes(_COVARIANCE) for data in topic.messages]
-    return dataclasses.replace(topic, type=topics.WATER_VELOCITY.type, messages=messages)
+    """Check the type of a topic, or the part that was given."""
+    where = f"{bag.path}: {topic.source or topic.name}"
+    if row is topics.ODOM:
+        if topic.type != row.type or topic.part:
+            found = f"a part, {topic.part}," if topic.type == row.type else topic.type
+            raise ConfigurationError(where, found, f"{row.type} as {row.name}")
+    elif row is topics.WATER_VELOCITY:
+        if topic.part or topic.type not in VELOCITIES:
+            check_part(bag, row, topic, is_vector=True)
+    elif topic.type not in _NUMBERS or topic.part:
+        check_part(bag, row, topic)

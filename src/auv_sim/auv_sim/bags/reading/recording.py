@@ -23,6 +23,8 @@ class RecordedTopic:
         original: the records that describe it in an MCAP file.
         log_ns, publish_ns, sequence, sizes: for each message, ns and bytes.
         messages: serialised; None where only the size was requested.
+        part: name of what counts in each message, where it was given.
+        source: name in the recording, where the topic was renamed.
     """
 
     name: str
@@ -36,6 +38,8 @@ class RecordedTopic:
     sequence: list[int] = field(default_factory=list)
     sizes: list[int] = field(default_factory=list)
     messages: list[bytes | None] = field(default_factory=list)
+    part: str = ""
+    source: str = ""
 
     @property
     def count(self) -> int:

@@ -126,7 +126,7 @@ def run(arguments: argparse.Namespace) -> int:
     check_options(arguments, vehicle)
     hull = known_hull(vehicle)
     recorded = read(arguments, vehicle, hull)
-    _report_silence(arguments.bag, recorded)
+    _report_reading(arguments.bag, recorded)
     recordings = [one.plane for one in recorded]
     where = ", ".join(map(str, arguments.bag))
     check_excitation(recordings, where)
@@ -150,9 +150,11 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _report_silence(paths: Sequence[Path], recorded: Sequence[Recorded]) -> None:
-    """Print how much of each recording has no commands."""
+def _report_reading(paths: Sequence[Path], recorded: Sequence[Recorded]) -> None:
+    """Print what was converted, and how much of each recording has no commands."""
     for path, one in zip(paths, recorded, strict=True):
+        for note in one.notes:
+            say(f"notice {path}: {note}", error=True)
         if one.silence > 0.0:
             say(
                 f"notice {path}: {one.silence:.0f} s without commands, and {FOLLOWED:g} s after each gap,"

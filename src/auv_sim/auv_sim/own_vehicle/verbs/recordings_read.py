@@ -43,23 +43,27 @@ class Recorded(NamedTuple):
         plane: motion in the plane.
         dive: vertical motion where there are commands of stern planes, else None.
         silence: time without commands while the odometry runs, which is left out, s.
+        notes: what was converted, one line each.
     """
 
     plane: PlanarData
     dive: DiveData | None
     silence: float
+    notes: tuple[str, ...] = ()
 
 
 def add_reading_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options that name what a recording of another make has."""
     topics = ", ".join(topic.name for topic in READ)
     parser.add_argument(
-        "--topic", action="append", default=[], metavar="NAME=TOPIC",
-        help=f"other name of a topic; NAME is one of {topics}",
+        "--topic", action="append", default=[], metavar="NAME=TOPIC[:PART]",
+        help=f"other name of a topic; NAME is one of {topics}; PART is a joint, an index or a field in its "
+        "messages",
     )  # fmt: skip
     parser.add_argument(
         "--frame", action="append", default=[], metavar="ID=AXES",
-        help=f"axes of a further frame id, such as base_footprint=flu; AXES is one of {', '.join(_AXES)}",
+        help="axes of a further frame id, such as base_footprint=flu, or of an empty one, =flu; "
+        f"AXES is one of {', '.join(_AXES)}",
     )  # fmt: skip
     parser.add_argument("--namespace", metavar="NAME", help="which vehicle, where there are several")
 
@@ -88,7 +92,7 @@ def read(options: argparse.Namespace, vehicle: Vehicle, hull: Hull) -> list[Reco
         dive = diving(recorded, vehicle, hull, spans)
         first, last = recorded.run.t[[0, -1]]
         silence = sum(max(min(end, last) - max(begin, first), 0.0) for begin, end in spans)
-        found.append(Recorded(plane, dive, float(silence)))
+        found.append(Recorded(plane, dive, float(silence), recorded.notes))
     return found
 
 
@@ -96,7 +100,7 @@ def _renaming(text: str) -> tuple[str, str]:
     name, equals, other = text.partition("=")
     allowed = [topic.name for topic in READ]
     if name not in allowed or not equals or not other:
-        raise ConfigurationError("--topic", text, f"NAME=TOPIC with NAME one of {', '.join(allowed)}")
+        raise ConfigurationError("--topic", text, f"NAME=TOPIC[:PART] with NAME one of {', '.join(allowed)}")
     return name, other
 
 
@@ -109,7 +113,7 @@ def frames_with(given: Sequence[str]) -> FrameIds:
     ids = FrameIds()
     for text in given:
         name, equals, axes = text.rpartition("=")
-        if not equals or not name or axes not in _AXES:
+        if not equals or axes not in _AXES:
             raise ConfigurationError("--frame", text, f"ID=AXES with AXES one of {', '.join(_AXES)}")
         same, opposite = _AXES[axes]
         bare = name.strip("/").rsplit("/", 1)[-1]  # a frame id counts without its prefix

@@ -1,0 +1,122 @@
+"""Velocities and odometry of other makers as messages of the wire contract."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from auv_msgs_py.contract import topics
+from auv_msgs_py.contract.frames import FrameIds
+from auv_sim.bags.definitions import typestore
+from auv_sim.bags.reading.columns import decode
+from auv_sim.bags.reading.deserialize import deserializer
+from auv_sim.bags.reading.other_makers.message_parts import vector_in
+from auv_sim.bags.reading.recording import RecordedTopic
+
+#: Type of a velocity through the water -> where its vector is. The contract's type is the first.
+VELOCITIES = {
+    topics.WATER_VELOCITY.type: "twist.twist.linear",
+    "geometry_msgs/msg/TwistStamped": "twist.linear",
+    "geometry_msgs/msg/Vector3Stamped": "vector",
+    "geometry_msgs/msg/TwistWithCovariance": "twist.linear",
+    "geometry_msgs/msg/Twist": "linear",
+    "geometry_msgs/msg/Vector3": "",
+    topics.ODOM.type: "twist.twist.linear",
+}
+Times = NDArray[np.int64]
+
+
+def velocity_as_contract(
+    topic: RecordedTopic, stamp_of: Callable[[Times], NDArray[np.float64]]
+) -> RecordedTopic:
+    """Return a velocity through the water as the contract's type.
+
+    A message without a header has the time of its log and an empty frame id; one whose type has a
+    `child_frame_id` is in that frame.
+
+    Args:
+        topic: as recorded.
+        stamp_of: log times (ns) -> times of the odometry's clock, s; NaN after the last odometry.
+
+    Raises:
+        Exception: bytes that are no such message.
+    """
+    part = topic.part or VELOCITIES[topic.type]
+    if topic.type == topics.WATER_VELOCITY.type and part == VELOCITIES[topic.type]:
+        return topic
+    decoder, logged = deserializer(topic), stamp_of(np.array(topic.log_ns, np.int64))
+    messages: list[bytes | None] = []
+    for data, at in zip(topic.messages, logged, strict=True):
+        message = None if data is None else decoder(data)
+        vector = None if message is None else vector_in(message, part)
+        header = getattr(message, "header", None)
+        if vector is None or (header is None and np.isnan(at)):
+            messages.append(None)
+            continue
+        stamp = round(at * 1e9) if header is None else header.stamp.sec * 10**9 + header.stamp.nanosec
+        frame = "" if header is None else getattr(message, "child_frame_id", header.frame_id)
+        messages.append(_velocity(stamp, frame, vector))
+    return dataclasses.replace(topic, type=topics.WATER_VELOCITY.type, messages=messages, part="")
+
+
+def _velocity(stamp: int, frame: str, vector: tuple[float, float, float]) -> bytes:
+    """Return a serialised velocity through the water."""
+    kinds = typestore().types
+    time = kinds["builtin_interfaces/msg/Time"](*divmod(stamp, 10**9))
+    still = kinds["geometry_msgs/msg/Vector3"](0.0, 0.0, 0.0)
+    twist = kinds["geometry_msgs/msg/Twist"](kinds["geometry_msgs/msg/Vector3"](*vector), still)
+    covered = kinds["geometry_msgs/msg/TwistWithCovariance"](twist, np.zeros(36))
+    message = kinds[topics.WATER_VELOCITY.type](kinds["std_msgs/msg/Header"](time, frame), covered)
+    return bytes(typestore().serialize_cdr(message, topics.WATER_VELOCITY.type))
+
+
+def twist_in_body(topic: RecordedTopic, ids: FrameIds) -> tuple[RecordedTopic, str]:
+    """Return an odometry with its twist in the body, and the frame id of the world that it was in.
+
+    The twist of an odometry is in its `child_frame_id`. Where that is a world frame of the same axes as
+    `frame_id`, the twist is turned by the attitude of the same message. The body's axes are FLU in ENU,
+    FRD in NED.
+
+    Args:
+        topic: odometry.
+        ids: accepted frame ids.
+
+    Returns:
+        The topic as it is, and an empty text, where its twist is in another frame.
+
+    Raises:
+        Exception: bytes that are no odometry.
+    """
+    frames = decode(topic.type, [data for data in topic.messages if data is not None]).frames
+    if len(frames) != 1:
+        return topic, ""
+    world, child = (name.rsplit("/", 1)[-1] for name in frames[0])
+    for worlds, bodies in ((ids.enu_world, ids.flu_body), (ids.ned_world, ids.frd_body)):
+        if world in worlds and child in worlds and bodies and child not in (*ids.flu_body, *ids.frd_body):
+            messages = [None if data is None else _turned(data, bodies[0]) for data in topic.messages]
+            return dataclasses.replace(topic, messages=messages), frames[0][1]
+    return topic, ""
+
+
+def _turned(data: bytes, body: str) -> bytes:
+    """Return a serialised odometry with its twist turned from the world into the body."""
+    message: Any = typestore().deserialize_cdr(data, topics.ODOM.type)
+    q, twist = message.pose.pose.orientation, message.twist.twist
+    for vector in (twist.linear, twist.angular):
+        x, y, z = _turned_back((q.x, q.y, q.z, q.w), (vector.x, vector.y, vector.z))
+        vector.x, vector.y, vector.z = x, y, z
+    message.child_frame_id = body
+    return bytes(typestore().serialize_cdr(message, topics.ODOM.type))
+
+
+def _turned_back(
+    q: tuple[float, float, float, float], vector: tuple[float, float, float]
+) -> tuple[float, float, float]:
+    """Return a vector of the world in the body, whose attitude is the unit quaternion q (x, y, z, w)."""
+    axis, v = -np.array(q[:3]), np.array(vector)
+    turned = v + 2.0 * np.cross(axis, np.cross(axis, v) + q[3] * v)
+    return float(turned[0]), float(turned[1]), float(turned[2])
