@@ -10,7 +10,7 @@ import shutil
 import signal
 import subprocess
 import threading
-from collections.abc import Coroutine
+from collections.abc import Awaitable, Callable, Coroutine
 from pathlib import Path
 from typing import Any
 
@@ -24,16 +24,36 @@ _FLAGS = (
 )  # fmt: skip
 #: How long anything may take on a busy machine, s.
 _PATIENCE = 180.0
+#: Makes `aim` of an element e: what the page itself sees of the next press on it, by mouse or key.
+_AIM = (
+    "if (!window.aim) {"
+    " const on = (name, see) => addEventListener(name, see, true), now = () => performance.now();"
+    " const begin = v => { aim.hit = aim.at.contains(v.target); aim.from = now(); };"
+    " const end = () => { aim.to = now(); };"
+    " on('pointerdown', begin); on('keydown', begin); on('pointerup', end); on('keyup', end);"
+    " on('click', v => { aim.clicks += aim.at.contains(v.target); }); }"
+    " window.aim = { at: e, hit: null, clicks: 0, from: 0, to: 0 };"
+)
+
+
+async def _no_wait() -> None:
+    pass
 
 
 class Tab:
     """One page: commands, evaluation, input, and the events that came."""
 
-    def __init__(self, socket: aiohttp.ClientWebSocketResponse) -> None:
+    def __init__(self, socket: aiohttp.ClientWebSocketResponse, downloads: Path) -> None:
+        self._downloads = downloads
         self._socket, self._next, self._pending = socket, 0, dict[int, asyncio.Future[Any]]()
         self._page = "nothing yet"
+        #: Texts on each open socket of the page, in order: whether the page sent it, and the text.
+        self.sockets: dict[str, list[tuple[bool, str]]] = {}
+        #: Waits until nothing that is under way can still move the parts of the page.
+        self.calm: Callable[[], Awaitable[None]] = _no_wait
         self.requests: list[str] = []
         self.complaints: list[str] = []
+        self.expected: list[str] = []
         self._reader = asyncio.create_task(self._read())
 
     async def _read(self) -> None:
@@ -50,6 +70,15 @@ class Tab:
                 self.requests.append(params["request"]["url"])
             case "Network.webSocketCreated":
                 self.requests.append(params["url"])
+                self.sockets[params["requestId"]] = []
+            case "Network.webSocketFrameSent" | "Network.webSocketFrameReceived":
+                one, is_sent = params["response"], method.endswith("Sent")
+                if one["opcode"] == 1 and params["requestId"] in self.sockets:
+                    self.sockets[params["requestId"]].append((is_sent, one["payloadData"]))
+            case "Network.webSocketClosed":
+                self.sockets.pop(params["requestId"], None)
+            case "Page.frameNavigated" if "parentId" not in params["frame"]:
+                self.sockets.clear()
             case "Runtime.exceptionThrown":
                 self.complaints.append(json.dumps(params["exceptionDetails"])[:600])
             case "Runtime.consoleAPICalled" if params["type"] in ("error", "warning", "assert"):
@@ -85,13 +114,19 @@ class Tab:
     async def open(self, url: str) -> None:
         """Load a page from the beginning."""
         self._page = url.partition("?")[0]
+        await self.value("window.left = true")
         await self.call("Page.navigate", url=url)
-        await self.until("document.readyState === 'complete'")
+        await self.until("!window.left && document.readyState === 'complete'")
+
+    async def pause(self, seconds: float) -> None:
+        """Wait for a time of the page's own timers: those that are due earlier have run."""
+        await self.value(f"new Promise(done => setTimeout(done, {1000.0 * seconds}))")
 
     async def size(self, width: int, height: int, mobile: bool = False) -> None:
         """Set the size of the window, CSS px."""
         await self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
                         deviceScaleFactor=2 if mobile else 1, mobile=mobile)  # fmt: skip
+        await self.until(f"innerWidth === {width}")
 
     async def window(self, state: str) -> None:
         """Set the state of the browser's window: normal or minimized, which hides the page."""
@@ -111,28 +146,53 @@ class Tab:
         """Send a key event: Down or Up."""
         await self.call("Input.dispatchKeyEvent", type=f"key{kind}", key=name, code=name, **more)
 
-    async def mouse(self, kind: str, x: float, y: float) -> None:
-        """Send a mouse event: Pressed, Released or Moved."""
-        held = {"button": "left", "clickCount": 1} if kind != "Moved" else {}
+    async def mouse(self, kind: str, x: float, y: float, is_held: bool = False) -> None:
+        """Send a mouse event: Pressed, Released or Moved, the last with the button held or not."""
+        held = {"button": "left", "clickCount": 1} if kind != "Moved" else {"buttons": int(is_held)}
         await self.call("Input.dispatchMouseEvent", type=f"mouse{kind}", x=x, y=y, **held)
 
-    async def click(self, selector: str, seconds: float = 0.0) -> None:
-        """Press the left button on an element, for a time or as shortly as possible."""
+    async def aim(self, selector: str) -> tuple[float, float]:
+        """Point at the middle of an element once the page has come to rest; return the place."""
+        await self.calm()
         at, before = await self.middle(selector), None
-        while at != before:  # what is above it may still grow
+        while at != before:
             await asyncio.sleep(0.03)
             at, before = await self.middle(selector), at
+        await self.value(f"(() => {{ const e = document.querySelector({selector!r}); {_AIM} }})()")
         await self.mouse("Moved", *at)
-        if not seconds:  # both at once: nothing that this process waits for makes the press longer
-            await asyncio.gather(self.mouse("Pressed", *at), self.mouse("Released", *at))
-            return
-        await self.mouse("Pressed", *at)
-        await asyncio.sleep(seconds)
-        await self.mouse("Released", *at)
+        return at
 
-    async def stroke(self, name: str) -> None:
-        """Press a key as shortly as possible."""
+    async def press(self, selector: str) -> tuple[float, float]:
+        """Press the left button on an element; return the place to release it."""
+        at = await self.aim(selector)
+        await self.mouse("Pressed", *at)
+        assert await self.value("aim.hit"), f"{selector} moved before it was pressed"
+        return at
+
+    async def click(self, selector: str, seconds: float = 0.0) -> float:
+        """Click an element, pressed for a time or as shortly as possible.
+
+        Returns:
+            Time from the press to the release as the page has seen it, s.
+        """
+        at = await self.aim(selector)
+        # Both at once where it is short: nothing that this process waits for makes the press longer.
+        if seconds:
+            await self.mouse("Pressed", *at)
+            await self.pause(seconds)
+            await self.mouse("Released", *at)
+        else:
+            await asyncio.gather(self.mouse("Pressed", *at), self.mouse("Released", *at))
+        hit, clicks, lasted = await self.value("[aim.hit, aim.clicks, aim.to - aim.from]")
+        assert hit, f"{selector} moved before it was pressed"
+        assert clicks == 1, f"{selector} was pressed and released, which made {clicks} clicks"
+        return float(lasted) / 1000.0
+
+    async def stroke(self, name: str) -> float:
+        """Press a key on the focused element as shortly as possible; return as `click` does."""
+        await self.value(f"(() => {{ const e = document.activeElement; {_AIM} }})()")
         await asyncio.gather(self.key("Down", name), self.key("Up", name))
+        return float(await self.value("aim.to - aim.from")) / 1000.0
 
     async def type(self, selector: str, text: str) -> None:
         """Replace the text of a field by typing, and leave it."""
@@ -149,6 +209,15 @@ class Tab:
     async def call_no_answer(self, method: str) -> None:
         """Send a command after which the page does not answer."""
         await self._socket.send_str(json.dumps({"id": 0, "method": method}))
+
+    async def downloaded(self, name: str) -> str:
+        """Return the text of a file once it has been downloaded."""
+        file = self._downloads / name  # it has another name until it is whole
+        for _ in range(int(_PATIENCE / 0.05)):
+            if file.is_file():
+                return file.read_text(encoding="utf-8")
+            await asyncio.sleep(0.05)
+        raise AssertionError(f"{name} was not downloaded")
 
     async def screenshot(self, file: Path) -> None:
         """Write what is in sight as a PNG."""
@@ -196,9 +265,11 @@ class Chromium:
         where = {"browserContextId": context} if context is not None else {}
         made = await self._browser("Target.createTarget", url="about:blank", **where)
         address = f"{self._address.replace('http', 'ws', 1)}/devtools/page/{made['targetId']}"
-        tab = Tab(await self._session.ws_connect(address, max_msg_size=0))
+        tab = Tab(await self._session.ws_connect(address, max_msg_size=0), self.profile / "downloads")
         for domain in ("Page", "Runtime", "Network", "Log"):
             await tab.call(f"{domain}.enable")
+        place = str(self.profile / "downloads")
+        await tab.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=place)
         return tab
 
     async def end(self) -> None:

@@ -10,50 +10,47 @@ import asyncio
 import json
 import math
 import struct
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from pathlib import Path
 from typing import Any
 
 import aiohttp
-import numpy as np
 import yaml
 from aiohttp import web
 
 import console_flight
+from console_gains import GAINS
+from console_wire import beat, finite, send
 
 PAGE = Path(__file__).resolve().parents[1] / "src/auv_sim/auv_sim/views/console/page"
 CSP = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'"
 )
 NODES = ("plant", "current_observer", "guidance", "heading_autopilot", "recorder")
-GAINS = [
-    {
-        "name": "autopilot.nism.k1", "type": "double", "value": 0.45, "default": 0.45, "minimum": 0.0,
-        "maximum": 10.0, "unit": "-", "doc": "Gain of the first sliding surface", "read_only": False,
-        "safety": False,
-    },
-    {
-        "name": "autopilot.nism.k3", "type": "double", "value": 1.4, "default": 1.2, "minimum": 0.0,
-        "maximum": 10.0, "unit": "-", "doc": "Gain of the second sliding surface", "read_only": False,
-        "safety": False,
-    },
-    {
-        "name": "odometry_timeout", "type": "double", "value": 1.0, "default": 1.0, "minimum": 0.1,
-        "maximum": 10.0, "unit": "s", "doc": "Age of the odometry at which the fins are stopped",
-        "read_only": False, "safety": True,
-    },
-]  # fmt: skip
+
+
+async def _no_wait() -> None:
+    pass
 
 
 class FakeConsole:
-    """The server's side of the protocol for one recorded flight and any number of browsers."""
+    """The server's side of the protocol for one recorded flight and any number of browsers.
+
+    Attributes:
+        quiet: waits until the page has an answer to everything that it has requested.
+        serial: number of the newest state; the page has it in its tick.
+        busy: number of requests that are being answered.
+    """
 
     def __init__(self, mission: str = "survey_wgs84", vehicles: int = 1) -> None:
         self.rows, self.course = console_flight.recorded(mission)
         self.vehicles, self.flown, self.started = vehicles, 0, "first"
         self.state, self.reason = "idle", "waiting for the start service"
         self.ready, self.silent = True, ""
-        self.asked: list[dict[str, Any]] = []
+        self._asked: list[dict[str, Any]] = []
+        self.quiet: Callable[[], Awaitable[None]] = _no_wait
+        self.serial = self.busy = 0
+        self._sending = asyncio.Lock()
         self.alarms: list[dict[str, Any]] = []
         self.events: list[dict[str, Any]] = []
         self.gains = [dict(one) for one in GAINS]
@@ -101,21 +98,35 @@ class FakeConsole:
     async def _socket(self, request: web.Request) -> web.StreamResponse:
         socket = web.WebSocketResponse()
         await socket.prepare(request)
-        self.browsers.append(socket)
-        for message in self._first():
-            await _send(socket, message)
-        beat = asyncio.create_task(_beat(socket))
-        async for message in socket:
-            if message.type == aiohttp.WSMsgType.TEXT:
-                request = json.loads(message.data)
-                self.asked.append(request)
-                answer = {"ok": True, "message": "", **self._answer(request)}
-                await _send(socket, {"kind": "answer", "id": request.get("id"), **answer})
-                await self.publish()
-        beat.cancel()
-        if socket in self.browsers:
-            self.browsers.remove(socket)
+        async with self._sending:  # the record first, as it is now, then all that changes
+            self.browsers.append(socket)
+            for message in self._first():
+                await send(socket, message)
+        beating = asyncio.create_task(beat(socket))
+        try:
+            async for message in socket:
+                if message.type == aiohttp.WSMsgType.TEXT:
+                    await self._take(socket, json.loads(message.data))
+        finally:
+            beating.cancel()
+            if socket in self.browsers:
+                self.browsers.remove(socket)
         return socket
+
+    async def _take(self, socket: web.WebSocketResponse, request: dict[str, Any]) -> None:
+        self.busy += 1
+        try:
+            self._asked.append(request)
+            answer = {"ok": True, "message": "", **self._answer(request)}
+            await send(socket, {"kind": "answer", "id": request.get("id"), **answer})
+            await self.publish()
+        finally:
+            self.busy -= 1
+
+    async def requests(self, *kinds: str) -> list[dict[str, Any]]:
+        """Return all that the page has requested until now, or what is of some kinds (`do`)."""
+        await self.quiet()
+        return [one for one in self._asked if not kinds or one["do"] in kinds]
 
     def _first(self) -> list[Any]:
         columns = [
@@ -159,8 +170,9 @@ class FakeConsole:
             for i, n in enumerate(NODES)
         ]  # fmt: skip
         running = self.state in ("running", "holding")
-        return _finite({
-            "kind": "tick", "vehicle": k, "now": 1.0 + row["t"], "state": self.state, "reason": self.reason,
+        return finite({
+            "kind": "tick", "serial": self.serial,
+            "vehicle": k, "now": 1.0 + row["t"], "state": self.state, "reason": self.reason,
             "mission_time": row["t"], "length": length, "flown": share * length, "share": share,
             "time_to_go": (1 - share) * length / speed,
             "next_joint": {"kind": "line to arc", "distance": 41.0, "time": 41.0 / speed}
@@ -200,7 +212,9 @@ class FakeConsole:
             case "parameter_file":
                 return {"text": "heading_autopilot:\n  ros__parameters:\n    autopilot.nism.k3: 1.4\n"}
             case "acknowledge":
-                self.alarms = [{**one, "acknowledged": True} for one in self.alarms if one["active"]]
+                (one,) = (alarm for alarm in self.alarms if alarm["id"] == request["alarm"])
+                one["acknowledged"] = True
+                self.alarms = [one for one in self.alarms if one["active"] or not one["acknowledged"]]
                 return {}
         return {"ok": False, "message": f"not understood: {request['do']}"}
 
@@ -239,15 +253,11 @@ class FakeConsole:
             if condition():
                 return
             await asyncio.sleep(0.02)
-        raise AssertionError(f"not true within 180 s, last requests: {self.asked[-3:]}")
-
-    @property
-    def now(self) -> float:
-        """The time in the newest tick, s."""
-        return float(self._tick(0)["now"])
+        raise AssertionError(f"not true within 180 s, last requests: {self._asked[-3:]}")
 
     async def publish(self) -> None:
         """Send the state, the events and the alarms to every browser."""
+        self.serial += 1
         for k in range(self.vehicles):
             await self.send({"kind": "events", "vehicle": k, "events": self.events[-5:]})
             await self.send({"kind": "alarms", "vehicle": k, "alarms": self.alarms if k == 0 else []})
@@ -255,31 +265,10 @@ class FakeConsole:
 
     async def send(self, message: Any) -> None:
         """Send a message to every browser."""
-        for browser in list(self.browsers):
-            if not browser.closed:
-                await _send(browser, message)
-
-
-async def _beat(socket: web.WebSocketResponse) -> None:
-    """Send every second an answer that the page does not wait for: it gives up a server silent for 5 s."""
-    while not socket.closed:
-        await _send(socket, {"kind": "answer", "id": None})
-        await asyncio.sleep(1.0)
-
-
-async def _send(socket: web.WebSocketResponse, message: Any) -> None:
-    if isinstance(message, bytes):
-        await socket.send_bytes(message)
-    else:
-        await socket.send_str(json.dumps(_finite(message), allow_nan=False))
-
-
-def _finite(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _finite(one) for key, one in value.items()}
-    if isinstance(value, list):
-        return [_finite(one) for one in value]
-    return None if isinstance(value, float) and not np.isfinite(value) else value
+        async with self._sending:
+            for browser in list(self.browsers):
+                if not browser.closed:
+                    await send(browser, message)
 
 
 async def _by_hand(mission: str, rows: int, vehicles: int) -> None:

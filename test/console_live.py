@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import os
 import re
 import signal
@@ -12,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from chromium import Chromium, Tab
+from console_stage import at_rest
 
 SIZE = (1440, 900)
 
@@ -88,6 +88,7 @@ def node_pid(launcher: int, module: str) -> int:
 async def opened(browser: Chromium, address: str) -> Tab:
     """Return a tab with the console's page once a mission is there."""
     tab = await browser.tab()
+    tab.calm = lambda: at_rest(tab)
     await tab.size(*SIZE)
     await tab.open(address)
     await tab.until("document.getElementById('mission-name').textContent !== 'no mission'")
@@ -108,9 +109,7 @@ async def start(tab: Tab) -> None:
     for _ in range(5):
         await tab.until("document.getElementById('start').getAttribute('aria-disabled') === 'false'")
         await tab.value(f"{said} = ''")
-        at = await tab.middle("#start")
-        await tab.mouse("Moved", *at)
-        await tab.mouse("Pressed", *at)
+        at = await tab.press("#start")
         await tab.until(f"/^Start: .*[^…]$/.test({said})")
         await tab.mouse("Released", *at)
         answer = str(await tab.value(said))
@@ -129,4 +128,3 @@ async def load_gains(tab: Tab) -> None:
     """Open the list of gains and wait until it is there."""
     await tab.click("#open-gains")
     await tab.until("document.querySelector('.gain')")
-    await asyncio.sleep(0.2)

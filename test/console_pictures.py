@@ -6,7 +6,6 @@ cd test && python3 -m console_pictures
 from __future__ import annotations
 
 import argparse
-import asyncio
 import os
 import signal
 import tempfile
@@ -22,7 +21,7 @@ IMAGES = Path(__file__).resolve().parents[1] / "docs" / "images"
 
 async def picture(tab: Tab, name: str) -> None:
     """Write docs/images/console_<name>.png once the page has painted."""
-    await asyncio.sleep(0.6)
+    await tab.calm()
     file = IMAGES / f"console_{name}.png"
     await tab.screenshot(file)
     with Image.open(file) as found:

@@ -1,8 +1,14 @@
-"""The console's page in a real Chromium, before a server that plays a recorded flight."""
+"""The console's page in a real Chromium, before a server that plays a recorded flight.
+
+A test waits for what it looks at, never for a time: `await fake.requests()` for all that the page has sent,
+`settled` for what the page shows, `tab.until` for a text, `tab.pause` for timers of the page.
+"""
 
 from __future__ import annotations
 
+import asyncio
 import inspect
+import json
 import re
 import tempfile
 from collections.abc import Awaitable, Callable, Iterator
@@ -31,9 +37,11 @@ class Stage:
         if self._tab is None:  # a new tab for each test costs twice as much
             self._tab = await self.browser.tab()
         tab = self._tab
+        tab.calm = lambda: at_rest(tab)
+        fake.quiet = lambda: answered(tab)
         await tab.size(1280, 800)
         await tab.open(await fake.start())
-        await tab.until("document.getElementById('mission-name').textContent !== 'no mission'")
+        await settled(tab, fake)
         return tab, fake
 
 
@@ -51,7 +59,10 @@ def stages() -> Iterator[Stage]:
 
 
 def on_page(**options: Any) -> Callable[[Callable[[Tab, FakeConsole], Awaitable[None]]], Any]:
-    """Make a test of a coroutine on a fresh tab and server; the tab must end without a complaint."""
+    """Make a test of a coroutine on a fresh tab and server that have settled.
+
+    The tab must end without a complaint, except those that contain a text of `tab.expected`.
+    """
 
     def decorate(work: Callable[[Tab, FakeConsole], Awaitable[None]]) -> Any:
         def test(stage: Stage) -> None:
@@ -59,14 +70,17 @@ def on_page(**options: Any) -> Callable[[Callable[[Tab, FakeConsole], Awaitable[
                 tab, fake = await stage.fresh(**options)
                 try:
                     await work(tab, fake)
+                    await answered(tab)
                     own = (f"http://127.0.0.1:{fake.port}/", f"ws://127.0.0.1:{fake.port}/socket", "blob:")
                     assert [url for url in tab.requests if not url.startswith(own)] == []
-                    assert [one for one in tab.complaints if "willReadFrequently" not in one] == []
+                    expected = ("willReadFrequently", *tab.expected)
+                    assert [one for one in tab.complaints if not any(word in one for word in expected)] == []
                 finally:
                     # An empty page of the same site keeps the process; the console's page would reconnect.
                     await tab.open(f"http://127.0.0.1:{fake.port}/left")
                     tab.requests.clear()
                     tab.complaints.clear()
+                    tab.expected.clear()
                     await fake.stop()
 
             stage.run(play())
@@ -77,21 +91,63 @@ def on_page(**options: Any) -> Callable[[Callable[[Tab, FakeConsole], Awaitable[
     return decorate
 
 
-async def settled(tab: Tab, fake: FakeConsole) -> None:
-    """Wait until the page has the newest rows and the tick behind them, and has painted what it has.
+def under_way(tab: Tab) -> set[tuple[str, int]]:
+    """Return the requests that the page has sent and that are not answered: socket and number."""
+    found = set()
+    for socket, texts in tab.sockets.items():
+        for is_sent, text in texts:
+            number = (socket, json.loads(text).get("id"))
+            if is_sent:
+                found.add(number)
+            elif '"answer"' in text:
+                found.discard(number)
+    return found
 
-    It paints 0.1 s after something has changed at the latest, in its own time: however late that is.
+
+async def answered(tab: Tab) -> None:
+    """Wait until the page has an answer to everything that it has requested until now.
+
+    The browser reports what the page sends before it returns a value to a later evaluation.
     """
-    await tab.until(
-        "import('/page/flights.js').then(({ flights: { vehicles } }) => vehicles.length > 0 &&"
-        f" vehicles.every(v => v.tick?.now === {fake.now!r} && v.table.n === {fake.flown}))"
+    for _ in range(9000):
+        await tab.value("0")
+        if not under_way(tab):
+            return
+        await asyncio.sleep(0.02)
+    raise AssertionError(f"no answer within 180 s: {under_way(tab)}")
+
+
+async def painted(tab: Tab) -> bool:
+    """Wait until the page has painted what it has; return whether nothing new has arrived meanwhile."""
+    return bool(
+        await tab.value(
+            "import('/page/painting.js').then(async ({ painting }) => { const { count } = painting;"
+            " const frame = () => new Promise(done => requestAnimationFrame(done));"
+            " while (painting.stale && painting.count === count) await frame();"
+            " await frame(); await frame(); return !painting.stale; })"
+        )
     )
-    await tab.value(
-        "import('/page/painting.js').then(async ({ painting }) => { let count; do { count = painting.count;"
-        " await new Promise(done => setTimeout(done, 160));"
-        " await new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)));"
-        " } while (painting.count !== count); })"
-    )
+
+
+async def at_rest(tab: Tab) -> None:
+    """Wait until the page has its answers and has painted them: nothing of them moves its parts any more."""
+    await answered(tab)
+    await painted(tab)
+
+
+async def settled(tab: Tab, fake: FakeConsole) -> None:
+    """Wait until the page has its answers, the newest rows and the state after them, and has painted all."""
+    for _ in range(1000):
+        await answered(tab)
+        await fake.until(lambda: not fake.busy)
+        serial = fake.serial
+        await tab.until(
+            "import('/page/flights.js').then(({ flights: { vehicles } }) => vehicles.length > 0 &&"
+            f" vehicles.every(v => v.tick?.serial === {serial} && v.table.n === {fake.flown}))"
+        )
+        if await painted(tab) and not under_way(tab) and not fake.busy and serial == fake.serial:
+            return
+    raise AssertionError("the page does not settle")
 
 
 def by_day() -> dict[str, tuple[int, int, int]]:
