@@ -1,4 +1,4 @@
-/* Start (pressed for a second), Hold, Resume and Abort (one click, always enabled, without confirmation). */
+/* Start (pressed for a second), Hold, Resume (one click) and Abort (one press, always enabled, without confirmation). */
 import { $, write } from "./dom.js";
 import { digestOf, flights, locked, shown } from "./flights.js";
 import { paints, repaint } from "./painting.js";
@@ -54,7 +54,9 @@ for (const end of ["visibilitychange", "vehicle"]) document.addEventListener(end
 $("hold").addEventListener("click", () => send("hold", "Hold"));
 $("resume").addEventListener("click", () => send("resume", "Resume"));
 export const abort = () => send("abort", "Abort");
-$("abort").addEventListener("click", abort);
+/* A click may be lost where the pointer slides off: Abort goes with the press. Clicks of keys and of assistive technology have no detail. */
+$("abort").addEventListener("pointerdown", e => { if (e.button === 0) abort(); });
+$("abort").addEventListener("click", e => { if (!e.detail) abort(); });
 
 paints(() => {
   const v = shown(), t = v && v.tick, may = Boolean(flights.hello && flights.hello.may_command);

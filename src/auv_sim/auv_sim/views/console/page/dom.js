@@ -26,6 +26,19 @@ export function renew(element, content, make) {
   element.replaceChildren(...content.map(make));
 }
 
+/* Show one child for each item: `key` names it, `make` builds it once, `show` writes what may change.
+   A child that stays is not replaced: a press on it still becomes a click, and it keeps the focus. */
+export function keep(element, items, key, make, show) {
+  const there = new Map([...element.children].map(child => [child.dataset.key, child]));
+  const children = items.map(item => {
+    const name = key(item), child = there.get(name) || make(item);
+    there.delete(name); child.dataset.key = name; show(child, item);
+    return child;
+  });
+  for (const gone of there.values()) gone.remove();
+  children.forEach((child, at) => { if (element.children[at] !== child) element.insertBefore(child, element.children[at] || null); });
+}
+
 /* Seconds as 0:07, 12:34 or 1:02:03. */
 export function clock(seconds) {
   if (!Number.isFinite(seconds)) return "–";

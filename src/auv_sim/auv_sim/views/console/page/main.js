@@ -50,6 +50,17 @@ tabs.forEach((tab, k) => {
   });
 });
 
+/* A press counts for the button that it began on, wherever new lines move that button until the release; not if it is drawn away. */
+const AWAY = 30;
+addEventListener("pointerdown", down => {
+  const button = down.target.closest("button:not(#start)"), { pointerId } = down;
+  if (!button || down.button !== 0) return;
+  try { button.setPointerCapture(pointerId); } catch { return; /* a press that assistive technology makes has no pointer */ }
+  const drawn = e => { if (Math.hypot(e.clientX - down.clientX, e.clientY - down.clientY) > AWAY && button.hasPointerCapture(pointerId)) button.releasePointerCapture(pointerId); };
+  button.addEventListener("pointermove", drawn);
+  button.addEventListener("lostpointercapture", () => button.removeEventListener("pointermove", drawn), { once: true });
+});
+
 /* Day and night: the system's setting, or one of them. */
 const LIGHTS = ["", "day", "night"], WORDS = { "": "Auto", day: "Day", night: "Night" };
 let light = LIGHTS.includes(kept.get("console-light")) ? kept.get("console-light") : "";
@@ -66,7 +77,7 @@ const KEYS = { ...chartKeys, n: otherLight, s: () => $("mute").click() };
 addEventListener("keydown", e => {
   if (e.key === "Escape" && e.shiftKey) { e.preventDefault(); abort(); return; }
   if (e.ctrlKey || e.metaKey || e.altKey || e.target.closest("input, textarea, select, [role=tab]")) return;
-  const act = KEYS[e.key] || (/^[1-9]$/.test(e.key) ? () => choose(Number(e.key) - 1) : null);
+  const act = KEYS[e.key] || (/^[1-9]$/.test(e.key) ? () => choose(flights.vehicles[Number(e.key) - 1]?.namespace) : null);
   if (act) act();
 });
 addEventListener("resize", repaint);

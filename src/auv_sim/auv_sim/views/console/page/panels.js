@@ -1,5 +1,5 @@
 /* Health, events and alarms. An alarm sounds until it is acknowledged. */
-import { $, clock, el, kept, renew, write } from "./dom.js";
+import { $, clock, el, keep, kept, renew, write } from "./dom.js";
 import { flights, shown } from "./flights.js";
 import { paints, repaint } from "./painting.js";
 
@@ -36,18 +36,26 @@ function alarmBar() {
   const all = alarms(), several = flights.vehicles.length > 1, may = Boolean(flights.hello && flights.hello.may_command);
   const open = all.filter(a => !a.acknowledged), most = { all: true, open };
   $("alarms").hidden = !all.length;
-  renew($("alarms"), [...(may && open.length > 2 ? [most] : []), ...all.map(a => ({ ...a, may }))], a => {
-    if (a.all) return el("div", { class: "alarm all" }, `${open.length} alarms`,
-      el("button", { type: "button", text: "Acknowledge all", onclick: () => open.forEach(acknowledge) }));
-    const state = a.active ? "" : " (over)";
-    const row = el("div", { class: a.acknowledged ? "alarm seen" : "alarm" }, el("strong", { text: "Alarm" }),
-      el("span", { text: `${several ? a.of + ": " : ""}${a.text}${state}` }),
-      el("small", { text: Number.isFinite(a.since) ? `at ${clock(a.since)} of the mission` : "" }));
-    if (!a.acknowledged && may) row.append(el("button", { type: "button", text: "Acknowledge", "aria-label": `Acknowledge: ${a.text}`,
-      onclick: () => acknowledge(a) }));
-    else if (a.acknowledged) row.append(el("small", { text: "acknowledged" }));
-    return row;
+  /* The button for all is the last: the one below the pointer stays the same. */
+  keep($("alarms"), [...all, ...(may && open.length > 2 ? [most] : [])], a => a.all ? "all" : `${a.namespace} ${a.id}`, alarmRow, (row, a) => {
+    row.of = a;
+    const [button, words, since] = ["button", "span", ".since"].map(name => row.querySelector(name));
+    if (a.all) { write(words, `${open.length} alarms`); return; }
+    row.classList.toggle("seen", a.acknowledged);
+    write(words, `${several ? a.of + ": " : ""}${a.text}${a.active ? "" : " (over)"}`);
+    write(since, Number.isFinite(a.since) ? `at ${clock(a.since)} of the mission` : "");
+    button.hidden = a.acknowledged || !may;
+    button.setAttribute("aria-label", `Acknowledge: ${a.text}`);
+    row.querySelector(".done").hidden = !a.acknowledged;
   });
+}
+
+/* A row of the bar; its property `of` is what it shows. */
+function alarmRow({ all }) {
+  const button = (text, act) => el("button", { type: "button", text, onclick: e => act(e.currentTarget.parentElement.of) });
+  if (all) return el("div", { class: "alarm all" }, el("span"), button("Acknowledge all", most => most.open.forEach(acknowledge)));
+  return el("div", { class: "alarm" }, el("strong", { text: "Alarm" }), el("span"), el("small", { class: "since" }),
+    button("Acknowledge", acknowledge), el("small", { class: "done", text: "acknowledged" }));
 }
 
 function sounds() {

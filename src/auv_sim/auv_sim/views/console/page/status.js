@@ -1,5 +1,5 @@
 /* The head of the page: state and reason, progress, figures, pre-flight line, vehicles; the banner. */
-import { $, clock, el, renew, write } from "./dom.js";
+import { $, clock, el, keep, renew, write } from "./dom.js";
 import { fmt } from "./drawing.js";
 import { flights, guided, isLocated, reasonOf, shown, stateOf } from "./flights.js";
 import { heading } from "./rows.js";
@@ -56,21 +56,19 @@ function vehicles() {
   const list = $("vehicles");
   list.hidden = flights.vehicles.length < 2 && Boolean(shown());
   if (list.hidden) return;
-  const about = flights.vehicles.map((v, k) => ({ name: v.name || v.namespace, state: stateOf(v), colour: v.colour, chosen: v === shown(), k,
-    alarm: v.alarms.some(a => a.active) }));
-  renew(list, about, one => {
-    const dot = el("i");
-    dot.style.background = `var(--${one.colour})`;
-    return el("button", { type: "button", "aria-pressed": String(one.chosen), onclick: () => choose(one.k) },
-      dot, `${one.name} `, el("small", { text: one.alarm ? `${one.state}, alarm` : one.state }));
-  });
+  keep(list, flights.vehicles, v => v.namespace,
+    ({ name, namespace }) => el("button", { type: "button", onclick: () => choose(namespace) }, el("i"), `${name || namespace} `, el("small")),
+    (button, v) => {
+      button.setAttribute("aria-pressed", String(v === shown()));
+      button.querySelector("i").style.background = `var(--${v.colour})`;
+      write(button.querySelector("small"), v.alarms.some(a => a.active) ? `${stateOf(v)}, alarm` : stateOf(v));
+    });
 }
 
 /* Show another vehicle. */
-export function choose(k) {
-  if (!flights.vehicles[k]) return;
-  if (flights.vehicles[k].namespace === flights.namespace) return;
-  flights.namespace = flights.vehicles[k].namespace;
+export function choose(namespace) {
+  if (!namespace || namespace === flights.namespace) return;
+  flights.namespace = namespace;
   document.dispatchEvent(new Event("vehicle"));
   repaint();
 }
