@@ -110,12 +110,17 @@ class RemusPlantNode(SuiteNode):
     def _on_mission_state(self, message: String) -> None:
         refused = self._commands.mission.hear(message.data, time.monotonic())
         self.mission_running = message.data == MissionState.RUNNING
-        if self.free_run is not None and self.mission_running:
-            self.free_run.at_rest = False
+        if self.mission_running:
+            self.mission_runs()
         if self._lockstep is not None:
             self._lockstep.on_mission_state()
         if refused is not None:
             raise refused
+
+    def mission_runs(self) -> None:
+        """Let the vehicle move: the mission runs, by its latest message."""
+        if self.free_run is not None:
+            self.free_run.at_rest = False
 
     def _on_reset(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         # It waits for the next step: in lockstep, the answer to the present one must not meet the new first.

@@ -11,6 +11,8 @@ import pydantic
 import pytest
 
 from auv_sim.bags.content.recorded_manoeuvres import manoeuvres_in
+from auv_sim.bags.reading.bag_reader import read_bag
+from auv_sim.bags.reading.manoeuvre_topics import READ
 from auv_sim.cli.vehicles import vehicle_command
 from auv_sim.own_vehicle.manoeuvres.manoeuvre_run import ManoeuvreBounds
 from auv_sim.own_vehicle.verbs.manoeuvres import BOX, CURRENT, SPEED
@@ -46,6 +48,23 @@ def test_a_rehearsal_is_recorded_for_identification(tmp_path: Path) -> None:
     answered = recorded.rudder.t[recorded.rudder.t < recorded.rudder.t[0] + 12.0]
     assert np.unique(answered).size == answered.size > 200
     assert set(answered) <= set(recorded.run.t)
+
+
+def test_one_seed_makes_one_flight_to_the_last_bit(tmp_path: Path) -> None:
+    (tmp_path / "short.yaml").write_text(PROGRAM.replace("10,", "2,").replace("seconds: 4", "seconds: 1"))
+    words = ["manoeuvres", "--vehicle", "remus100", "--program", str(tmp_path / "short.yaml"), "--quiet"]
+    words += ["--sea", "moderate", "--seed", "5", "--speed", "1000"]
+    flights = []
+    for name in ("first", "second"):
+        out = ["--out", str(tmp_path / name)]
+        subprocess.run([sys.executable, "-c", CODE, *words, *out], check=True, timeout=600)
+        bag = read_bag(tmp_path / name / "bag")
+        odometry, log, rudder, thrust = (bag.find(topic.name) for topic in READ[:4])
+        assert odometry is not None and log is not None and rudder is not None and thrust is not None
+        count = odometry.count  # zeros follow for a time by the wall clock
+        flights.append([topic.messages[:count] for topic in (odometry, log, rudder, thrust)])
+        assert count == 361  # 3 s, and 15 s of coasting
+    assert flights[0] == flights[1]
 
 
 @pytest.mark.parametrize(

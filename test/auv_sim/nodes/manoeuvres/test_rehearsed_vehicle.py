@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import itertools
+
+import pytest
+
 from auv_sim.nodes.manoeuvres.rehearsed_vehicle import PATIENCE, AwaitedAnswers
 
+COMMANDS = ("rudder_cmd", "thrust_cmd")
 
-def test_a_step_waits_for_every_command_that_has_ever_come() -> None:
-    awaited = AwaitedAnswers()
-    awaited.asked(10.0)
-    assert awaited.complete(10.0)  # nothing flies it yet
-    awaited.answered("rudder_cmd")
-    awaited.answered("thrust_cmd")
+
+def test_a_step_waits_for_every_command() -> None:
+    awaited = AwaitedAnswers(COMMANDS)
+    for word in ("mission_state", *COMMANDS):
+        awaited.answered(word)
     awaited.asked(11.0)
     assert not awaited.complete(11.0)
     awaited.answered("rudder_cmd")
@@ -19,9 +23,21 @@ def test_a_step_waits_for_every_command_that_has_ever_come() -> None:
     assert awaited.complete(11.1)
 
 
+@pytest.mark.parametrize("order", itertools.permutations(("mission_state", *COMMANDS)))
+def test_the_first_step_waits_for_the_whole_first_answer(order: tuple[str, ...]) -> None:
+    """Else the vehicle is at rest for a step more where one of its messages is late."""
+    awaited = AwaitedAnswers(COMMANDS)
+    awaited.asked(10.0)
+    for word in order:
+        assert not awaited.complete(10.1)
+        awaited.answered(word)
+    assert awaited.complete(10.1)
+    awaited.asked(11.0)
+    assert not awaited.complete(11.0)
+
+
 def test_a_vehicle_that_is_left_alone_moves_on() -> None:
-    awaited = AwaitedAnswers()
-    awaited.answered("rudder_cmd")
+    awaited = AwaitedAnswers(COMMANDS)
     awaited.asked(5.0)
     assert not awaited.complete(5.0 + 0.9 * PATIENCE)
     assert awaited.complete(5.0 + 1.1 * PATIENCE)

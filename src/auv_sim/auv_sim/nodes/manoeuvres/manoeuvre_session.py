@@ -144,7 +144,7 @@ def _nodes(
             "sea": options.sea or "", "seed": options.seed, "current.Vx": north, "current.Vy": east,
             "flood_rate": 200.0 * max(options.speed, 1.0),
         }  # fmt: skip
-        make = partial(RehearsedVehicle, lambda: made[0].finished or bool(made[0].fault))
+        make = partial(RehearsedVehicle, lambda: made[0])
         factories.append(partial(_node, make, options.namespace, plant))
     return factories
 
