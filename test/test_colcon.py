@@ -117,6 +117,17 @@ def test_launch_files_stand_where_ros2_launch_looks(install: Path) -> None:
     assert os.access(install / "auv_sim/lib/auv_sim/mission_supervisor", os.X_OK)
 
 
+def test_a_printed_command_works_where_there_is_no_scripts_folder(install: Path) -> None:
+    """A mission of `ros2 launch` ends with the next command, as one of `scripts/mission.py` does."""
+    ask = "from auv_sim.command_line import to_type; print(to_type('vehicle.py', '--help'))"
+    command = in_workspace(install, f'{sys.executable} -c "{ask}"')
+    printed = subprocess.run(command, cwd=install, capture_output=True, text=True, check=True).stdout
+    done = subprocess.run(
+        in_workspace(install, printed.strip()), cwd=install, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0 and "manoeuvres" in done.stdout, printed + done.stderr
+
+
 @pytest.mark.parametrize(("package", "executable"), EXECUTABLES)
 def test_executables_start_in_a_namespace_and_leave_on_sigint(
     install: Path, observer: Node, tmp_path: Path, package: str, executable: str

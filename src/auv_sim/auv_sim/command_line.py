@@ -26,6 +26,11 @@ from auv_msgs_py.values.ros_domain import EXPECTED, is_ros_domain
 P = ParamSpec("P")
 A = TypeVar("A", bound=argparse.Action)
 
+#: Of the scripts whose module has another name.
+_MODULES = {
+    "vehicle.py": "auv_sim.cli.vehicles.vehicle_command",
+    "check_vehicle.py": "auv_sim.cli.vehicles.check_vehicle",
+}
 EXIT_DONE, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
 
 
@@ -177,12 +182,14 @@ def ros_domain(text: str) -> int:
 def to_type(script: str, *words: object, **options: object) -> str:
     """Return a command of `scripts/`, quoted for the shell that started the present one.
 
+    Where the package is installed without the scripts, as by colcon, it is the command's module.
+
     Args:
         script: its file.
         words: positional arguments.
         options: name -> value, or several; True stands for the option alone, None for none.
     """
-    line = ["python3", _beside(script), *map(str, words)]
+    line = [*_program(script), *map(str, words)]
     for name, value in options.items():
         if value is not None:
             values = value if isinstance(value, (tuple, list)) else () if value is True else (value,)
@@ -190,12 +197,14 @@ def to_type(script: str, *words: object, **options: object) -> str:
     return shlex.join(line)
 
 
-def _beside(script: str) -> str:
-    """Return the path of a script, written as that of the running one: the shell may be in any directory."""
+def _program(script: str) -> list[str]:
+    """Return what starts a script, its path as that of the running one: the shell may be in any directory."""
     running = Path(sys.argv[0])
     if running.resolve().parent.name == "scripts" and running.with_name(script).is_file():
-        return str(running.with_name(script))
-    return f"scripts/{script}"
+        return ["python3", str(running.with_name(script))]
+    if (Path(__file__).resolve().parents[3] / "scripts" / script).is_file():
+        return ["python3", f"scripts/{script}"]
+    return [sys.executable, "-m", _MODULES.get(script, f"auv_sim.cli.{Path(script).stem}")]
 
 
 def not_default(parser: argparse.ArgumentParser, options: argparse.Namespace) -> dict[str, Any]:
