@@ -31,6 +31,8 @@ def test_figures_have_units_and_the_next_command_is_quoted(short_mission: Path, 
     mission_results.show(resolved, directory, Outcome("complete", "", 10.0, 40.0), summary, console)
     for head in ("time (s)", "rms distance (m)", "largest (m)", "rms heading error (°)", "rudder (°/m)"):
         assert head in told.getvalue()
+    # The launcher's 40 s are those that it saw; the mission's own time is in the table.
+    assert "flown in 10.0 s of wall time, 4 times real time" in told.getvalue().splitlines()
     last = told.getvalue().splitlines()[-1].removeprefix("Look further:")
     assert shlex.split(last) == ["python3", "scripts/bag.py", "report", str(directory)]
 
