@@ -46,9 +46,12 @@ class Live:
         """Start the console, on the same port as before."""
         self._console = self._start("console", "--port", self._port, output=subprocess.PIPE)
         assert self._console.stdout is not None
-        lines = [self._console.stdout.readline() for _ in range(2)]
-        addresses = [found[0] for line in lines if (found := re.search(r"http://\S+", line))]
-        assert len(addresses) == 2, lines
+        lines: list[str] = []
+        addresses: list[str] = []
+        while len(addresses) < 2:  # among lines of the middleware, on a machine with more of its kind
+            lines.append(self._console.stdout.readline())
+            assert lines[-1], lines
+            addresses += re.findall(r"http://\S+", lines[-1])
         self.address, self.to_look = addresses
         self._port = int(self.address.partition("127.0.0.1:")[2].partition("/")[0])
 
@@ -103,13 +106,18 @@ async def state(tab: Tab, expected: str) -> None:
 async def start(tab: Tab) -> None:
     """Wait for the pre-flight line, and keep Start pressed until the page has an answer.
 
-    A pre-flight that changes meanwhile cancels a press, and the page says so: press again.
+    A pre-flight that changes meanwhile cancels a press, and the page says so; where it has changed before the
+    press, the page takes none: press again.
     """
     said = "document.getElementById('answer').textContent"
-    for _ in range(5):
+    answer, is_taken = "", f"document.getElementById('start').classList.contains('pressed') || {said} !== ''"
+    for _ in range(20):
         await tab.until("document.getElementById('start').getAttribute('aria-disabled') === 'false'")
         await tab.value(f"{said} = ''")
         at = await tab.press("#start")
+        if not await tab.value(is_taken):
+            await tab.mouse("Released", *at)
+            continue
         await tab.until(f"/^Start: .*[^…]$/.test({said})")
         await tab.mouse("Released", *at)
         answer = str(await tab.value(said))

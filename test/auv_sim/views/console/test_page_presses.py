@@ -60,7 +60,8 @@ async def test_abort_is_sent_with_the_press_and_once(tab: Tab, fake: FakeConsole
         await tab.key("Down", key, text=text, windowsVirtualKeyCode=ord(text))
         await tab.key("Up", key, windowsVirtualKeyCode=ord(text))
     assert [one["do"] for one in await fake.requests()] == ["abort"] * 3
-    await tab.call("Input.dispatchMouseEvent", type="mousePressed", x=at[0], y=at[1], button="right")
+    for kind in ("mousePressed", "mouseReleased"):
+        await tab.call("Input.dispatchMouseEvent", type=kind, x=at[0], y=at[1], button="right")
     assert len(await fake.requests()) == 3
 
 
