@@ -17,9 +17,9 @@ from auv_msgs_py.settings.result_files import write_text
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import config_files
 from auv_path_following import vehicle as vehicle_file
-from auv_path_following.vehicle import Vehicle
+from auv_path_following.vehicle import Hull, Vehicle
 from auv_sim.command_line import add_overwrite, add_quiet, not_negative, positive, say, target, to_type
-from auv_sim.own_vehicle.identify.combinations import COUNT
+from auv_sim.own_vehicle.identify.combinations import COUNT, combinations_of
 from auv_sim.own_vehicle.identify.dive.dive_combinations import DiveCombinations
 from auv_sim.own_vehicle.identify.hull_abilities import abilities_of
 from auv_sim.own_vehicle.identify.identification import Identified, identify
@@ -47,6 +47,7 @@ from auv_sim.own_vehicle.identify.results.plausibility import (
     latency_doubts,
     thrust_doubts,
 )
+from auv_sim.own_vehicle.identify.results.rudder_plausibility import share_doubts
 from auv_sim.own_vehicle.identify.time_grid import FOLLOWED, PlanarData, shared_time
 from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, RATE, DataSheet, typed
 from auv_sim.own_vehicle.identify.water_current import mean_current
@@ -54,7 +55,7 @@ from auv_sim.own_vehicle.verbs.dive_report import IdentifiedDive, identified_div
 from auv_sim.own_vehicle.verbs.identification_study import add_study_arguments, study
 from auv_sim.own_vehicle.verbs.identify_checks import check_effect, check_options, check_target
 from auv_sim.own_vehicle.verbs.left_out import ENOUGH, LAST, divided
-from auv_sim.own_vehicle.verbs.recordings_read import Recorded, add_reading_arguments, read
+from auv_sim.own_vehicle.verbs.reading.recordings_read import Recorded, add_reading_arguments, read
 from auv_sim.terminal import console as terminal
 from auv_sim.terminal import go_on, progress_bar, steps_in, wrote
 
@@ -142,8 +143,7 @@ def run(arguments: argparse.Namespace) -> int:
         found = identify(used, hull, sheet, band, steps_in(bar))
     check_sign(found, where)
     check_fit(found, where)
-    for doubt in (*doubts(found, used, vehicle, -hull.Xuu), *latency_doubts(found), *thrust_doubts(found)):
-        say(f"notice {doubt}", error=True)
+    _report_doubts(arguments, found, used, vehicle, hull)
     dives = [one.dive for one in recorded if one.dive is not None]
     dive = identified_dive(dives, vehicle, hull, found, left_out, arguments.quiet)
     report(arguments, vehicle, recordings, left_out, found, dive)
@@ -161,6 +161,17 @@ def _report_reading(paths: Sequence[Path], recorded: Sequence[Recorded]) -> None
                 " are not used: the angles of the fins are not known there",
                 error=True,
             )
+
+
+def _report_doubts(
+    arguments: argparse.Namespace, found: Identified, used: list[PlanarData], vehicle: Vehicle, hull: Hull
+) -> None:
+    """Print what a person should look at."""
+    lines = [*doubts(found, used, vehicle, -hull.Xuu), *latency_doubts(found), *thrust_doubts(found)]
+    if not any(text.startswith("rudder_cmd=") for text in arguments.unit):
+        lines += share_doubts(found, combinations_of(hull), vehicle.rudder)
+    for line in lines:
+        say(f"notice {line}", error=True)
 
 
 def report(
@@ -211,7 +222,7 @@ def check_sign(found: Identified, where: str) -> None:
         raise ConfigurationError(
             f"{where}: rudder_cmd",
             "a positive rudder that turns to starboard",
-            "one that turns to port, REP-103",
+            "one that turns to port, REP-103: --unit rudder_cmd=-rad (-deg, -percent, -share)",
         )
 
 

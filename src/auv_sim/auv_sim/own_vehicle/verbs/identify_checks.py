@@ -15,7 +15,7 @@ from auv_sim.own_vehicle.output_files import check_outputs
 _OF_STUDY = ("first", "program", "dive", "sea", "workers", "page")
 _OF_RECORDINGS = (
     "vehicle", "log_latency", "dead_band", "left_out", "log_scale", "thrust_bias", "rudder_rate", "topic",
-    "frame", "namespace",
+    "frame", "unit", "namespace",
 )  # fmt: skip
 #: Largest latency of a log (s), error by a data sheet (per cent), and range of a rudder's rate (deg/s).
 _LATENCY, _PERCENT, _RATE = 2.0, 50.0, (0.1, 1000.0)

@@ -12,7 +12,7 @@ import pytest
 from auv_msgs_py.contract.frames import FrameIds
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.content.recorded_manoeuvres import manoeuvres_in
-from auv_sim.own_vehicle.verbs.recordings_read import frames_with
+from auv_sim.own_vehicle.verbs.reading.recordings_read import frames_with
 from foreign_bag import (
     COUNT,
     FINS,

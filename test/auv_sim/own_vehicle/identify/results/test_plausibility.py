@@ -70,7 +70,7 @@ def test_the_contracts_units_pass(data: PlanarData) -> None:
         (lambda rudder, thrust: (np.degrees(rudder), thrust), r"rudder_cmd: found angles up to 35, .*rad"),
         (
             lambda rudder, thrust: (2.5 * rudder, thrust),
-            r"rudder_cmd: found angles up to 1\.53, 35% of them beyond .*shares",
+            r"rudder_cmd: found angles up to 1\.53, 35% of them beyond .*share",
         ),
         (lambda rudder, thrust: (rudder, 15.0 * thrust), r"thrust_cmd: found up to 97\.2, .*6\.48 N"),
     ],

@@ -14,15 +14,12 @@ from auv_sim.own_vehicle.identify.identification import Identified
 from auv_sim.own_vehicle.identify.innovations import filtered
 from auv_sim.own_vehicle.identify.predictions import predictions_of
 from auv_sim.own_vehicle.identify.refine.own_trims import derivative, shifts_of
+from auv_sim.own_vehicle.identify.results.rudder_plausibility import check_rudder, check_rudder_sign
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
 from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, LATENCY
 
-#: Share of the commands that may exceed a limit: a controller may request more than there is for a moment.
-_EXCEEDING = 0.02
-#: Largest thrust over the file's; largest angle of a rudder, rad.
-_MORE_THRUST, _LARGEST_ANGLE = 1.1, 0.5 * math.pi
-#: Largest share of commands beyond 1.1 of the largest angle: a controller may saturate at times.
-_SATURATED, _MORE_ANGLE = 0.25, 1.1
+#: Share of the commands that may exceed a limit, and largest thrust over the file's.
+_EXCEEDING, _MORE_THRUST = 0.02, 1.1
 #: Range of the heading's change over that by the yaw rate; changes in longer gaps (s) are left out.
 _RATE, _LONGEST_STEP = (0.7, 1.4), 0.5
 #: Correlation of sway with the yaw rate (-0.86 to -0.98 on 21 hulls in a rough sea) of another sign.
@@ -43,22 +40,21 @@ _LEAST_SHIFT, _CLEARLY, _STEP = 0.05, 4.0, 1e-3
 _HIGH, _LOW, _HELD, _SETTLED, _SHAPE = 0.85, (0.2, 0.7), 10.0, 10.0, 0.03
 
 
-def check_commands(rudder: Numbers, thrust: Numbers, vehicle: Vehicle, where: str) -> None:
+def check_commands(
+    rudder: Numbers, thrust: Numbers, vehicle: Vehicle, where: str, is_unit_given: bool = False
+) -> None:
     """Check that commands have the units of the wire contract and of the vehicle's file.
 
     Args:
         rudder, thrust: as recorded.
         vehicle: limits.
         where: name of the recording.
+        is_unit_given: whether the owner has stated the rudder's unit: angles that end at 1 are no shares.
 
     Raises:
         ConfigurationError: angles that no rudder has, or this one, or more thrust than the vehicle has.
     """
-    beyond = float(np.mean(np.abs(rudder) > _MORE_ANGLE * vehicle.rudder.max_angle)) if rudder.size else 0.0
-    if beyond > _SATURATED or (rudder.size and np.mean(np.abs(rudder) > _LARGEST_ANGLE) > _EXCEEDING):
-        found = f"angles up to {np.max(np.abs(rudder)):.3g}, {beyond:.0%} of them beyond the rudder's largest"
-        expected = f"radians, {vehicle.rudder.max_angle:.2g} at most, neither degrees, per cent nor shares"
-        raise ConfigurationError(f"{where}: rudder_cmd", found, expected)
+    check_rudder(rudder, vehicle, where, is_unit_given)
     if thrust.size and np.mean(thrust > _MORE_THRUST * vehicle.thrust_max) > _EXCEEDING:
         symbol = vehicle.thrust_symbol
         expected = f"up to thrust_max of {vehicle.name}, {vehicle.thrust_max:g} {symbol}, in that unit"
@@ -75,10 +71,11 @@ def check_motion(recordings: Sequence[PlanarData], vehicle: Vehicle, drag: float
         where: name of the recordings.
 
     Raises:
-        ConfigurationError: as `check_yaw_rate`, `check_sway` and `check_speed`.
+        ConfigurationError: as `check_yaw_rate`, `check_sway`, `check_rudder_sign` and `check_speed`.
     """
     check_yaw_rate(recordings, where)
     check_sway(recordings, where)
+    check_rudder_sign(recordings, where)
     check_speed(recordings, vehicle, drag, where)
 
 
@@ -161,7 +158,7 @@ def check_fit(found: Identified, where: str) -> None:
         raise ConfigurationError(
             where,
             f"a hull that predicts the yaw rate over {_HORIZON:g} s to {error}",
-            f"{_LARGEST_ERROR:.0%} or better: check sign and unit of rudder_cmd, and the stamps",
+            f"{_LARGEST_ERROR:.0%} or better: check sign and unit of rudder_cmd (--unit), and the stamps",
         )
 
 

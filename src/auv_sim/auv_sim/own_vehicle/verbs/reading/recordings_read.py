@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.frames import FrameIds
 from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.vehicle import Hull, Vehicle
@@ -23,6 +24,7 @@ from auv_sim.own_vehicle.identify.dive.vertical_motion import VerticalMotion, ve
 from auv_sim.own_vehicle.identify.results.known_vehicle import forces
 from auv_sim.own_vehicle.identify.results.plausibility import check_commands
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
+from auv_sim.own_vehicle.verbs.reading.fin_units import add_unit_argument, in_radians, units_of
 
 #: Heave and pitch need at least so many odometries and samples, and planes that move (deviation, rad).
 _LEAST_ROWS, _LEAST_SAMPLES, _LEAST_ANGLE = 800, 100, 0.01
@@ -54,10 +56,10 @@ class Recorded(NamedTuple):
 
 def add_reading_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options that name what a recording of another make has."""
-    topics = ", ".join(topic.name for topic in READ)
+    names = ", ".join(topic.name for topic in READ)
     parser.add_argument(
         "--topic", action="append", default=[], metavar="NAME=TOPIC[:PART]",
-        help=f"other name of a topic; NAME is one of {topics}; PART is a joint, an index or a field in its "
+        help=f"other name of a topic; NAME is one of {names}; PART is a joint, an index or a field in its "
         "messages",
     )  # fmt: skip
     parser.add_argument(
@@ -65,6 +67,7 @@ def add_reading_arguments(parser: argparse.ArgumentParser) -> None:
         help="axes of a further frame id, such as base_footprint=flu, or of an empty one, =flu; "
         f"AXES is one of {', '.join(_AXES)}",
     )  # fmt: skip
+    add_unit_argument(parser)
     parser.add_argument("--namespace", metavar="NAME", help="which vehicle, where there are several")
 
 
@@ -76,17 +79,20 @@ def read(options: argparse.Namespace, vehicle: Vehicle, hull: Hull) -> list[Reco
         vehicle, hull: limits, unit of the thrust, drag.
 
     Raises:
-        ConfigurationError: as `manoeuvres_in` and `check_commands`; also an unknown name or axes.
+        ConfigurationError: as `manoeuvres_in`, `units_of`, `in_radians` and `check_commands`; also an unknown
+            name or axes.
     """
     names: dict[str, str] = {}
     for name, other in map(_renaming, options.topic):
         if name in names:
             raise ConfigurationError(f"--topic {name}", f"{names[name]} and {other}", "one topic")
         names[name] = other
-    frames, found = frames_with(options.frame), []
+    frames, units, found = frames_with(options.frame), units_of(options.unit), []
     for path in options.bag:
         recorded = manoeuvres_in(path, names, options.namespace, frames=frames)
-        check_commands(recorded.rudder.value, recorded.thrust.value, vehicle, str(path))
+        recorded = in_radians(recorded, units, vehicle, str(path))
+        is_given = topics.RUDDER_CMD.name in units
+        check_commands(recorded.rudder.value, recorded.thrust.value, vehicle, str(path), is_given)
         spans = silences_of(recorded)
         plane = planar(recorded, vehicle, hull, str(path), spans)
         dive = diving(recorded, vehicle, hull, spans)

@@ -15,7 +15,7 @@ from auv_sim.own_vehicle.identify.results.known_vehicle import known_hull
 from auv_sim.own_vehicle.identify.time_grid import FOLLOWED, passage_of
 from auv_sim.own_vehicle.manoeuvres import program_file
 from auv_sim.own_vehicle.manoeuvres.manoeuvre_flight import simulate
-from auv_sim.own_vehicle.verbs.recordings_read import frames_with, motion_within, obeyed, read
+from auv_sim.own_vehicle.verbs.reading.recordings_read import frames_with, motion_within, obeyed, read
 from manoeuvre_bag import write_manoeuvres
 
 
@@ -24,7 +24,7 @@ def test_what_a_vehicle_does_without_commands_is_not_used(tmp_path: Path) -> Non
     flown = simulate(vehicle, None, program_file.load("two_minutes"))
     begin, end = flown.t[0] + 40.0, flown.t[0] + 46.0
     bag = write_manoeuvres(tmp_path / "bag", flown, silent=(begin, end))
-    options = argparse.Namespace(topic=[], frame=[], bag=[bag], namespace=None)
+    options = argparse.Namespace(topic=[], frame=[], unit=[], bag=[bag], namespace=None)
     (recorded,) = read(options, vehicle, known_hull(vehicle))
     data = recorded.plane
     for t in (data.t, data.water_t, data.rudder_t, data.thrust_t):
@@ -42,7 +42,7 @@ def test_a_silence_counts_while_the_odometry_runs(tmp_path: Path) -> None:
     flown = flown._replace(t=flown.t + 100.0, water_t=flown.water_t + 100.0)
     silent = flown.t[0] + 3.0, flown.t[0] + 9.0
     bag = write_manoeuvres(tmp_path / "bag", flown, silent=silent, late=-10.0)
-    options = argparse.Namespace(topic=[], frame=[], bag=[bag], namespace=None)
+    options = argparse.Namespace(topic=[], frame=[], unit=[], bag=[bag], namespace=None)
     (recorded,) = read(options, vehicle, known_hull(vehicle))
     assert recorded.silence == pytest.approx(10.0, abs=0.2)
 

@@ -1,0 +1,1 @@
+"""Recordings as the identification takes them, and the units of their fins."""
