@@ -180,7 +180,7 @@ def test_without_numba_it_says_how_to_install(monkeypatch) -> None:
 def test_the_command_flies_and_concludes(tmp_path, capsys) -> None:
     """Few flights bound nothing, so the verdict is no, and the exit code 1; its worst flight flies again."""
     out = tmp_path / "proof"
-    few = ["prove", "remus100", "--flights", "2", "--delay", "0.05", "--threads", "1", "--out", str(out)]
+    few = ["prove", "remus100", "--flights", "2", "--delay", "0.05", "--workers", "1", "--out", str(out)]
     seas = ["--sea", "calm", "--sea", "rough"]
     assert main([*few, *seas]) == 1
     assert "2 flights bound nothing" in capsys.readouterr().err  # a notice, which --quiet leaves

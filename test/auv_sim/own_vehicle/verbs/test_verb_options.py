@@ -33,6 +33,13 @@ def test_an_option_has_one_placeholder_whatever_the_verb() -> None:
     assert {name: found for name, found in placeholders.items() if len(found) > 1} == DIFFERENT
 
 
+def test_how_many_flights_run_at_once_has_one_name() -> None:
+    """As in `campaign.py` and `sea_trials.py`, whether they run in threads or in processes."""
+    for verb in ("identify", "tune", "prove"):
+        names = {name for action in parsers()[verb]._actions for name in action.option_strings}
+        assert "--workers" in names and "--threads" not in names, verb
+
+
 def test_a_default_is_written_in_one_way() -> None:
     for verb, one in parsers().items():
         for action in one._actions:

@@ -163,7 +163,7 @@ def _json(options: argparse.Namespace, sentence: str, holds: bool, worst: int, r
     asked = {
         name: value
         for name, value in vars(options).items()
-        if name not in ("run", "usual", "quiet", "threads", "made")
+        if name not in ("run", "usual", "quiet", "workers", "made")
     }
     content = {
         "proven": holds,

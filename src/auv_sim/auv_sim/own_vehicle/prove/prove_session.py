@@ -57,11 +57,11 @@ def run(options: argparse.Namespace) -> int:
     with progress_bar(console, disable=options.quiet) as bar:
         begin = partial(_begin, bar)
         advance = begin(f"flights: {label}", len(flights))
-        proof = fly_proof(claim, flights, gains, options.threads, advance)
+        proof = fly_proof(claim, flights, gains, options.workers, advance)
         laws = None
         if options.laws:
             base = params_file.load(config_files.find("params", BASE), SUITE)[topics.GUIDANCE].guidance
-            budget = Budget(options.generations, threads=options.threads)
+            budget = Budget(options.generations, threads=options.workers)
             laws = compare(claim, (label, gains), proof, base, budget, begin)
     return conclude(console, options, own, outputs, Result(claim, label, gains, proof, laws, flights))
 

@@ -77,7 +77,7 @@ def run(options: argparse.Namespace) -> int:
     name, present = present_of(own)
     problem = problem_of(options, own, base)
     _explain(console, problem, name)
-    budget = Budget(options.generations, threads=options.threads)
+    budget = Budget(options.generations, threads=options.workers)
     found, verdict = _tuned(console, problem, budget, options.quiet, "rudder")
     report(console, verdict, name, "the rudder")
     gains, comments = verdict.gains, comments_of(options, own, problem, verdict, name)
@@ -122,7 +122,7 @@ def _tuned_planes(
         say(f"notice {own.name}: {why}", error=True)
         return gains, [f"Pitch gains by the rule: {why}."]
     problem = pitch_problem(own, heading, gains)
-    budget = Budget(math.ceil(DIVES * options.generations), POPULATION_OF_DIVES, options.threads)
+    budget = Budget(math.ceil(DIVES * options.generations), POPULATION_OF_DIVES, options.workers)
     _, verdict = _tuned(console, problem, budget, options.quiet, "stern planes", HELD_OUT_DIVES)
     report(console, verdict, present, "the planes; distances are errors of depth")
     return verdict.gains, planes_comments_of(verdict, present)

@@ -86,7 +86,7 @@ def add_conditions(p: argparse.ArgumentParser, several: Sequence[str] = ()) -> N
     )  # fmt: skip
     p.add_argument("--seed", type=whole, default=CLAIM["seed"], metavar="N", help="of all draws (default: 0)")
     p.add_argument(
-        "--threads", type=at_least_one, default=os.cpu_count() or 1, metavar="N",
+        "--workers", type=at_least_one, default=os.cpu_count() or 1, metavar="N",
         help="flights at the same time (default: all cores)",
     )  # fmt: skip
     add_overwrite(p)

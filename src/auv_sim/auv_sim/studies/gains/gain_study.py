@@ -50,7 +50,7 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--hulls", nargs="+", metavar="NAME", help="some of them (default: all)")
     p.add_argument("--drawn", type=whole, default=10, metavar="N", help="drawn hulls (default: 10)")
     p.add_argument("--generations", type=at_least_one, default=80, metavar="N", help="of a search (80)")
-    p.add_argument("--threads", type=at_least_one, default=1, metavar="N", help="flights at once (1)")
+    p.add_argument("--workers", type=at_least_one, default=1, metavar="N", help="flights at once (1)")
     p.add_argument("--seed", type=whole, default=0, metavar="N", help="of the searches (0)")
     p.add_argument("--rule-only", action="store_true", help="the table of limit cycles alone")
     p.add_argument("--out", type=target, default=Path("gain_study.json"), metavar="FILE", help="figures")
@@ -96,12 +96,12 @@ def _tuned(options: argparse.Namespace, space: GainSpace, robust: GainSet) -> Ro
     hull = space.vehicle
     conditions = Conditions(0.0, 0.05, STEPS, sea.load("moderate"))
     problem = Problem(space, [hull], conditions, options.seed, robust)
-    found = search(problem, Budget(options.generations, threads=options.threads))
-    verdict = judge(problem, found, options.threads)
+    found = search(problem, Budget(options.generations, threads=options.workers))
+    verdict = judge(problem, found, options.workers)
     slower: dict[str, Any] = {"nism": dataclasses.replace(robust.autopilot.nism, kp=KP, kp_from_rudder=False)}
     with_kp = robust._replace(autopilot=dataclasses.replace(robust.autopilot, **slower))
     sets = {"robust": robust, f"kp {KP}": with_kp, "rule": space.rule(), "tuned": verdict.gains}
-    flown = {label: fly_courses(hull, gains, options.threads) for label, gains in sets.items()}
+    flown = {label: fly_courses(hull, gains, options.workers) for label, gains in sets.items()}
     late = hull.rudder.dead_time
     return {
         "source": verdict.source, "why": list(verdict.why),
