@@ -37,7 +37,7 @@ class Stage:
         if self._tab is None:  # a new tab for each test costs twice as much
             self._tab = await self.browser.tab()
         tab = self._tab
-        tab.calm = lambda: at_rest(tab)
+        tab.calm = lambda: settled(tab, fake) if fake.browsers else at_rest(tab)
         fake.quiet = lambda: answered(tab)
         await tab.size(1280, 800)
         await tab.open(await fake.start())
