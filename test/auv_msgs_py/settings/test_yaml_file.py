@@ -184,3 +184,10 @@ def test_what_is_dumped_is_read_back(tmp_path_factory, data):
     path = tmp_path_factory.mktemp("dump", numbered=True) / "f.yaml"
     yaml_file.dump(data, path)
     assert yaml_file.parse(path) == data
+
+
+@pytest.mark.parametrize("text", ["a:\n\tb: 1\n", "a:\n  b: 1\n\tc: 2\n", "\ta: 1\n"])
+def test_a_tab_is_named(text: str) -> None:
+    """The parser's own words are of a character that cannot start a token."""
+    with pytest.raises(ConfigurationError, match=r"line \d, column \d: found a tab, expected spaces"):
+        yaml_file.parse_text(text, "mine.yaml")

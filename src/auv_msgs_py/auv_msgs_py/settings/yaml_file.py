@@ -50,6 +50,8 @@ def parse_text(text: str, where: str) -> Any:
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         place = f"{where}: line {mark.line + 1}, column {mark.column + 1}" if mark else where
+        if mark is not None and text[mark.index : mark.index + 1] == "\t":
+            raise ConfigurationError(place, "a tab", "spaces: YAML is not indented by tabs") from None
         problem = getattr(error, "problem", None) or str(error).splitlines()[0]
         raise ConfigurationError(
             place, f"text that cannot be read ({problem})", "YAML, each key once"
