@@ -10,7 +10,7 @@ import pytest
 from auv_path_following.control.hull_model import tightest_turn
 from auv_path_following.control.rule.fin_response import response_of
 from auv_sim.studies.gains.new_hulls import LENGTHS, SPEEDS, assumed, known_by_little, new_hulls
-from auv_sim.studies.gains.new_study import TARGETS, Known, known
+from auv_sim.studies.gains.new_study import TARGETS, Known, _as_if_known, _true, known, main
 
 
 def test_the_hulls_are_the_same_every_time_and_of_many_sizes() -> None:
@@ -45,3 +45,15 @@ def test_a_hull_that_new_refuses_meets_no_target() -> None:
     assert all(has(good) for has in TARGETS.values())
     for bad in (good._replace(within=0.94), good._replace(rms=0.46), good._replace(yaw_rate=math.inf)):
         assert sum(has(bad) for has in TARGETS.values()) == 2
+
+
+def test_gains_are_for_the_assumed_hull_without_its_allowance_or_for_the_true_one(capsys) -> None:
+    hull = new_hulls(3)["drawn 2"]
+    own = assumed(hull)
+    assert own.assumed_within > 1.0
+    assert _as_if_known(hull) == dataclasses.replace(own, assumed_within=1.0)
+    assert response_of(_true(hull)) == response_of(hull)
+    assert _true(hull).rudder.dead_time == own.rudder.dead_time > hull.rudder.dead_time
+    with pytest.raises(SystemExit):
+        main(["--no-allowance", "--true-hull"])
+    assert "not allowed with" in capsys.readouterr().err

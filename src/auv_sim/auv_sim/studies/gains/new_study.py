@@ -43,6 +43,7 @@ NEAR = 1.0
 #: Duration of a flight on a line, s and in lengths over speed: a long hull needs longer to reach the line.
 #: The yaw rate counts in the second half.
 LINE_SECONDS, LINE_LENGTHS = 120.0, 150.0
+Model = Callable[[Vehicle], Vehicle]
 
 
 class Known(NamedTuple):
@@ -91,7 +92,9 @@ def parser() -> argparse.ArgumentParser:
     p.add_argument("--first", type=whole, default=0, metavar="N", help=first)
     p.add_argument("--hulls", nargs="+", metavar="NAME", help="some of them (default: all)")
     p.add_argument("--seeds", type=at_least_one, default=2, metavar="N", help="surveys of each hull (2)")
-    p.add_argument("--no-allowance", action="store_true", help="gains as if the coefficients were known")
+    gains = p.add_mutually_exclusive_group()
+    gains.add_argument("--no-allowance", action="store_true", help="gains as if the assumptions were known")
+    gains.add_argument("--true-hull", action="store_true", help="gains for the hull that is in the water")
     p.add_argument("--out", type=target, default=Path("new_study.json"), metavar="FILE", help="figures")
     add_overwrite(p)
     return p
@@ -103,8 +106,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     options = parser().parse_args(argv)
     check_outputs([options.out], (), options.overwrite)
     console = terminal()
+    own = _as_if_known if options.no_allowance else _true if options.true_hull else assumed
     found = [
-        known(name, hull, options.seeds, not options.no_allowance)
+        known(name, hull, options.seeds, own)
         for name, hull in chosen(new_hulls(options.drawn, options.first), options.hulls).items()
     ]
     write_text(options.out, json.dumps([one._asdict() for one in found], indent=2) + "\n")
@@ -112,21 +116,29 @@ def main(argv: Sequence[str] | None = None) -> int:
     return EXIT_DONE
 
 
-def known(name: str, hull: Vehicle, seeds: int, has_allowance: bool = True) -> Known:
+def _as_if_known(hull: Vehicle) -> Vehicle:
+    """Return what `assumed` does, for which the rule makes no allowance."""
+    return dataclasses.replace(assumed(hull), assumed_within=1.0)
+
+
+def _true(hull: Vehicle) -> Vehicle:
+    """Return the hull itself, with the delay that it has in the sea `moderate`."""
+    return late(hull, USUAL_DELAY)
+
+
+def known(name: str, hull: Vehicle, seeds: int, controller_model: Model = assumed) -> Known:
     """Return the figures of one hull.
 
     Args:
         name: of the hull.
         hull: that is in the water, without a dead time.
         seeds: of the sea; a survey each.
-        has_allowance: whether the rule's gains allow for assumed coefficients.
+        controller_model: returns the vehicle for which the gains are, and which the controllers assume.
     """
     response, size = response_of(hull), hull.top_speed / hull.length
     figures = name, hull.length, hull.top_speed, response.effect / size**2, response.divergence / size
     try:
-        own = assumed(hull)
-        if not has_allowance:
-            own = dataclasses.replace(own, assumed_within=1.0)
+        own = controller_model(hull)
         surveys = [_survey(hull, own, seed) for seed in range(1, seeds + 1)]
     except ConfigurationError as error:
         nan = math.nan
