@@ -3,8 +3,8 @@
 
 For one test: scripts/test.py -k fermat -x
 
-Where no more than three tests fail among the others, they run once more alone. Their result then counts, and
-the last lines name them.
+Where no more than three tests fail, they run once more without the others. That result counts, and the last
+lines name them.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ CHECKS = {
         *("--dist", "loadfile", "--no-loadscope-reorder"),
     ),
 }
-#: So few failed tests run once more alone: what is broken fails again, what met a busy machine passes.
+#: So few failed tests run again without the others: what is broken fails, what met a busy machine passes.
 FEW = 3
 SOME_FAILED = 1  # pytest's exit code
 
@@ -65,7 +65,7 @@ def run(arguments: list[str], domain: int) -> int:
     verdicts = ", ".join("{} {}".format(name, "FAILED" if code else "ok") for name, code in results.items())
     print(f"== {verdicts} ({time.monotonic() - began:.0f} s)", flush=True)
     for test in repeated:
-        print(f"== failed among the others, run again alone: {test}", flush=True)
+        print(f"== failed among the others, run again without them: {test}", flush=True)
     return int(any(results.values()))
 
 

@@ -1,4 +1,4 @@
-"""scripts/test.py: few failed tests run once more alone, and what fails again fails the suite."""
+"""scripts/test.py: few failed tests run again without the others, and what fails again fails the suite."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def test_what_failed_once_runs_again_alone_and_is_named(
     assert "1 failed, 1 passed" in said
     *_, verdict, named = said.splitlines()
     assert verdict.startswith("== lint ok, tests ok (")
-    assert named == "== failed among the others, run again alone: test_once.py::test_a_busy_machine"
+    assert named == "== failed among the others, run again without them: test_once.py::test_a_busy_machine"
 
 
 def test_what_fails_again_fails_the_suite(command: ModuleType, tmp_path: Path) -> None:

@@ -186,8 +186,12 @@ def test_what_is_dumped_is_read_back(tmp_path_factory, data):
     assert yaml_file.parse(path) == data
 
 
-@pytest.mark.parametrize("text", ["a:\n\tb: 1\n", "a:\n  b: 1\n\tc: 2\n", "\ta: 1\n"])
-def test_a_tab_is_named(text: str) -> None:
-    """The parser's own words are of a character that cannot start a token."""
+@pytest.mark.parametrize("text", ["a:\n\tb: 1\n", "a:\n  b: 1\n\tc: 2\n", "\ta: 1\n", "\ufeffa:\n\tb: 1\n"])
+def test_indentation_by_a_tab_is_reported_as_a_tab(text: str) -> None:
     with pytest.raises(ConfigurationError, match=r"line \d, column \d: found a tab, expected spaces"):
         yaml_file.parse_text(text, "mine.yaml")
+
+
+def test_a_tab_elsewhere_is_no_indentation() -> None:
+    with pytest.raises(ConfigurationError, match="found text that cannot be read"):
+        yaml_file.parse_text("a: &\tb\n", "mine.yaml")

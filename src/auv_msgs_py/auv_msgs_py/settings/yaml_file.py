@@ -50,12 +50,18 @@ def parse_text(text: str, where: str) -> Any:
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         place = f"{where}: line {mark.line + 1}, column {mark.column + 1}" if mark else where
-        if mark is not None and text[mark.index : mark.index + 1] == "\t":
+        if mark is not None and _is_indented_by_tab(text.removeprefix("\ufeff"), mark.index):
             raise ConfigurationError(place, "a tab", "spaces: YAML is not indented by tabs") from None
         problem = getattr(error, "problem", None) or str(error).splitlines()[0]
         raise ConfigurationError(
             place, f"text that cannot be read ({problem})", "YAML, each key once"
         ) from None
+
+
+def _is_indented_by_tab(text: str, at: int) -> bool:
+    """Return whether a place in a text is a tab that only white space precedes in its line."""
+    before = text[text.rfind("\n", 0, at) + 1 : at]
+    return text[at : at + 1] == "\t" and not before.strip()
 
 
 def load(path: Path, cls: type[T]) -> T:

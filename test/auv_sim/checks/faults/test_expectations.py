@@ -98,6 +98,6 @@ def test_the_last_line_counts_the_rows_that_a_busy_machine_made_late() -> None:
     )
     late = [RowResult(stop, 0.65, 0.6), RowResult(stop, 0.55, 0.7)]
     assert summary([*late, on_time, failed], 9.0, 4.0) == (
-        "3 of 4 rows as docs/safety.md says (2 with the 1 s that a busy machine may add),"
+        "3 of 4 rows as docs/safety.md says (2 within the allowance for a busy machine),"
         " in 9 s of wall time at 4 times real time"
     )

@@ -6,7 +6,7 @@ import itertools
 
 import pytest
 
-from auv_sim.nodes.manoeuvres.rehearsed_vehicle import PATIENCE, AwaitedAnswers
+from auv_sim.nodes.manoeuvres.rehearsed_vehicle import LOOK, PATIENCE, AwaitedAnswers
 
 COMMANDS = ("rudder_cmd", "thrust_cmd")
 
@@ -39,5 +39,13 @@ def test_the_first_step_waits_for_the_whole_first_answer(order: tuple[str, ...])
 def test_a_vehicle_that_is_left_alone_moves_on() -> None:
     awaited = AwaitedAnswers(COMMANDS)
     awaited.asked(5.0)
-    assert not awaited.complete(5.0 + 0.9 * PATIENCE)
-    assert awaited.complete(5.0 + 1.1 * PATIENCE)
+    looks = [awaited.complete(5.0 + 0.05 * k) for k in range(50)]
+    assert looks.index(True) == pytest.approx(PATIENCE / 0.05, abs=1)
+
+
+def test_a_process_that_was_stopped_has_not_waited() -> None:
+    awaited = AwaitedAnswers(COMMANDS)
+    awaited.asked(5.0)
+    assert not awaited.complete(5.0 + 10.0 * PATIENCE)
+    assert not awaited.complete(5.0 + 20.0 * PATIENCE)
+    assert LOOK < 0.1 * PATIENCE

@@ -84,9 +84,7 @@ def manoeuvres_in(
     run = run_of(dataclasses.replace(bag, topics=motion), namespace, frames)
     _check_clock(path, odom)
     water_t, water = _water(bag, log, log_axes)
-    rudder, thrust, sternplanes = (
-        timed_commands(found[topic], odom.log_ns, odom.columns.stamp_ns) for topic in _COMMANDS
-    )
+    rudder, thrust, sternplanes = (_commands(bag, found[topic], odom) for topic in _COMMANDS)
     if rudder is None or thrust is None:
         raise missing(bag, topics.RUDDER_CMD if rudder is None else topics.THRUST_CMD)
     spatial = sternplanes if isinstance(run, SpatialRun) else None
@@ -123,6 +121,14 @@ def _as_contract(bag: Bag, topic: RecordedTopic | None, odom: _Decoded) -> Recor
 
     with _damage(bag, topic):
         return velocity_as_contract(topic, stamp_of)
+
+
+def _commands(bag: Bag, topic: RecordedTopic | None, odom: _Decoded) -> TimedCommands | None:
+    """Return the commands of a topic; None if there are none."""
+    if topic is None:
+        return None
+    with _damage(bag, topic):
+        return timed_commands(topic, odom.log_ns, odom.columns.stamp_ns)
 
 
 @contextlib.contextmanager
@@ -164,19 +170,28 @@ def _convention(bag: Bag, topic: Topic, ids: FrameIds, frames: tuple[tuple[str, 
     Raises:
         ConfigurationError: frame ids that are unknown, with the option that gives their axes, or that change.
     """
-    table = FrameTable(ids)
+    table, names = FrameTable(ids), ("",)
     try:
         (names,) = frames
         return table.of_pose(topic.name, *names) if len(names) == 2 else table.of_body(topic.name, *names)
     except MessageRefused as refused:
-        option = "=flu or =frd" if "" in names else "ID=AXES"
-        expected = f"{refused.expected}, or their axes by --frame {option}"
+        expected = f"{refused.expected}, or their axes by --frame {_axes_of(names)}"
         raise ConfigurationError(f"{bag.path}: {refused.topic}", refused.found, expected) from None
     except ValueError:
         listed = " and ".join(map(repr, frames)) or "no frame id"
         raise ConfigurationError(
             f"{bag.path}: {topic.name}", f"frame ids {listed}", "the same in every message"
         ) from None
+
+
+def _axes_of(names: tuple[str, ...]) -> str:
+    """Return what `--frame` takes for frame ids; of an odometry's two the first is the world's."""
+    empty_world, empty_body = len(names) == 2 and not names[0], not names[-1]
+    if empty_world and empty_body:
+        return "=enu --frame =flu or =ned --frame =frd"
+    if empty_world:
+        return "=enu or =ned"
+    return "=flu or =frd" if empty_body else "ID=AXES"
 
 
 def _velocity(columns: Columns, axes: Convention) -> Column:

@@ -41,7 +41,8 @@ def renamed(bag: Bag, names: Mapping[str, str]) -> Bag:
             these have more than one number or vector.
 
     Raises:
-        ConfigurationError: there is no such topic, it is of another type, or has two names.
+        ConfigurationError: there is no such topic, it is of another type, or has two names; or the velocity
+            through the water is that of the odometry.
     """
     sources: dict[str, RecordedTopic] = {}
     rows = {topic.name: topic for topic in READ}
@@ -60,6 +61,7 @@ def renamed(bag: Bag, names: Mapping[str, str]) -> Bag:
         _check_type(bag, rows[name], topic)
     chosen = sources.pop(topics.ODOM.name, None)
     odometry = bag.odometry if chosen is None else chosen.source
+    _check_velocity(bag, sources.get(topics.WATER_VELOCITY.name), odometry)
     replaced = {topic.source for topic in sources.values()} - {odometry}
     kept = {
         key: topic
@@ -70,6 +72,18 @@ def renamed(bag: Bag, names: Mapping[str, str]) -> Bag:
         own = topic.source.rsplit("/", 1)[0] + "/" + name
         kept[own] = dataclasses.replace(topic, name=own)
     return dataclasses.replace(bag, topics=kept, odometry=odometry)
+
+
+def _check_velocity(bag: Bag, velocity: RecordedTopic | None, odometry: str | None) -> None:
+    """Refuse the only odometry as the velocity through the water: its twist is over ground."""
+    others = {name for name, topic in bag.topics.items() if topic.type == topics.ODOM.type}
+    if velocity is not None and velocity.source in others:
+        others = {odometry} if odometry else others
+        if others == {velocity.source}:
+            raise ConfigurationError(
+                f"--topic {topics.WATER_VELOCITY.name}", f"{velocity.source}, the odometry itself",
+                "a velocity through the water of its own",
+            )  # fmt: skip
 
 
 def topics_of(bag: Bag, namespace: str | None) -> dict[Topic, RecordedTopic | None]:

@@ -14,7 +14,8 @@ from auv_sim.nodes.manoeuvres.manoeuvres_node import INTERRUPTED, ManoeuvresNode
 from auv_sim.nodes.plant_node import RemusPlantNode
 
 #: Longest wait for the answer to an odometry, s of wall time; then the vehicle moves on, as a real one does.
-PATIENCE = 2.0
+#: Of the time between two looks no more than `LOOK` counts: a process that was stopped has not waited.
+PATIENCE, LOOK = 2.0, 0.1
 _COMMANDS = (topics.RUDDER_CMD, topics.THRUST_CMD, topics.STERNPLANE_CMD)
 #: Longest time for which the vehicle coasts after the program, s; time that the node which flies it
 #: waits for its next step, s of wall time.
@@ -34,7 +35,7 @@ class AwaitedAnswers:
         self._commands = frozenset(commands)
         self._missing: set[str] = set()
         self._begun = False
-        self._since = 0.0
+        self._looked = self._waited = 0.0
 
     def asked(self, now: float) -> None:
         """Begin to wait: an odometry was published at `now`, s of wall time.
@@ -42,7 +43,7 @@ class AwaitedAnswers:
         Until the mission runs, that is awaited too.
         """
         self._missing = set(self._commands) | (set() if self._begun else {_RUNNING})
-        self._since = now
+        self._looked, self._waited = now, 0.0
 
     def answered(self, topic: str) -> None:
         """Take a command in, or the state of a mission that runs."""
@@ -51,7 +52,9 @@ class AwaitedAnswers:
 
     def complete(self, now: float) -> bool:
         """Return whether nothing is missing, or was waited for longer than `PATIENCE`."""
-        return not self._missing or now - self._since > PATIENCE
+        self._waited += min(now - self._looked, LOOK)
+        self._looked = now
+        return not self._missing or self._waited > PATIENCE
 
 
 class RehearsedVehicle(RemusPlantNode):

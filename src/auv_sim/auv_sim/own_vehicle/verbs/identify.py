@@ -166,7 +166,7 @@ def _report_reading(paths: Sequence[Path], recorded: Sequence[Recorded]) -> None
 def _report_doubts(
     arguments: argparse.Namespace, found: Identified, used: list[PlanarData], vehicle: Vehicle, hull: Hull
 ) -> None:
-    """Print what a person should look at."""
+    """Print the doubts about the result."""
     lines = [*doubts(found, used, vehicle, -hull.Xuu), *latency_doubts(found), *thrust_doubts(found)]
     if not any(text.startswith("rudder_cmd=") for text in arguments.unit):
         lines += share_doubts(found, combinations_of(hull), vehicle.rudder)

@@ -76,7 +76,7 @@ def test_a_wrong_unit_costs_one_line(given: list[str], found: str) -> None:
 def test_commands_that_the_unit_cannot_have_are_refused(flown: Manoeuvred, tmp_path: Path) -> None:
     bag = write_manoeuvres(tmp_path / "bag", flown._replace(rudder=np.degrees(flown.rudder)))
     with pytest.raises(
-        ConfigurationError, match=r"rudder_cmd: found commands up to 35, .*as --unit says share"
+        ConfigurationError, match=r"rudder_cmd: found commands up to 35, .*at most 1.05 for --unit share"
     ):
         _read(bag, "rudder_cmd=share")
 

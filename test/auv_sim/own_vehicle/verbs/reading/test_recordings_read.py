@@ -9,12 +9,14 @@ import numpy as np
 import pytest
 
 from auv_msgs_py.contract.frames import Convention, FrameTable
+from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following import vehicle as vehicle_file
 from auv_sim.bags.content.recorded_commands import TimedCommands
 from auv_sim.own_vehicle.identify.results.known_vehicle import known_hull
 from auv_sim.own_vehicle.identify.time_grid import FOLLOWED, passage_of
 from auv_sim.own_vehicle.manoeuvres import program_file
 from auv_sim.own_vehicle.manoeuvres.manoeuvre_flight import simulate
+from auv_sim.own_vehicle.verbs.reading.fin_units import check_effect
 from auv_sim.own_vehicle.verbs.reading.recordings_read import frames_with, motion_within, obeyed, read
 from manoeuvre_bag import write_manoeuvres
 
@@ -60,6 +62,16 @@ def test_commands_beside_the_odometry_are_no_motion_of_the_planes(begin: float, 
     t = np.arange(0.0, 300.0, 0.05)
     commands = 0.2 * np.sign(np.sin(t))
     assert (motion_within(t + begin, commands, t) > 0.1) == moves
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"), [("remus100", "a vehicle"), ("remus100_6dof", "a recording with sternplane_cmd")]
+)
+def test_a_unit_of_stern_planes_needs_stern_planes(name: str, expected: str) -> None:
+    vehicle = vehicle_file.load(name)
+    with pytest.raises(ConfigurationError, match=f"--unit sternplane_cmd: found deg, expected {expected}"):
+        check_effect({"sternplane_cmd": "deg"}, vehicle, with_planes=False)
+    check_effect({"rudder_cmd": "deg"}, vehicle, with_planes=False)
 
 
 @pytest.mark.parametrize(("given", "convention"), [("frd", Convention.NED_FRD), ("flu", Convention.ENU_FLU)])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -54,6 +55,7 @@ def velocity_as_contract(
         message = None if data is None else decoder(data)
         vector = None if message is None else vector_in(message, part)
         header = getattr(message, "header", None)
+        header = header if hasattr(header, "stamp") else None
         if vector is None or (header is None and np.isnan(at)):
             messages.append(None)
             continue
@@ -96,7 +98,13 @@ def twist_in_body(topic: RecordedTopic, ids: FrameIds) -> tuple[RecordedTopic, s
         return topic, ""
     world, child = (name.rsplit("/", 1)[-1] for name in frames[0])
     for worlds, bodies in ((ids.enu_world, ids.flu_body), (ids.ned_world, ids.frd_body)):
-        if world in worlds and child in worlds and bodies and child not in (*ids.flu_body, *ids.frd_body):
+        if (
+            world in worlds
+            and child
+            and child in worlds
+            and bodies
+            and child not in (*ids.flu_body, *ids.frd_body)
+        ):
             messages = [None if data is None else _turned(data, bodies[0]) for data in topic.messages]
             return dataclasses.replace(topic, messages=messages), frames[0][1]
     return topic, ""
@@ -116,7 +124,14 @@ def _turned(data: bytes, body: str) -> bytes:
 def _turned_back(
     q: tuple[float, float, float, float], vector: tuple[float, float, float]
 ) -> tuple[float, float, float]:
-    """Return a vector of the world in the body, whose attitude is the unit quaternion q (x, y, z, w)."""
-    axis, v = -np.array(q[:3]), np.array(vector)
-    turned = v + 2.0 * np.cross(axis, np.cross(axis, v) + q[3] * v)
+    """Return a vector of the world in the body, whose attitude is the quaternion q (x, y, z, w).
+
+    Raises:
+        ValueError: a quaternion that is no attitude.
+    """
+    length = math.hypot(*q)
+    if not 0.0 < length < math.inf:
+        raise ValueError(f"an orientation of length {length:g}")
+    axis, v = -np.array(q[:3]) / length, np.array(vector)
+    turned = v + 2.0 * np.cross(axis, np.cross(axis, v) + q[3] / length * v)
     return float(turned[0]), float(turned[1]), float(turned[2])

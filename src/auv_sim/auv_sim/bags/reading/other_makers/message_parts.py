@@ -14,7 +14,7 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_sim.bags.reading.deserialize import deserializer
 from auv_sim.bags.reading.recording import Bag, RecordedTopic
 
-#: Columns of a joint; the first is meant where none is named.
+#: Columns of a joint; the first is the default.
 _OF_JOINT = ("position", "velocity", "effort")
 #: Most names listed in a line.
 _LISTED = 12
@@ -78,8 +78,8 @@ def check_part(bag: Bag, row: Topic, topic: RecordedTopic, is_vector: bool = Fal
             return
         if message is None:
             continue
-        named = vectors_in(message) if is_vector else numbers_in(message)
-        names |= dict.fromkeys(named)
+        if len(names) <= _LISTED:
+            names |= dict.fromkeys(vectors_in(message) if is_vector else numbers_in(message))
         there |= vector_in(message, topic.part) is not None if is_vector else _has_number(message, topic.part)
         if there and (topic.part or not _has_joints(message)):
             return
@@ -98,25 +98,31 @@ def check_part(bag: Bag, row: Topic, topic: RecordedTopic, is_vector: bool = Fal
 def _has_number(message: Any, part: str) -> bool:
     """Return whether a message has a number, which may be NaN."""
     if _has_joints(message):
-        return not math.isnan(_of_joint(message, part))
+        return _joint(message, part) is not None
     found = getattr(message, "data", None) if not part else _follow(message, part)
     return not math.isnan(number_in(message, part)) or isinstance(found, float)
 
 
 def _has_joints(message: Any) -> bool:
-    return hasattr(message, "name") and hasattr(message, "position")
+    return all(isinstance(getattr(message, key, None), (list, np.ndarray)) for key in ("name", "position"))
 
 
 def _of_joint(message: Any, part: str) -> float:
+    found = _joint(message, part)
+    return math.nan if found is None else found
+
+
+def _joint(message: Any, part: str) -> float | None:
+    """Return the value of a joint; None if there is no such joint, or no value of it."""
     names = list(message.name)
     joint, column = part, _OF_JOINT[0]
     if part not in names and part.rpartition(".")[2] in _OF_JOINT:
         joint, _, column = part.rpartition(".")
     if not joint and len(names) == 1:
         joint = names[0]
-    values = getattr(message, column)
+    values = getattr(message, column, ())
     at = names.index(joint) if joint in names else len(values)
-    return float(values[at]) if at < len(values) else math.nan
+    return float(values[at]) if at < len(values) else None
 
 
 def _follow(message: Any, path: str) -> Any:
@@ -131,24 +137,29 @@ def _follow(message: Any, path: str) -> Any:
     return message
 
 
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float, np.number)) and not isinstance(value, (bool, np.bool_))
+
+
 def _number(value: Any) -> float:
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.number)):
-        return math.nan
-    return float(value)
+    return float(value) if _is_number(value) else math.nan
 
 
 def _is_vector(value: Any) -> bool:
-    return all(hasattr(value, axis) for axis in "xyz") and not hasattr(value, "w")  # which a quaternion has
+    return all(_is_number(getattr(value, axis, None)) for axis in "xyz") and not hasattr(value, "w")
 
 
 def _leaves(message: Any, above: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield the dotted paths and values of a message, without headers, covariances and layouts."""
+    """Yield the dotted paths and values of a message, without headers, covariances and layouts.
+
+    Of an array only so many elements as are listed, and one more: an image has a million.
+    """
     if dataclasses.is_dataclass(message):
         for field in dataclasses.fields(message):
             if field.name not in ("header", "covariance", "layout"):
                 yield from _leaves(getattr(message, field.name), f"{above}{field.name}.")
     elif isinstance(message, (list, np.ndarray)):
-        for k, value in enumerate(message):
+        for k, value in enumerate(message[: _LISTED + 1]):
             yield from _leaves(value, f"{above}{k}.")
     else:
         yield above[:-1], message

@@ -49,6 +49,26 @@ def units_of(given: Sequence[str]) -> dict[str, str]:
     return units
 
 
+def check_effect(units: Mapping[str, str], vehicle: Vehicle, with_planes: bool) -> None:
+    """Check that each unit has commands that it counts for.
+
+    Args:
+        units: as given.
+        vehicle: that was recorded.
+        with_planes: whether any recording has commands of stern planes.
+
+    Raises:
+        ConfigurationError: a unit of stern planes without stern planes.
+    """
+    name = topics.STERNPLANE_CMD.name
+    if name not in units:
+        return
+    if vehicle.sternplanes is None:
+        raise ConfigurationError(f"--unit {name}", units[name], "a vehicle with stern planes")
+    if not with_planes:
+        raise ConfigurationError(f"--unit {name}", units[name], f"a recording with {name}")
+
+
 def in_radians(recorded: Manoeuvring, units: Mapping[str, str], vehicle: Vehicle, where: str) -> Manoeuvring:
     """Return a recording with the angles of its fins in radians and with the signs of the wire contract.
 
@@ -77,4 +97,4 @@ def _check_range(commands: TimedCommands, unit: str, where: str) -> None:
     beyond = np.abs(commands.value) > _LARGEST[unit]
     if beyond.size and np.mean(beyond) > _EXCEEDING:
         found = f"commands up to {np.max(np.abs(commands.value)):.3g}"
-        raise ConfigurationError(where, found, f"at most {_LARGEST[unit]:.3g}, as --unit says {unit}")
+        raise ConfigurationError(where, found, f"at most {_LARGEST[unit]:.3g} for --unit {unit}")

@@ -24,7 +24,7 @@ from auv_sim.own_vehicle.identify.dive.vertical_motion import VerticalMotion, ve
 from auv_sim.own_vehicle.identify.results.known_vehicle import forces
 from auv_sim.own_vehicle.identify.results.plausibility import check_commands
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
-from auv_sim.own_vehicle.verbs.reading.fin_units import add_unit_argument, in_radians, units_of
+from auv_sim.own_vehicle.verbs.reading.fin_units import add_unit_argument, check_effect, in_radians, units_of
 
 #: Heave and pitch need at least so many odometries and samples, and planes that move (deviation, rad).
 _LEAST_ROWS, _LEAST_SAMPLES, _LEAST_ANGLE = 800, 100, 0.01
@@ -79,8 +79,8 @@ def read(options: argparse.Namespace, vehicle: Vehicle, hull: Hull) -> list[Reco
         vehicle, hull: limits, unit of the thrust, drag.
 
     Raises:
-        ConfigurationError: as `manoeuvres_in`, `units_of`, `in_radians` and `check_commands`; also an unknown
-            name or axes.
+        ConfigurationError: as `manoeuvres_in`, `units_of`, `in_radians`, `check_commands` and `check_effect`;
+            also an unknown name or axes.
     """
     names: dict[str, str] = {}
     for name, other in map(_renaming, options.topic):
@@ -88,6 +88,7 @@ def read(options: argparse.Namespace, vehicle: Vehicle, hull: Hull) -> list[Reco
             raise ConfigurationError(f"--topic {name}", f"{names[name]} and {other}", "one topic")
         names[name] = other
     frames, units, found = frames_with(options.frame), units_of(options.unit), []
+    with_planes = False
     for path in options.bag:
         recorded = manoeuvres_in(path, names, options.namespace, frames=frames)
         recorded = in_radians(recorded, units, vehicle, str(path))
@@ -99,6 +100,8 @@ def read(options: argparse.Namespace, vehicle: Vehicle, hull: Hull) -> list[Reco
         first, last = recorded.run.t[[0, -1]]
         silence = sum(max(min(end, last) - max(begin, first), 0.0) for begin, end in spans)
         found.append(Recorded(plane, dive, float(silence), recorded.notes))
+        with_planes |= recorded.sternplanes is not None
+    check_effect(units, vehicle, with_planes)
     return found
 
 
