@@ -170,7 +170,8 @@ def _convention(bag: Bag, topic: Topic, ids: FrameIds, frames: tuple[tuple[str, 
     Raises:
         ConfigurationError: frame ids that are unknown, with the option that gives their axes, or that change.
     """
-    table, names = FrameTable(ids), ("",)
+    table = FrameTable(ids)
+    names: tuple[str, ...] = ()
     try:
         (names,) = frames
         return table.of_pose(topic.name, *names) if len(names) == 2 else table.of_body(topic.name, *names)
