@@ -65,6 +65,57 @@ async def test_abort_is_sent_with_the_press_and_once(tab: Tab, fake: FakeConsole
     assert len(await fake.requests()) == 3
 
 
+async def button(tab: Tab, kind: str, at: tuple[float, float], name: str, held: int) -> None:
+    """Press or release a button of the mouse; `held` is the sum of those held after it: left 1, right 2."""
+    more = {"x": at[0], "y": at[1], "button": name, "buttons": held, "clickCount": 1}
+    await tab.call("Input.dispatchMouseEvent", type=f"mouse{kind}", **more)
+
+
+@on_page()
+async def test_abort_is_sent_once_while_another_button_is_held(tab: Tab, fake: FakeConsole) -> None:
+    at = await tab.aim("#abort")
+    away = (at[0], at[1] + 300.0)
+    await button(tab, "Pressed", at, "right", 2)
+    for count, end in enumerate((at, away, at), 1):
+        await button(tab, "Pressed", at, "left", 3)
+        assert len(await fake.requests()) == count
+        await button(tab, "Moved", end, "none", 3)
+        await button(tab, "Released", end, "left", 2)
+        assert len(await fake.requests()) == count
+    await button(tab, "Released", at, "right", 0)
+    await button(tab, "Pressed", at, "left", 1)
+    await button(tab, "Pressed", at, "right", 3)
+    await button(tab, "Moved", away, "none", 3)
+    await button(tab, "Released", away, "left", 2)
+    await button(tab, "Pressed", at, "left", 3)
+    await button(tab, "Released", at, "left", 2)
+    await button(tab, "Released", at, "right", 0)
+    assert [one["do"] for one in await fake.requests()] == ["abort"] * 5
+
+
+@on_page()
+async def test_abort_is_sent_once_for_a_press_however_it_is_made(tab: Tab, fake: FakeConsole) -> None:
+    await tab.click("#abort")
+    assert len(await fake.requests()) == 1
+    at = await tab.press("#abort")
+    await tab.mouse("Moved", at[0], at[1] + 300.0, is_held=True)
+    await tab.mouse("Released", at[0], at[1] + 300.0)
+    assert len(await fake.requests()) == 2
+    await tab.key("Down", "Enter", text="\r", windowsVirtualKeyCode=13)
+    await tab.key("Up", "Enter", windowsVirtualKeyCode=13)
+    assert len(await fake.requests()) == 3
+    presses = [[], ["Pointer pointerdown", "Pointer pointerup"], ["Mouse mousedown"]]
+    ways = [[*press, f"Mouse click {detail}"] for press in presses for detail in (0, 1)]
+    ways += [["Pointer pointerdown", "Pointer pointercancel"], ["Mouse click 0"]]
+    for count, way in enumerate(ways, 4):
+        for event in way:
+            kind, name, detail = f"{event} 0".split()[:3]
+            options = f"{{ bubbles: true, detail: {detail} }}"
+            made = f"new {kind}Event({name!r}, {options})"
+            await tab.value(f"document.getElementById('abort').dispatchEvent({made})")
+        assert len(await fake.requests()) == count, way
+
+
 @on_page()
 async def test_commands_stay_where_they_are(tab: Tab, fake: FakeConsole) -> None:
     before = await places(tab)
@@ -123,10 +174,15 @@ async def test_a_third_alarm_puts_no_other_button_below_the_pointer(tab: Tab, fa
 
 
 @on_page()
-async def test_a_press_that_is_drawn_away_makes_no_click(tab: Tab, fake: FakeConsole) -> None:
+async def test_a_press_that_is_released_elsewhere_makes_no_click(tab: Tab, fake: FakeConsole) -> None:
     at = await tab.press("#light")
     await tab.mouse("Moved", at[0] - 90.0, at[1] - 90.0, is_held=True)
     await tab.mouse("Released", at[0] - 90.0, at[1] - 90.0)
     assert await tab.value("document.getElementById('light').textContent") == "Auto"
     await tab.click("#light")
     assert await tab.value("document.getElementById('light').textContent") == "Day"
+    at = await tab.press("#light")
+    await tab.mouse("Moved", at[0] - 90.0, at[1] - 90.0, is_held=True)
+    await tab.mouse("Moved", *at, is_held=True)
+    await tab.mouse("Released", *at)
+    assert await tab.value("document.getElementById('light').textContent") == "Night"

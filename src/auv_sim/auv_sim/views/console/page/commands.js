@@ -54,9 +54,16 @@ for (const end of ["visibilitychange", "vehicle"]) document.addEventListener(end
 $("hold").addEventListener("click", () => send("hold", "Hold"));
 $("resume").addEventListener("click", () => send("resume", "Resume"));
 export const abort = () => send("abort", "Abort");
-/* A click may be lost where the pointer slides off: Abort goes with the press. Clicks of keys and of assistive technology have no detail. */
-$("abort").addEventListener("pointerdown", e => { if (e.button === 0) abort(); });
-$("abort").addEventListener("click", e => { if (!e.detail) abort(); });
+/* A click may be lost where the pointer slides off: Abort goes with the first event of a press, and once. While another button of the
+   mouse is held there is no pointerdown; keys and assistive technology make a click alone. */
+const stop = $("abort");
+let sent = false;
+function sendOnce() { if (!sent) abort(); sent = true; }
+/* No click follows what begins or ends elsewhere, so that the next press counts. */
+for (const kind of ["pointerdown", "pointercancel", "keydown"]) addEventListener(kind, () => { sent = false; }, true);
+for (const kind of ["pointerup", "mouseup"]) addEventListener(kind, e => { if (e.target !== stop) sent = false; }, true);
+for (const kind of ["pointerdown", "mousedown"]) stop.addEventListener(kind, e => { if (e.button === 0) sendOnce(); });
+stop.addEventListener("click", () => { sendOnce(); sent = false; });
 
 paints(() => {
   const v = shown(), t = v && v.tick, may = Boolean(flights.hello && flights.hello.may_command);

@@ -50,7 +50,8 @@ tabs.forEach((tab, k) => {
   });
 });
 
-/* A press counts for the button that it began on, wherever new lines move that button until the release; not if it is drawn away. */
+/* A press counts for the button that it began on, wherever new lines move that button until the release. Drawn more than
+   AWAY px away, it counts where it is released: on the button it makes a click, outside none. */
 const AWAY = 30;
 addEventListener("pointerdown", down => {
   const button = down.target.closest("button:not(#start)"), { pointerId } = down;
