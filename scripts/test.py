@@ -14,7 +14,6 @@ import os
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 from _bootstrap import REPOSITORY, ensure_environment
 
@@ -59,9 +58,9 @@ def run(arguments: list[str], domain: int) -> int:
     results: dict[str, int] = {}
     repeated: list[str] = []
     for name, command in checks.items():
-        results[name] = call(name, command, REPOSITORY, environment)
-    if not arguments and results["tests"] == SOME_FAILED and (repeated := few_failed(REPOSITORY)):
-        results["tests"] = call("failed tests", ("pytest", *repeated), REPOSITORY, environment)
+        results[name] = call(name, command, environment)
+    if not arguments and results["tests"] == SOME_FAILED and (repeated := few_failed()):
+        results["tests"] = call("failed tests", ("pytest", *repeated), environment)
     verdicts = ", ".join("{} {}".format(name, "FAILED" if code else "ok") for name, code in results.items())
     print(f"== {verdicts} ({time.monotonic() - began:.0f} s)", flush=True)
     for test in repeated:
@@ -69,16 +68,16 @@ def run(arguments: list[str], domain: int) -> int:
     return int(any(results.values()))
 
 
-def call(name: str, command: tuple[str, ...], folder: Path, environment: dict[str, str]) -> int:
-    """Run a module of the environment in a folder; return its exit code."""
+def call(name: str, command: tuple[str, ...], environment: dict[str, str]) -> int:
+    """Run a module in the repository; return its exit code."""
     print(f"== {name}:", " ".join(command), flush=True)
-    done = subprocess.run([sys.executable, "-m", *command], cwd=folder, env=environment, check=False)
+    done = subprocess.run([sys.executable, "-m", *command], cwd=REPOSITORY, env=environment, check=False)
     return done.returncode
 
 
-def few_failed(folder: Path) -> list[str]:
-    """Return the tests that failed in the last run of pytest in a folder; none if they are more than FEW."""
-    names = folder / ".pytest_cache/v/cache/lastfailed"
+def few_failed() -> list[str]:
+    """Return the tests that failed in the last run of pytest; none if they are more than FEW."""
+    names = REPOSITORY / ".pytest_cache/v/cache/lastfailed"
     failed = list(json.loads(names.read_text(encoding="utf-8"))) if names.is_file() else []
     return failed if len(failed) <= FEW else []
 

@@ -26,14 +26,14 @@ from auv_sim.launch.outcome import Outcome
 def test_figures_have_units_and_the_next_command_is_quoted(short_mission: Path, tmp_path: Path) -> None:
     resolved = mission_plan.make(Options(mission=str(short_mission)), tmp_path)
     summary = summarise(closed_loop.fly(resolved.scenario()), resolved.mission.path)
-    told, directory = io.StringIO(), tmp_path / "my [first] run"
-    console = Console(file=told, width=140, highlight=False)
+    printed, directory = io.StringIO(), tmp_path / "my [first] run"
+    console = Console(file=printed, width=140, highlight=False)
     mission_results.show(resolved, directory, Outcome("complete", "", 10.0, 40.0), summary, console)
     for head in ("time (s)", "rms distance (m)", "largest (m)", "rms heading error (°)", "rudder (°/m)"):
-        assert head in told.getvalue()
+        assert head in printed.getvalue()
     # The launcher's 40 s are those that it saw; the mission's own time is in the table.
-    assert "flown in 10.0 s of wall time, 4 times real time" in told.getvalue().splitlines()
-    last = told.getvalue().splitlines()[-1].removeprefix("Look further:")
+    assert "flown in 10.0 s of wall time, 4 times real time" in printed.getvalue().splitlines()
+    last = printed.getvalue().splitlines()[-1].removeprefix("Look further:")
     assert shlex.split(last) == ["python3", "scripts/bag.py", "report", str(directory)]
 
 

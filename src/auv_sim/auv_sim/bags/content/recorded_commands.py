@@ -24,9 +24,7 @@ class TimedCommands(NamedTuple):
     value: Column
 
 
-def timed_commands(
-    topic: RecordedTopic | None, odom_log_ns: Times, odom_stamp_ns: Times
-) -> TimedCommands | None:
+def timed_commands(topic: RecordedTopic, odom_log_ns: Times, odom_stamp_ns: Times) -> TimedCommands | None:
     """Return commands on the odometry's clock; None where no finite one is logged up to the last odometry.
 
     Where one command is logged after each odometry and before the next one, it belongs to that odometry's
@@ -34,10 +32,10 @@ def timed_commands(
     commands before the first odometry count too: some vehicles send one only when it changes.
 
     Args:
-        topic: of the commands, each one number; None if there is none.
+        topic: of the commands, each one number.
         odom_log_ns, odom_stamp_ns: log times and stamps of the odometries by log time, ns, (n,).
     """
-    if topic is None or not topic.count:
+    if not topic.count:
         return None
     log_ns, value = _logged(topic)
     stamps = odom_stamp_ns * 1e-9

@@ -20,7 +20,7 @@ from auv_sim.bags.reading.bag_reader import read_bag
 from auv_sim.bags.reading.columns import Columns, decode
 from auv_sim.bags.reading.load import run_of
 from auv_sim.bags.reading.manoeuvre_topics import missing, renamed, topics_of
-from auv_sim.bags.reading.other_makers.foreign_motion import twist_in_body, velocity_as_contract
+from auv_sim.bags.reading.other_makers.foreign_motion import twist_in_body, twist_world, velocity_as_contract
 from auv_sim.bags.reading.recording import Bag, RecordedTopic
 from auv_sim.flight.run_record import Run, SpatialRun
 
@@ -71,9 +71,8 @@ def manoeuvres_in(
     bag = renamed(read_bag(path, odometry=odometry), names or {})
     found = topics_of(bag, namespace)
     frames = frames or FrameIds()
-    notes = _in_body(bag, found, frames)
-    odom = _columns(bag, found[topics.ODOM], topics.ODOM)
-    found[topics.WATER_VELOCITY] = _as_contract(bag, found[topics.WATER_VELOCITY], odom)
+    found[topics.ODOM], odom, notes = _odometry(bag, found[topics.ODOM], topics.ODOM, frames)
+    found[topics.WATER_VELOCITY], of_water = _as_contract(bag, found[topics.WATER_VELOCITY], odom, frames)
     log = _columns(bag, found[topics.WATER_VELOCITY], topics.WATER_VELOCITY)
     motion = {t.name: t for t in (found[topics.ODOM], found[topics.WATER_VELOCITY]) if t is not None}
     planes = found[topics.STERNPLANE_CMD]
@@ -88,7 +87,9 @@ def manoeuvres_in(
     if rudder is None or thrust is None:
         raise missing(bag, topics.RUDDER_CMD if rudder is None else topics.THRUST_CMD)
     spatial = sternplanes if isinstance(run, SpatialRun) else None
-    return Manoeuvring(run, _over(run, odom, odom_axes), water_t, water, rudder, thrust, spatial, notes)
+    return Manoeuvring(
+        run, _over(run, odom, odom_axes), water_t, water, rudder, thrust, spatial, notes + of_water
+    )
 
 
 class _Decoded(NamedTuple):
@@ -98,29 +99,36 @@ class _Decoded(NamedTuple):
     columns: Columns
 
 
-def _in_body(bag: Bag, found: dict[Topic, RecordedTopic | None], frames: FrameIds) -> tuple[str, ...]:
-    """Turn the twists of odometries from the world into the body; return a line for each."""
-    notes = []
-    for row in (topics.ODOM, topics.WATER_VELOCITY):
-        topic = found[row]
-        if topic is not None and topic.type == topics.ODOM.type:
-            with _damage(bag, topic):
-                found[row], world = twist_in_body(topic, frames)
-            if world:
-                name = topic.source or topic.name
-                notes.append(f"{name}: a twist in the world frame '{world}', turned by its own attitude")
-    return tuple(notes)
-
-
-def _as_contract(bag: Bag, topic: RecordedTopic | None, odom: _Decoded) -> RecordedTopic:
-    """Return the velocity through the water as the contract's type."""
+def _odometry(
+    bag: Bag, topic: RecordedTopic | None, row: Topic, frames: FrameIds
+) -> tuple[RecordedTopic, _Decoded, tuple[str, ...]]:
+    """Return an odometry with its twist in the body, decoded too, and a line where it was in the world."""
     assert topic is not None
+    decoded = _columns(bag, topic, row)
+    turned = twist_world(decoded.columns.frames, frames)
+    if turned is None:
+        return topic, decoded, ()
+    world, body = turned
+    with _damage(bag, topic):
+        topic = twist_in_body(topic, body)
+    note = f"{topic.source or topic.name}: a twist in the world frame '{world}', turned by its own attitude"
+    return topic, _columns(bag, topic, row), (note,)
+
+
+def _as_contract(
+    bag: Bag, topic: RecordedTopic | None, odom: _Decoded, frames: FrameIds
+) -> tuple[RecordedTopic, tuple[str, ...]]:
+    """Return the velocity through the water as the contract's type, and a line where it was converted."""
+    assert topic is not None
+    notes: tuple[str, ...] = ()
+    if topic.type == topics.ODOM.type:
+        topic, _, notes = _odometry(bag, topic, topics.WATER_VELOCITY, frames)
 
     def stamp_of(log_ns: NDArray[np.int64]) -> Column:
         return on_odometry_clock(log_ns, odom.log_ns, odom.columns.stamp_ns)
 
     with _damage(bag, topic):
-        return velocity_as_contract(topic, stamp_of)
+        return velocity_as_contract(topic, stamp_of), notes
 
 
 def _commands(bag: Bag, topic: RecordedTopic | None, odom: _Decoded) -> TimedCommands | None:

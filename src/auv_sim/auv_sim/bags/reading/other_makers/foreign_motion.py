@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from auv_msgs_py.contract import topics
 from auv_msgs_py.contract.frames import FrameIds
 from auv_sim.bags.definitions import typestore
-from auv_sim.bags.reading.columns import decode
 from auv_sim.bags.reading.deserialize import deserializer
 from auv_sim.bags.reading.other_makers.message_parts import vector_in
 from auv_sim.bags.reading.recording import RecordedTopic
+from auv_sim.vehicle.hulls.rigid_body import to_body
 
 #: Type of a velocity through the water -> where its vector is. The contract's type is the first.
 VELOCITIES = {
@@ -76,62 +76,53 @@ def _velocity(stamp: int, frame: str, vector: tuple[float, float, float]) -> byt
     return bytes(typestore().serialize_cdr(message, topics.WATER_VELOCITY.type))
 
 
-def twist_in_body(topic: RecordedTopic, ids: FrameIds) -> tuple[RecordedTopic, str]:
-    """Return an odometry with its twist in the body, and the frame id of the world that it was in.
+def twist_world(frames: tuple[tuple[str, ...], ...], ids: FrameIds) -> tuple[str, str] | None:
+    """Return the world frame that the twist of an odometry is in, and the body frame of the same axes.
 
-    The twist of an odometry is in its `child_frame_id`. Where that is a world frame of the same axes as
-    `frame_id`, the twist is turned by the attitude of the same message. The body's axes are FLU in ENU,
-    FRD in NED.
+    The twist of an odometry is in its `child_frame_id`, here a world frame of the same axes as `frame_id`.
+    The body's axes are FLU in ENU, FRD in NED.
 
     Args:
-        topic: odometry.
+        frames: pairs of frame ids that an odometry has.
         ids: accepted frame ids.
 
     Returns:
-        The topic as it is, and an empty text, where its twist is in another frame.
+        None where the twist is in another frame, or its frame changes.
+    """
+    if len(frames) != 1:
+        return None
+    world, child = (name.rsplit("/", 1)[-1] for name in frames[0])
+    if not child or child in (*ids.flu_body, *ids.frd_body):
+        return None
+    for worlds, bodies in ((ids.enu_world, ids.flu_body), (ids.ned_world, ids.frd_body)):
+        if {world, child} <= set(worlds) and bodies:
+            return frames[0][1], bodies[0]
+    return None
+
+
+def twist_in_body(topic: RecordedTopic, body: str) -> RecordedTopic:
+    """Return an odometry with its twist turned from the world into the body by the attitude in each message.
+
+    Args:
+        topic: odometry.
+        body: frame id of the body.
 
     Raises:
-        Exception: bytes that are no odometry.
+        Exception: bytes that are no odometry, or an orientation that is no attitude.
     """
-    frames = decode(topic.type, [data for data in topic.messages if data is not None]).frames
-    if len(frames) != 1:
-        return topic, ""
-    world, child = (name.rsplit("/", 1)[-1] for name in frames[0])
-    for worlds, bodies in ((ids.enu_world, ids.flu_body), (ids.ned_world, ids.frd_body)):
-        if (
-            world in worlds
-            and child
-            and child in worlds
-            and bodies
-            and child not in (*ids.flu_body, *ids.frd_body)
-        ):
-            messages = [None if data is None else _turned(data, bodies[0]) for data in topic.messages]
-            return dataclasses.replace(topic, messages=messages), frames[0][1]
-    return topic, ""
+    messages = [None if data is None else _turned(data, body) for data in topic.messages]
+    return dataclasses.replace(topic, messages=messages)
 
 
 def _turned(data: bytes, body: str) -> bytes:
     """Return a serialised odometry with its twist turned from the world into the body."""
     message: Any = typestore().deserialize_cdr(data, topics.ODOM.type)
-    q, twist = message.pose.pose.orientation, message.twist.twist
-    for vector in (twist.linear, twist.angular):
-        x, y, z = _turned_back((q.x, q.y, q.z, q.w), (vector.x, vector.y, vector.z))
-        vector.x, vector.y, vector.z = x, y, z
-    message.child_frame_id = body
-    return bytes(typestore().serialize_cdr(message, topics.ODOM.type))
-
-
-def _turned_back(
-    q: tuple[float, float, float, float], vector: tuple[float, float, float]
-) -> tuple[float, float, float]:
-    """Return a vector of the world in the body, whose attitude is the quaternion q (x, y, z, w).
-
-    Raises:
-        ValueError: a quaternion that is no attitude.
-    """
-    length = math.hypot(*q)
+    q = message.pose.pose.orientation
+    length = math.hypot(q.w, q.x, q.y, q.z)
     if not 0.0 < length < math.inf:
         raise ValueError(f"an orientation of length {length:g}")
-    axis, v = -np.array(q[:3]) / length, np.array(vector)
-    turned = v + 2.0 * np.cross(axis, np.cross(axis, v) + q[3] / length * v)
-    return float(turned[0]), float(turned[1]), float(turned[2])
+    attitude = q.w / length, q.x / length, q.y / length, q.z / length
+    for vector in (message.twist.twist.linear, message.twist.twist.angular):
+        vector.x, vector.y, vector.z = to_body(*attitude, vector.x, vector.y, vector.z)
+    message.child_frame_id = body
+    return bytes(typestore().serialize_cdr(message, topics.ODOM.type))

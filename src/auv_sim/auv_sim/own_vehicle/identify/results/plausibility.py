@@ -14,12 +14,16 @@ from auv_sim.own_vehicle.identify.identification import Identified
 from auv_sim.own_vehicle.identify.innovations import filtered
 from auv_sim.own_vehicle.identify.predictions import predictions_of
 from auv_sim.own_vehicle.identify.refine.own_trims import derivative, shifts_of
-from auv_sim.own_vehicle.identify.results.rudder_plausibility import check_rudder, check_rudder_sign
+from auv_sim.own_vehicle.identify.results.rudder_plausibility import (
+    EXCEEDING,
+    check_rudder,
+    check_rudder_sign,
+)
 from auv_sim.own_vehicle.identify.time_grid import PlanarData
 from auv_sim.own_vehicle.identify.unknowns import DEAD_TIME, LATENCY
 
-#: Share of the commands that may exceed a limit, and largest thrust over the file's.
-_EXCEEDING, _MORE_THRUST = 0.02, 1.1
+#: Largest thrust over the file's.
+_MORE_THRUST = 1.1
 #: Range of the heading's change over that by the yaw rate; changes in longer gaps (s) are left out.
 _RATE, _LONGEST_STEP = (0.7, 1.4), 0.5
 #: Correlation of sway with the yaw rate (-0.86 to -0.98 on 21 hulls in a rough sea) of another sign.
@@ -55,7 +59,7 @@ def check_commands(
         ConfigurationError: angles that no rudder has, or this one, or more thrust than the vehicle has.
     """
     check_rudder(rudder, vehicle, where, is_unit_given)
-    if thrust.size and np.mean(thrust > _MORE_THRUST * vehicle.thrust_max) > _EXCEEDING:
+    if thrust.size and np.mean(thrust > _MORE_THRUST * vehicle.thrust_max) > EXCEEDING:
         symbol = vehicle.thrust_symbol
         expected = f"up to thrust_max of {vehicle.name}, {vehicle.thrust_max:g} {symbol}, in that unit"
         raise ConfigurationError(f"{where}: thrust_cmd", f"up to {np.max(thrust):.3g}", expected)

@@ -16,7 +16,7 @@ from auv_sim.own_vehicle.identify.time_grid import PlanarData
 from auv_sim.own_vehicle.identify.unknowns import RATE, typed
 
 #: Share of the commands that may exceed a limit: a controller may request more than there is for a moment.
-_EXCEEDING = 0.02
+EXCEEDING = 0.02
 #: Largest angle of a rudder, rad.
 _LARGEST_ANGLE = 0.5 * math.pi
 #: Largest share of commands beyond 1.1 of the largest angle: a controller may saturate at times.
@@ -33,7 +33,7 @@ _REVERSED, _EFFECT, _EVERY = 0.3, 0.6, 0.1
 def check_rudder(rudder: Numbers, vehicle: Vehicle, where: str, is_unit_given: bool) -> None:
     """Check that a rudder is in radians; arguments and error as `check_commands`."""
     beyond = float(np.mean(np.abs(rudder) > _MORE_ANGLE * vehicle.rudder.max_angle)) if rudder.size else 0.0
-    if beyond > _SATURATED or (rudder.size and np.mean(np.abs(rudder) > _LARGEST_ANGLE) > _EXCEEDING):
+    if beyond > _SATURATED or (rudder.size and np.mean(np.abs(rudder) > _LARGEST_ANGLE) > EXCEEDING):
         found = f"angles up to {np.max(np.abs(rudder)):.3g}, {beyond:.0%} of them beyond the rudder's largest"
         expected = f"radians, {vehicle.rudder.max_angle:.2g} at most, or {_UNITS}"
         raise ConfigurationError(f"{where}: rudder_cmd", found, expected)

@@ -13,11 +13,11 @@ from auv_msgs_py.values.errors import ConfigurationError
 from auv_path_following.vehicle import Vehicle
 from auv_sim.bags.content.recorded_commands import TimedCommands
 from auv_sim.bags.content.recorded_manoeuvres import Manoeuvring
+from auv_sim.own_vehicle.identify.results.rudder_plausibility import EXCEEDING
 
 _FINS = (topics.RUDDER_CMD.name, topics.STERNPLANE_CMD.name)
-#: Units, and the largest number that each has; a share of commands beyond it may be due to rounding.
+#: Units, and the largest number that each has.
 _LARGEST = {"rad": 0.5 * math.pi, "deg": 90.0, "percent": 105.0, "share": 1.05}
-_EXCEEDING = 0.02
 
 
 def add_unit_argument(parser: argparse.ArgumentParser) -> None:
@@ -95,6 +95,6 @@ def _turned(commands: TimedCommands, given: str | None, largest: float, where: s
 
 def _check_range(commands: TimedCommands, unit: str, where: str) -> None:
     beyond = np.abs(commands.value) > _LARGEST[unit]
-    if beyond.size and np.mean(beyond) > _EXCEEDING:
+    if beyond.size and np.mean(beyond) > EXCEEDING:
         found = f"commands up to {np.max(np.abs(commands.value)):.3g}"
         raise ConfigurationError(where, found, f"at most {_LARGEST[unit]:.3g} for --unit {unit}")
