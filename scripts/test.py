@@ -14,6 +14,7 @@ import os
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 from _bootstrap import REPOSITORY, ensure_environment
 
@@ -77,7 +78,7 @@ def call(name: str, command: tuple[str, ...], environment: dict[str, str]) -> in
 
 def few_failed() -> list[str]:
     """Return the tests that failed in the last run of pytest; none if they are more than FEW."""
-    names = REPOSITORY / ".pytest_cache/v/cache/lastfailed"
+    names = Path(REPOSITORY, ".pytest_cache/v/cache/lastfailed")
     failed = list(json.loads(names.read_text(encoding="utf-8"))) if names.is_file() else []
     return failed if len(failed) <= FEW else []
 

@@ -32,7 +32,7 @@ def command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     assert specification and specification.loader
     module = importlib.util.module_from_spec(specification)
     specification.loader.exec_module(module)
-    monkeypatch.setattr(module, "REPOSITORY", tmp_path)
+    monkeypatch.setattr(module, "REPOSITORY", type(module.REPOSITORY)(tmp_path))
     suite = ("pytest", "-q", "--rootdir", str(tmp_path), *module.CHECKS["tests"][1:])
     monkeypatch.setattr(module, "CHECKS", {"lint": ("platform",), "tests": suite})
     return module

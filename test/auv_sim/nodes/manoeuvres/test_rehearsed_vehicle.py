@@ -23,7 +23,7 @@ def test_a_step_waits_for_every_command() -> None:
     assert awaited.complete(11.1)
 
 
-@pytest.mark.parametrize("order", itertools.permutations(("mission_state", *COMMANDS)))
+@pytest.mark.parametrize("order", tuple(itertools.permutations(("mission_state", *COMMANDS))))
 def test_the_first_step_waits_for_the_whole_first_answer(order: tuple[str, ...]) -> None:
     """Else the vehicle is at rest for a step more where one of its messages is late."""
     awaited = AwaitedAnswers(COMMANDS)
